@@ -1,6 +1,6 @@
-// Compares values sent through a carrier between two processes with a bare publisher and subscriber of Cyclone DDS:
-// one way latency, and values as fast as they go. Both are configured alike and go over UDP on loopback. They take
-// turns in the same run; the counters are medians over the rounds. docs/performance.md has figures.
+// Compares values sent through a carrier between two processes with a bare publisher and subscriber of
+// Cyclone DDS: one-way latency, and the throughput. Both have the same configuration and use UDP on loopback.
+// They take turns in the same run; the counters are medians over the rounds. docs/performance.md has figures.
 
 #include <benchmark/benchmark.h>
 #include <time.h>
@@ -35,13 +35,13 @@ std::int64_t thread_cpu_ns() {
 
 int domain() { return 1 + static_cast<int>(getpid()) % 229; }
 
-/// A way for values from one thread to another.
+/// A channel for values from one thread to another.
 class Line {
  public:
   virtual ~Line() = default;
   /// number: from 1; the value begins with the time.
   virtual void send(std::uint64_t number) = 0;
-  /// Receives for a while, and calls `arrived` with each.
+  /// Receives for a while, and calls `arrived` with each value.
   virtual void receive() = 0;
   std::function<void(std::uint64_t number, std::int64_t sent_ns)> arrived;
 };
@@ -124,7 +124,7 @@ class BareLine final : public Line {
   tessera_wire_Data room_{};
 };
 
-/// A line whose receiver has a thread.
+/// A channel whose receiver has a thread.
 class Running {
  public:
   explicit Running(Line& line) : line_(line) {
@@ -187,7 +187,7 @@ Measured measure(Line& line) {
   const std::size_t warm = running.count;
   for (std::uint64_t number = 200; number < 200 + values_in_a_round; ++number) {
     running.pass(number);
-    std::this_thread::sleep_for(100us);  // as a robot does, whose threads sleep in between
+    std::this_thread::sleep_for(100us);  // like the threads of a robot, which sleep in between
   }
   const std::size_t end = running.count;
   Measured measured;

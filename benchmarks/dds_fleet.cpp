@@ -1,6 +1,6 @@
-// What it costs that many processes of one deployment know of each other: bench_dds_fleet PROCESSES star|all. Each is
-// a process of its own with a carrier on loopback and nothing to do. star: one has a channel to and from each of the
-// others. all: each has a channel with each. docs/scale.md has figures.
+// Measures the cost of many processes of one deployment that know each other: bench_dds_fleet PROCESSES
+// star|all. Each is a process with a carrier on loopback and no work. star: one process has a channel to and
+// from each of the others. all: each has a channel with each. docs/scale.md has figures.
 
 #include <sys/mman.h>
 #include <sys/prctl.h>
@@ -31,7 +31,7 @@ using Clock = std::chrono::steady_clock;
 constexpr auto rest = 10s;
 constexpr std::size_t most_processes = 80;
 
-/// In memory that all processes share.
+/// Stored in memory that all processes share.
 struct Shared {
   std::array<std::atomic<std::int64_t>, most_processes> opened_ns, met_ns;  ///< 0: not yet
 };
@@ -99,7 +99,7 @@ struct Listener final : network::Carrier::Listener {
   }
 }
 
-/// Of a process: seconds of CPU; kB that it has alone, or its part of what is shared.
+/// The figures of a process: seconds of CPU; kB of its private memory, or of its part of shared memory.
 double cpu_s(pid_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string word;
@@ -118,7 +118,7 @@ long memory_kb(pid_t process) {
     }
   return 0;
 }
-/// Packets that loopback has carried.
+/// The number of packets that loopback has carried.
 double packets() {
   std::ifstream file("/sys/class/net/lo/statistics/rx_packets");
   double count = 0;

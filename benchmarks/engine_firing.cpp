@@ -1,5 +1,5 @@
-// What a firing of a NetExecutor costs, on nets of different sizes, beside a ring played from tables by hand
-// in the same program. Figures are in docs/performance.md.
+// Measures a firing of a NetExecutor, on nets of different sizes, beside a hand-written ring with tables in
+// the same program. Figures are in docs/performance.md.
 
 #include <benchmark/benchmark.h>
 
@@ -26,7 +26,7 @@ namespace {
   return net;
 }
 
-/// The same net with its elements written down in any order.
+/// The same net with its elements in random order.
 [[nodiscard]] ExecutableNet shuffled(const ExecutableNet& net) {
   std::vector<std::uint32_t> where(net.places.size());
   for (std::uint32_t i = 0; i < where.size(); ++i) where[i] = i;
@@ -54,7 +54,7 @@ namespace {
   return net;
 }
 
-/// Philosophers that take both forks at once: conflicts everywhere.
+/// Philosophers that take both forks at once: many conflicts.
 [[nodiscard]] ExecutableNet philosophers(std::uint32_t count) {
   ExecutableNet net;
   net.places.resize(std::size_t{count} * 3);  // thinking, eating, fork
@@ -68,7 +68,7 @@ namespace {
   return net;
 }
 
-/// A ring as one would write it by hand: tables, a marking, and a queue of the enabled transitions.
+/// A hand-written ring: tables, a marking, and a queue of the enabled transitions.
 class RingByHand {
  public:
   explicit RingByHand(std::uint32_t size)

@@ -1,4 +1,4 @@
-// How fast the explorer counts markings, and how much memory each takes: breadth first, one core.
+// Measures the speed of the explorer, and the memory of a marking: breadth first, one core.
 //
 // Counts a built-in net, and the nets named on the command line: bench_explore_count NET.pnml ...
 

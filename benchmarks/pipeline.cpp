@@ -1,5 +1,6 @@
-// From the text of a specification to the files of its controller, in memory: what `tessera generate` does
-// before it writes. Each stage beside the whole, so that the ratio says where the time goes.
+// Measures the way from the text of a specification to the files of its controller, in memory: the work of
+// `tessera generate` before it writes. Each stage is measured beside the whole, so the ratio shows the share
+// of its time.
 #include <benchmark/benchmark.h>
 
 #include <algorithm>

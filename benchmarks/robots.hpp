@@ -12,8 +12,8 @@
 #include "tessera/controller.hpp"
 #include "tessera/tables.hpp"
 
-/// Systems to be measured: nets of single subsystems, and subsystems as generated code would make them, whose
-/// transition functions do what a benchmark asks for and nothing else.
+/// Systems for the benchmarks: nets of single subsystems, and subsystems in the form of generated code, whose
+/// transition functions only do what a benchmark asks for.
 namespace tessera::benchmarks {
 
 namespace nets {
@@ -25,15 +25,16 @@ extern const SubsystemNet asker;     ///< B: sends "out", then receives "in"
 extern const SubsystemNet answerer;  ///< B: receives "in" in one behaviour, sends "out" in the next
 }  // namespace nets
 
-/// 64 bytes, as a pose with its covariance would have.
+/// 64 bytes, the size of a pose with its covariance.
 struct Payload {
   double values[8];
 };
 
-/// What the transition function of an instance is: called with its number and its context.
+/// The transition function of an instance. It is called with the number of the instance and its context.
 using Call = std::function<void(std::uint32_t, Context&)>;
 
-/// A system of as many subsystems as asked for. One at a time: instances find theirs by order of making.
+/// A system of as many subsystems as asked for. Only one may exist at a time: instances find theirs by the
+/// order of making.
 class Robot {
  public:
   explicit Robot(Call call);
@@ -44,7 +45,7 @@ class Robot {
   std::uint32_t add(const SubsystemNet& net, Duration period = Duration{0}, int cpu = -1);
   void connect(std::uint32_t from, std::string_view out, std::uint32_t to, std::string_view in,
                std::span<const FusedPlace> places);
-  /// Under the steady clock; aborts with a message when it cannot start or fails.
+  /// Runs the system under the steady clock; aborts with a message when it cannot start or fails.
   RunSummary run(RunOptions options = {});
 
  private:

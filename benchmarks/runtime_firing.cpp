@@ -1,6 +1,6 @@
 // Compares the cost of the subsystem executor with hand-written code: an iteration alone, a value through a
-// channel between two threads, a blocking round trip. The things that are compared take turns in the same
-// run, and the counters are medians over the repetitions. docs/performance.md has figures.
+// channel between two threads, a blocking round trip. The compared programs take turns in the same run, and
+// the counters are medians over the repetitions. docs/performance.md has figures.
 
 #include <benchmark/benchmark.h>
 #include <linux/futex.h>
@@ -28,7 +28,7 @@ constexpr Duration flat_out = 300ms;
 
 // -------------------------------------------------------------------------------------------- iterations
 
-/// What a subsystem is connected to: with itself, all in one thread; or with others, which hardly ever run.
+/// The connections of a subsystem: with itself, all in one thread; or with others, which hardly ever run.
 enum class Others : std::uint8_t { none, idle };
 
 /// CPU time of an iteration of a subsystem with empty user code, in ns.
@@ -71,7 +71,7 @@ BENCHMARK_CAPTURE(iteration, six_firings, nets::alone, Others::none)->UseManualT
 
 struct Pair {
   double cycle_ns;  ///< wall time by the cycles of both sides
-  double share;     ///< of the side that had less
+  double share;     ///< of the slower side
 };
 
 [[nodiscard]] Pair pair_of(std::int64_t ns, std::uint64_t one, std::uint64_t other) {
@@ -79,7 +79,7 @@ struct Pair {
   return {static_cast<double>(ns) / all, static_cast<double>(std::min(one, other)) / all};
 }
 
-/// A sender and a receiver, both as fast as they go.
+/// A sender and a receiver, both without pauses.
 [[nodiscard]] Pair by_tessera() {
   Robot robot({});
   const std::uint32_t from = robot.add(nets::sender), to = robot.add(nets::receiver);
@@ -91,7 +91,8 @@ struct Pair {
                  summary.subsystems[1].iterations);
 }
 
-/// The channel alone, as the executor uses it: take, copy 64 bytes, give back. It sleeps if that takes long.
+/// The channel alone, in the way the executor uses it: take, copy 64 bytes, give back. It sleeps if that
+/// takes long.
 [[nodiscard]] Pair by_channel() {
   struct Words final : Waker {
     std::array<WakeWord, 2> words;
@@ -136,8 +137,8 @@ struct Pair {
   return pair_of(wall_ns() - begin, cycles[0], cycles[1]);
 }
 
-/// The same exchange by hand: lock, copy 64 bytes, unlock. timed: the value carries when it was written, as a
-/// buffer's `stamp` says, and the reader looks how old it is, as `age` does.
+/// The same exchange by hand: lock, copy 64 bytes, unlock. timed: the value carries its time of writing, like
+/// a buffer's `stamp`, and the reader computes its age, like `age`.
 template <bool timed>
 [[nodiscard]] Pair by_hand() {
   struct alignas(64) Shared {
@@ -210,7 +211,8 @@ BENCHMARK(channel_cycle)->UseManualTime()->Iterations(rounds);
 
 constexpr std::uint64_t trips = 20'000;
 
-/// Where the two threads of a round trip run. Left to the scheduler, the same program takes 2 us or 50.
+/// The processors of the two threads of a round trip. Left to the scheduler, the same program takes 2 us or
+/// 50.
 struct Placement {
   int one, other;
 };
@@ -257,7 +259,7 @@ void stay_on(int cpu) {
   if (sched_setaffinity(0, sizeof set, &set) != 0) std::abort();
 }
 
-/// Two threads that do nothing but wake each other.
+/// Two threads that only wake each other.
 [[nodiscard]] double bare_round_trip_ns(Placement placement) {
   struct alignas(64) Word {
     std::atomic<std::uint32_t> value{0};

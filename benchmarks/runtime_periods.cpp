@@ -1,5 +1,5 @@
-// How well the subsystem executor keeps periods, beside a thread that does nothing but sleep until the next
-// one, and what recording costs at a million events a second. What is compared takes turns in the same run;
+// Measures how well the subsystem executor keeps periods, beside a thread that only sleeps until the next
+// one, and the cost of recording a million events a second. The compared programs take turns in the same run;
 // counters are medians over the repetitions. Figures are in docs/performance.md.
 
 #include <benchmark/benchmark.h>
@@ -101,13 +101,13 @@ void two_hundred_at_100_Hz(benchmark::State& state) {
   }
   state.counters["cores"] = median(cpu);
   state.counters["kept"] = median(kept);
-  state.counters["missed"] = median(missed);  // instants passed over by a subsystem that ran already
+  state.counters["missed"] = median(missed);  // instants passed over while the subsystem was running
 }
 BENCHMARK(two_hundred_at_100_Hz)->UseManualTime()->Iterations(rounds);
 
 // -------------------------------------------------------------------------------------------- recording
 
-/// An event as the executor records it - with its time - a million times a second for ten seconds.
+/// Records an event, with its time, like the executor: a million times a second for ten seconds.
 void recording(benchmark::State& state) {
   constexpr std::uint32_t burst = 1'000;
   constexpr int bursts = 10'000;

@@ -1,10 +1,12 @@
-// What it costs a controller to be watched by the studio: the line follower with its world, as fast as it goes.
+// Measures the cost of watching a controller with the studio: the line follower with its world, at full
+// speed.
 //
 //     node benchmarks/watched.mjs build/release/tessera [rounds] [simulated seconds]
 //
-// Each round runs the same controller four times: plain (`simulate`), controlled with nobody there, watched by
-// the studio with one event stream that reads its recording from disk, and the same through the control socket.
-// Of the last three the wall time is that from `resume` to the end of the process; CPU time is that of the controller alone.
+// Each round runs the same controller four times: plain (`simulate`), controlled without a client, watched by
+// the studio with one event stream that reads its recording from disk, and the same through the control
+// socket. The wall time of the last three is that from `resume` to the end of the process; CPU time is that
+// of the controller alone.
 import { spawn } from "node:child_process";
 import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { connect } from "node:net";
@@ -41,7 +43,7 @@ async function commandOfController() {
   return words.filter((word, index) => word !== "" && word !== "--for" && words[index - 1] !== "--for");
 }
 
-/** A controller, which is told when to begin by `go`; wall and CPU time in seconds. */
+/** A controller, which begins when `go` is called; wall and CPU time in seconds. */
 async function run(command, begin) {
   const child = spawn("bash", ["-c", '"$@"; times', "-", ...command, "--for", `${seconds}s`], { stdio: ["ignore", "pipe", "inherit"] });
   let said = "";
@@ -63,7 +65,7 @@ const sockets = () => {
     return [];
   }
 };
-/** Tells the controller that waits to go on. */
+/** Makes the waiting controller go on. */
 const resume = async () => {
   const name = await until(() => first(sockets()));
   const socket = connect(join(folder, "tessera", name));
@@ -115,7 +117,7 @@ async function studio() {
     await ask(`/api/runs/${id}/control`, { command: "resume" });
     return start;
   };
-  // In clock ticks, of which there are 100 a second.
+  // The unit is clock ticks, of which there are 100 a second.
   const cpu = () => readFileSync(`/proc/${child.pid}/stat`, "utf8").split(") ")[1].split(" ").slice(11, 13).reduce((sum, ticks) => sum + Number(ticks) / 100, 0);
   return { watch, counted, cpu, close: () => (child.kill("SIGINT"), ended(child)) };
 }

@@ -16,7 +16,7 @@ namespace tessera::cli {
 
 namespace {
 
-/// Says what a value that is no number of that type should be.
+/// Names the form that a value of that type must have.
 template <class Number>
 CLI::Option& checked(CLI::Option& option) {
   option.check([](const std::string& text) -> std::string {
@@ -143,7 +143,7 @@ void CommandLine::add_hidden(const std::string& name, std::function<void(std::ve
 
 namespace {
 
-/// "robot" of "TEXT:{robot,arm}": the values that are allowed, as the help shows them.
+/// "robot" in "TEXT:{robot,arm}": the allowed values, as the help shows them.
 std::vector<std::string> allowed_values(const CLI::Option& option) {
   const std::string type = option.get_type_name();
   const std::size_t begin = type.find('{'), end = type.rfind('}');

@@ -25,7 +25,7 @@ class Option {
   explicit Option(CLI::Option& option) : option_(&option) {}
 
   Option& required();
-  /// Shows the value that the variable has now in the help.
+  /// Shows the present value of the variable in the help.
   Option& shows_default();
   /// Makes any other value a usage mistake.
   Option& one_of(const std::vector<std::string>& values);
@@ -36,7 +36,7 @@ class Option {
   Option& repeated();
   /// Makes it a usage mistake to give both.
   Option& excludes(Option other);
-  /// It has no meaning without the other.
+  /// Makes it a usage mistake to give it without the other.
   Option& needs(Option other);
 
  private:
@@ -85,27 +85,27 @@ class CommandLine {
   void footer(const std::string& text);
 
   /// Reads the line and runs the command that it names. nullopt: the command has run. `ok`: help or version
-  /// was asked for and has been printed. `usage`: the line is wrong, and standard error says why.
+  /// was requested and printed. `usage`: the line is wrong, and standard error says why.
   [[nodiscard]] std::optional<int> read(int argc, char** argv);
 
   struct Word {
     std::string name;  ///< without dashes
     bool takes_value = false;
-    std::vector<std::string> values;  ///< if only these are allowed
+    std::vector<std::string> values;  ///< the only allowed ones; empty: any
   };
   struct Words {
     std::string command;
     std::vector<Word> options;        ///< with long names
-    std::vector<std::string> values;  ///< of the first argument, if only these are allowed
+    std::vector<std::string> values;  ///< the only allowed values of the first argument; empty: any
   };
   /// All words that can be typed, for completion.
   [[nodiscard]] std::vector<Words> words() const;
 
-  /// A command that is not shown, and that gets the words behind its name as they are.
+  /// A command that is not shown in the help. It gets the words after its name unchanged.
   void add_hidden(const std::string& name, std::function<void(std::vector<std::string>)> run);
 
  private:
-  /// nullopt: it is a command, or there is none.
+  /// nullopt: it is a command, or it does not exist.
   [[nodiscard]] std::optional<int> unknown_command(int argc, char** argv) const;
   void tell_unexpected() const;
 

@@ -35,7 +35,7 @@ std::string content_of(const std::string& file) {
 
 bool is_recording(const std::string& file) {
   if (fs::is_directory(file) || !fs::exists(file))
-    return true;  // a folder has one; its reader says what is missing
+    return true;  // a folder counts as a recording; its reader reports a missing file
   std::ifstream stream(file, std::ios::binary);
   std::string beginning(recording_magic.size(), '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));

@@ -12,8 +12,8 @@ namespace tessera::cli {
 /// The value of a `--coverage` without a file.
 inline constexpr const char* shown_only = "*";
 
-/// The firings of runs of one specification, summed. Everything throws std::runtime_error, which names the
-/// file, if something in it cannot be read or is of another net.
+/// The firings of runs of one specification, summed. All members throw std::runtime_error, which names the
+/// file, if a part of it cannot be read or is of another net.
 class CoverageInput {
  public:
   explicit CoverageInput(const project::Specification& specification);

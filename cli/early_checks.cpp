@@ -66,7 +66,7 @@ class Parameters {
     return one * std::max<std::size_t>(type.extent, 1);
   }
 
-  /// All share their storage: what is there is not looked at.
+  /// All share their storage: the values are only written, never used.
   [[nodiscard]] Bindings::Parameter bound(const spec::Parameter& parameter) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool text = parameter.type.kind == spec::Type::Kind::string;
@@ -123,7 +123,7 @@ int check_run(const LaunchOptions& options, bool with_world) {
   if (!parameters_fit(*specification, options)) return failed;
   if (!with_world || !specification->model.simulation) return ok;
   if (!simulation_is_possible(*specification, terminal(), options.world)) return failed;
-  static_cast<void>(floor_of(*specification, options));  // throws for a --track that is nowhere
+  static_cast<void>(floor_of(*specification, options));  // throws for a --track that does not exist
   return ok;
 }
 

@@ -4,8 +4,8 @@
 
 namespace tessera::cli {
 
-/// `ok`, or the exit code of a run that cannot begin as requested, as far as the specification tells:
-/// `failed` for the files of the world and the parameters, `usage` for the times and sizes of the command
+/// Returns `ok`, or the exit code of a run that cannot begin as requested, as far as the specification shows
+/// it: `failed` for the files of the world and the parameters, `usage` for the times and sizes of the command
 /// line. Called before anything is built; its messages are those of the controller. A specification that
 /// cannot be read passes here, because another function reports that.
 ///

@@ -35,12 +35,12 @@ namespace fs = std::filesystem;
 
 constexpr int frames_per_s = 25;
 
-/// What is known of a recording before anything is drawn.
+/// The facts about a recording that are needed before drawing.
 struct Survey {
   std::string system;
   Recording::Scene scene;
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max(), last_ns = 0;
-  std::array<double, 3> least{}, greatest{};  ///< of the robots' positions, in the time that is shown
+  std::array<double, 3> least{}, greatest{};  ///< of the robots' positions, in the shown time
   std::vector<BodyPose> last;                 ///< poses
   struct Alarm {
     std::int64_t time_ns;
@@ -133,7 +133,7 @@ template <class T>
   return std::move(*result);
 }
 
-/// Even numbers from 16 on. nullopt: it is no size.
+/// Even numbers from 16 on. nullopt: it is not a size.
 [[nodiscard]] std::optional<std::pair<int, int>> size_of(const std::string& text) {
   int width = 0, height = 0;
   const char* const end = text.data() + text.size();
@@ -147,7 +147,7 @@ template <class T>
 
 // ---------------------------------------------------------------------------------------------- the frames
 
-/// The poses of a recording at rising times.
+/// The poses of a recording at ascending times.
 class PoseTimes {
  public:
   explicit PoseTimes(const std::string& recording) : reader_(recording) {}

@@ -8,21 +8,23 @@
 
 namespace tessera::cli {
 
-/// What `tessera replay --film FILE` is to make.
+/// The film that `tessera replay --film FILE` makes.
 struct FilmOptions {
   std::string file, recording, camera;
-  std::string spec;  ///< the specification that the world is taken from; empty: that of the run
+  std::string spec;  ///< the specification of the world; empty: that of the run
   std::string size = "960x540";
   double speed = 1, from_s = 0, to_s = 0;  ///< speed: simulated seconds per second
 };
 
-/// Draws the run and writes the film. Returns the exit code; complains about what is wrong.
+/// Draws the run and writes the film. Returns the exit code; prints the mistakes.
 [[nodiscard]] int make_film(const FilmOptions& options);
 
-/// The world of a recording, to be drawn: that of its run, or of `spec`. Throws std::runtime_error with a hint.
+/// The world of a recording, for drawing: that of its run, or of `spec`. Throws std::runtime_error with a
+/// hint.
 [[nodiscard]] WorldOptions world_of_recording(const std::string& recording, const std::string& spec);
 
-/// A picture of the run's last instant, with all robots in view. Throws std::runtime_error: why there is none.
+/// A picture of the run's last instant, with all robots in view. Throws std::runtime_error with the reason if
+/// there is none.
 [[nodiscard]] report::Frame poster_of(const std::string& recording, const WorldOptions& world, int width,
                                       int height);
 

@@ -31,7 +31,7 @@ namespace {
   return ending == ".mp4" || ending == ".webm" || ending == ".gif";
 }
 
-/// Where a program is that the user can start; empty: nowhere.
+/// The path of a program that the user can start; empty: there is none.
 [[nodiscard]] std::string found_in_path(const std::string& program) {
   const char* const path = std::getenv("PATH");
   std::string_view rest = path == nullptr ? "" : path;
@@ -64,7 +64,7 @@ volatile std::sig_atomic_t film_interrupted = 0;
 
 void note_interrupt(int /*signal*/) { film_interrupted = 1; }
 
-/// Signals that end the command otherwise, and would leave the unfinished film behind.
+/// Signals that would otherwise end the command and leave the unfinished film behind.
 constexpr std::array interrupting{SIGINT, SIGTERM, SIGHUP};
 
 }  // namespace
@@ -155,7 +155,7 @@ void FilmFile::start_ffmpeg(const std::string& ending) {
   std::vector<char*> words;
   for (const std::string& word : command) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
-  // A child that ends early is noticed when nothing can be written to it.
+  // The end of a child is noticed when a write to it fails.
   std::signal(SIGPIPE, SIG_IGN);
   child_ = fork();
   if (child_ == 0) {

@@ -8,15 +8,15 @@
 
 namespace tessera::cli {
 
-/// ".mp4" of "run.MP4".
+/// ".mp4" for "run.MP4".
 [[nodiscard]] std::string ending_of(const std::string& file);
 /// Whether a film can have this ending.
 [[nodiscard]] bool is_known_ending(const std::string& ending);
 /// An existing file is replaced only if it is a film of the same kind. Throws std::runtime_error otherwise.
 void check_film_file(const std::string& file, const std::string& ending);
 
-/// The unfinished film, which gets its name at the end; written by this process, or by ffmpeg.
-/// While it exists, SIGINT, SIGTERM and SIGHUP end the film and not the process. One at a time.
+/// The unfinished film, which gets its name at the end; written by this process, or by ffmpeg. During its
+/// lifetime, SIGINT, SIGTERM and SIGHUP end the film and not the process. Only one may exist at a time.
 class FilmFile {
  public:
   /// Throws std::runtime_error with a hint: it cannot be written, or ffmpeg is needed and not installed.
@@ -26,7 +26,7 @@ class FilmFile {
   ~FilmFile();
 
   [[nodiscard]] bool write(std::string_view bytes);
-  /// Empty: it is there. Otherwise why not.
+  /// Empty: the film is complete. Otherwise the reason.
   [[nodiscard]] std::string finish(bool complete);
 
  private:
@@ -35,7 +35,7 @@ class FilmFile {
   std::string file_, unfinished_, reason_;
   int descriptor_ = -1;
   pid_t child_ = -1;
-  std::array<void (*)(int), 3> before_{};  ///< who handled the signals
+  std::array<void (*)(int), 3> before_{};  ///< the earlier handlers of the signals
   bool finished_ = false;
 };
 

@@ -18,7 +18,7 @@ struct RunOutcome {
   std::string robots;  ///< "rover, rover_2": several move in the world, so there is no drive; empty: one
   std::optional<report::RunPaths> paths;  ///< of a simulated world
   std::optional<sim::Track> floor;        ///< that the world has
-  nlohmann::json curves;                  ///< of checks and measures; not a part of what to_json tells
+  nlohmann::json curves;                  ///< of checks and measures; to_json leaves them out
 };
 
 /// Reads the files of the run. Throws std::runtime_error if one of them cannot be read.
@@ -33,8 +33,8 @@ struct RunOutcome {
 /// The same for people, on standard output.
 void print(const RunOutcome& outcome);
 
-/// Writes index.html, poster.png and, with a drive, path.png to `folder`, which is made if it does not exist. Standard
-/// error says where they are. Throws std::runtime_error if one cannot be written.
+/// Writes index.html, poster.png and, with a drive, path.png to `folder`, which is made if it does not exist.
+/// Standard error names the files. Throws std::runtime_error if one cannot be written.
 void write_report(RunOutcome outcome, const verify::Report& verification,
                   const std::filesystem::path& folder);
 

@@ -4,9 +4,9 @@
 #include <string>
 #include <string_view>
 
-/// Checks files that a command is told to write. An existing file is replaced only if it looks like an
-/// earlier output of the same kind: `--json spec.yaml` must not destroy a specification. Devices and pipes
-/// accept everything. All functions throw std::runtime_error that names the file.
+/// Checks the files that a command is to write. An existing file is replaced only if it looks like an earlier
+/// output of the same kind: `--json spec.yaml` must not destroy a specification. Devices and pipes accept
+/// everything. All functions throw std::runtime_error that names the file.
 namespace tessera::cli {
 
 /// text: the text that is to be written, or its beginning.

@@ -25,7 +25,7 @@ using nlohmann::json;
 NetExecutor* playing = nullptr;
 void stop_playing(int /*signal*/) { playing->stop(); }
 
-/// While it exists, Ctrl-C ends the play and not the command.
+/// During its lifetime, Ctrl-C ends the play and not the command.
 class StopsOnInterrupt {
  public:
   explicit StopsOnInterrupt(NetExecutor& executor) {
@@ -108,7 +108,7 @@ std::string ending(const NetExecutor::Outcome& outcome) {
   return "dead";
 }
 
-/// {"firings", "seconds", "ended": "steps" | "dead" | "stopped" | what went wrong, "fired": {transition:
+/// JSON: {"firings", "seconds", "ended": "steps" | "dead" | "stopped" | the error, "fired": {transition:
 /// times}, "marking": {place: tokens}}. The two maps leave out zeros.
 json to_json(const net::Net& net, const Played& played) {
   json fired = json::object(), marking = json::object();

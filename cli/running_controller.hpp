@@ -18,19 +18,19 @@ namespace tessera::cli {
 /// Threads: one.
 class RunningController {
  public:
-  /// nullopt: no process listens there, or it takes no connection within a second.
+  /// nullopt: no process listens there, or it accepts no connection within a second.
   [[nodiscard]] static std::optional<RunningController> attach(const std::filesystem::path& socket_file);
   /// SYSTEM.PID, or SYSTEM.PROCESS.PID of a deployed system.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// Takes its name from its first line, which stays the next one, if the name of the socket was too short for
-  /// it. Waits for that for two seconds; a process that hangs keeps what the socket says.
+  /// If the name of the socket is shortened, takes the full name from the first line, which stays unread.
+  /// Waits for that line for two seconds; a process that hangs keeps the name of the socket.
   void learn_name();
 
   /// The next line from the controller. nullopt: it has ended or was silent for too long (`be_patient_for`).
   [[nodiscard]] std::optional<std::string> line();
   /// Limits all later waits to this time, because the process may be stopped or hang.
   void be_patient_for(std::chrono::milliseconds time) { connection_.limit_waits(time); }
-  /// false: the controller has ended, or takes nothing.
+  /// false: the controller has ended, or accepts no data.
   [[nodiscard]] bool send(std::string_view text) const { return connection_.send(text); }
 
  private:
@@ -40,21 +40,21 @@ class RunningController {
   std::string name_, pending_;
 };
 
-/// A controller and what it has said first.
+/// A controller and its first message.
 struct SeenController {
   RunningController controller;
-  std::string line;                           ///< its first; empty: it has said nothing for two seconds
-  std::optional<project::Snapshot> snapshot;  ///< what that says
+  std::string line;                           ///< its first line; empty: none within two seconds
+  std::optional<project::Snapshot> snapshot;  ///< the content of that line
 };
-/// Asks nothing, but listens to all of them at once.
+/// Sends no request, and listens to all of them at once.
 [[nodiscard]] std::vector<SeenController> first_look(std::vector<RunningController> controllers);
-/// The name of the deployed system whose processes they are, all of them; nullopt: they are not.
+/// The name of the deployed system whose processes they all are; nullopt: they are not.
 [[nodiscard]] std::optional<std::string> common_deployment(const std::vector<SeenController>& controllers);
 /// "tessera: error: several controllers are running (...): name one, ..."
 int complain_of_several(const std::vector<SeenController>& controllers);
 
-/// All controllers that `which` means: a system, a process, or empty for all. If
-/// there is none, prints that.
+/// All controllers that `which` names: a system, a process, or empty for all. Prints an error if there is
+/// none.
 [[nodiscard]] std::vector<RunningController> find_controllers(const std::string& which);
 
 }  // namespace tessera::cli

@@ -27,7 +27,7 @@ using statistics::Seeds;
 
 namespace {
 
-/// Options of the controller that change no run: where files are, and which seed.
+/// Options of the controller that do not change a run: paths of files, and the seed.
 constexpr std::array not_of_the_runs{"--record", "--record-values", "--record-limit", "--summary",
                                      "--seed",   "--trace",         "--world-library"};
 
@@ -36,15 +36,15 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// What it stands for: a file is what is in it, wherever it is.
+/// The value that counts: for a file its content, wherever it is.
 std::string meaning_of(const std::string& value) {
   std::error_code ignored;
   return fs::is_regular_file(value, ignored) ? hash_of(content_of(value)) : value;
 }
 
-/// Everything on the command line of a run that changes it, by the names of the options.
+/// Everything on the command line that changes a run, by the names of the options.
 std::map<std::string, std::string> settings_of(const Command& command) {
-  constexpr std::size_t first_option = 2;  // behind the program and `simulate`
+  constexpr std::size_t first_option = 2;  // after the program and `simulate`
   std::map<std::string, std::string> settings;
   for (std::size_t at = first_option; at < command.size(); ++at) {
     std::string name = command[at], value;
@@ -61,7 +61,7 @@ std::map<std::string, std::string> settings_of(const Command& command) {
   return settings;
 }
 
-/// The results with what only this command knows; throws std::runtime_error if there are none.
+/// The results with the fields that only this command knows; throws std::runtime_error if there are none.
 Results read(const fs::path& summary) {
   Result<Results> counts = statistics::parse_counts(content_of(summary));
   if (!counts) throw std::runtime_error(fmt::format("{} {}", summary.string(), counts.problem()));
@@ -98,7 +98,7 @@ int run_schedules(const Controller& controller, const LaunchOptions& options,
   const RunFiles files = run_files(options);
   const Exit exit = run(command);
   if (!fs::exists(files.summary)) {
-    // A controller that could not start has said why.
+    // A controller that could not start has printed why.
     if (exit.code == 0 || exit.code > 128) complain(dead(exit));
     return exit.code == 0 ? failed : exit.code;
   }

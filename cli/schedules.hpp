@@ -16,14 +16,14 @@ struct ScheduleOptions {
   std::string results;      ///< file; empty: none
   std::string json;         ///< file, "-": standard output; empty: none
   std::string coverage;     ///< empty: none; shown_only; or a file
-  std::string again;        ///< command that makes one of the runs again, when a seed is put behind it
+  std::string again;        ///< command that repeats one of the runs, when a seed is appended
 };
 
-/// Whether the part can be read; says what is wrong with it.
+/// Whether the part can be read; prints the mistake.
 [[nodiscard]] bool is_part(const std::string& part);
 
-/// Runs the schedules and writes and prints what went wrong, how often, and how likely that is. command: the
-/// controller's, of one run. Returns the exit code: 0 none failed, 1 some did, 128 + signal: interrupted.
+/// Runs the schedules, and writes and prints the failures, their numbers, and their probabilities. command:
+/// the controller's, of one run. Returns the exit code: 0 none failed, 1 some did, 128 + signal: interrupted.
 int run_schedules(const project::Controller& controller, const project::LaunchOptions& options,
                   const ScheduleOptions& schedules, project::Command command);
 

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// A name of the world as the name of a buffer: letters, digits, single underscores.
+/// Turns a name of the world into a name of a buffer: letters, digits, single underscores.
 std::string buffer_name(const std::string& name, std::set<std::string>& taken) {
   std::string made;
   for (const char c : name) {
@@ -29,7 +29,7 @@ std::string buffer_name(const std::string& name, std::set<std::string>& taken) {
   return unique;
 }
 
-/// Quoted where YAML would read it in another way.
+/// Adds quotes where YAML would read the text in another way.
 std::string yaml_text(const std::string& text) {
   const bool plain = !text.empty() && std::ranges::all_of(text, [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '/' || c == '-' || c == '.';
@@ -37,7 +37,7 @@ std::string yaml_text(const std::string& text) {
   return plain ? text : Json(text).dump();
 }
 
-/// "robot" of "robot[3]".
+/// "robot" for "robot[3]".
 std::string fleet_of(const std::string& agent) { return agent.substr(0, agent.find('[')); }
 
 /// One real buffer with its driver.
@@ -55,7 +55,7 @@ constexpr std::array sources = std::to_array<Source>({{"sensors", "sensors", "se
                                                       {"joints", "joints", "joint_position"},
                                                       {"motors", "actuators", "actuator"}});
 
-/// What one agent has in one subsystem, in the order of the world.
+/// The buffers of one agent in one subsystem, in the order of the world.
 using Lines = std::vector<Line>;
 
 class DriversSection {
@@ -96,11 +96,11 @@ class DriversSection {
     }
   }
 
-  /// The agent that has an element, and the name by which its driver finds it. No agent: the element belongs
-  /// to a thing that nobody drives.
+  /// The agent that owns an element, and the name by which its driver finds it. No agent: the element belongs
+  /// to an object without an agent.
   [[nodiscard]] std::pair<std::string, std::string> placed(const std::string& name) const {
     if (agents_.empty()) return {"robot", name};
-    const bool is_path = name.starts_with('/');  // of CoppeliaSim, whose things belong to nobody
+    const bool is_path = name.starts_with('/');  // in CoppeliaSim; such objects belong to no agent
     const std::size_t begin = is_path ? 1 : 0, slash = name.find('/', begin);
     if (slash == std::string::npos) return {agents_.front().path, name};
     const std::string instance = name.substr(begin, slash - begin);

@@ -36,7 +36,7 @@ function(tessera_add_controller name)
     file(GLOB_RECURSE sources CONFIGURE_DEPENDS "${pattern}/src/*.cpp" "${pattern}/src/*.cc" "${pattern}/src/*.cxx")
     list(FILTER sources EXCLUDE REGEX "/\\.[^/]*$")  # what editors leave beside a file
   endif()
-  # A function that is added or removed is told of as one that is missing.
+  # Reports an added or removed function as a missing one.
   set_property(DIRECTORY APPEND PROPERTY CMAKE_CONFIGURE_DEPENDS ${sources})
 
   set(generated "${CMAKE_CURRENT_BINARY_DIR}/${name}.generated")
@@ -53,14 +53,13 @@ function(tessera_add_controller name)
   target_include_directories(${name}_project INTERFACE "${generated}" "${folder}/src")
   target_compile_features(${name}_project INTERFACE cxx_std_20)
   target_link_libraries(${name}_project INTERFACE tessera::runtime ${arg_LIBRARIES})
-  # Object files, not an archive: of a function that is there twice, the linker would take one out of an archive and say
-  # nothing.
+  # Object files, not an archive: from an archive, the linker would silently take one of two equal functions.
   add_library(${name}_functions OBJECT ${sources})
   target_link_libraries(${name}_functions PUBLIC ${name}_project)
   file(GLOB_RECURSE system "${generated}/*.cpp")
   list(REMOVE_ITEM system "${generated}/main.cpp")
   add_library(${name}_system STATIC ${system})
-  # Nearly all the time of each source goes into the same headers.
+  # Nearly all the compile time of each source is spent in the same headers.
   set_target_properties(${name}_system PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
   target_link_libraries(${name}_system PUBLIC ${name}_project)
   add_executable(${name} "${generated}/main.cpp")

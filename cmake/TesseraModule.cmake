@@ -1,4 +1,4 @@
-# One way to declare a module, a test and a benchmark, so that flags are said once.
+# One way to declare a module, a test and a benchmark, so that flags are defined once.
 include(GNUInstallDirs)
 set(CMAKE_CXX_STANDARD 20)
 set(CMAKE_CXX_STANDARD_REQUIRED ON)
@@ -6,11 +6,12 @@ set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 
 add_library(tessera_flags INTERFACE)
-# Sources that are compiled together share unnamed namespaces, and a local name may well be one of those. The presets that
-# compile each source on its own warn of shadowing.
+# Sources that are compiled together share unnamed namespaces, so a local name may equal one of those. The
+# presets that compile each source on its own warn about shadowing.
 target_compile_options(tessera_flags INTERFACE -Wall -Wextra -Wpedantic -Wconversion -Wno-sign-conversion -Werror
   $<$<NOT:$<BOOL:${CMAKE_UNITY_BUILD}>>:-Wshadow>
-  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # g++ 12 reports it wrongly for string concatenation (GCC bug 105651)
+  $<$<CXX_COMPILER_ID:GNU>:-Wno-restrict>)  # g++ 12 reports it wrongly for string concatenation (GCC bug
+                                            # 105651)
 if(TESSERA_SANITIZE)
   add_compile_options(-fsanitize=${TESSERA_SANITIZE} -fno-omit-frame-pointer)
   add_link_options(-fsanitize=${TESSERA_SANITIZE})
@@ -21,8 +22,8 @@ if(TESSERA_SANITIZE)
   endif()
 endif()
 
-# g++ collects its garbage often, to save memory that most machines have: a seventh of its time. Where two gigabytes
-# for each job are there, it may use half a gigabyte before it begins.
+# g++ collects its garbage often, to save memory: that takes a seventh of its time. If each job has two
+# gigabytes, g++ may use half a gigabyte before it begins to collect.
 cmake_host_system_information(RESULT memory_mib QUERY TOTAL_PHYSICAL_MEMORY)
 cmake_host_system_information(RESULT cores QUERY NUMBER_OF_LOGICAL_CORES)
 math(EXPR memory_mib_a_job "${memory_mib} / ${cores}")
@@ -30,8 +31,8 @@ if(memory_mib_a_job GREATER_EQUAL 2048)
   add_compile_options($<$<CXX_COMPILER_ID:GNU>:--param=ggc-min-heapsize=524288>)
 endif()
 
-# For sources whose speed no user notices, and for tests. They then take two thirds of the time to compile, with
-# sanitizers less than half. Nets, search, generator and what fires in the runtime are optimised fully.
+# For sources whose speed no user notices, and for tests. They take two thirds of the time to compile, with
+# sanitizers less than half. Nets, search, generator and the firing code of the runtime are optimised fully.
 if(TESSERA_SANITIZE)
   set(TESSERA_COMPILE_QUICKLY -O0)
 else()
@@ -41,7 +42,7 @@ macro(tessera_compile_quickly)
   add_compile_options(${TESSERA_COMPILE_QUICKLY})
 endmacro()
 
-# For tests that compute for long: naive answers to large questions.
+# For tests with long computations: naive answers to large questions.
 macro(tessera_compile_for_speed)
   add_compile_options(-O1)
 endmacro()
@@ -57,11 +58,11 @@ function(tessera_module name)
 endfunction()
 
 # tessera_gtest(NAME SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s] [LOCK name] [WHOLE] [JUDGED])
-# LOCK: its cases share something and run one after the other.
-# JUDGED: it asks whether messages fit their schemas (tests/schema/judge.hpp).
-# WHOLE: ctest lists one case, since what SetUpTestSuite makes takes longer than the cases.
-# An executable test_NAME whose cases ctest lists one by one. With sanitizers, where starting a process takes longer than
-# most cases, fast ones are listed as a whole.
+# LOCK: its cases share a resource and run one after the other.
+# JUDGED: its cases check messages against their schemas (tests/schema/judge.hpp).
+# WHOLE: ctest lists one case, because SetUpTestSuite takes longer than the cases.
+# Declares an executable test_NAME, whose cases ctest lists one by one. With sanitizers, starting a process
+# takes longer than most cases, so fast ones are listed as a whole.
 include(GoogleTest)
 function(tessera_gtest name)
   cmake_parse_arguments(TEST "WHOLE;JUDGED" "TIMEOUT;LOCK" "SOURCES;LIBRARIES;LABELS" ${ARGN})

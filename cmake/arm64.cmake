@@ -6,7 +6,7 @@ set(CMAKE_C_COMPILER aarch64-linux-gnu-gcc)
 set(CMAKE_CXX_COMPILER aarch64-linux-gnu-g++)
 set(CMAKE_LIBRARY_ARCHITECTURE aarch64-linux-gnu)
 
-# Also for the small projects with which CMake tries the compiler.
+# Also for the small projects with which CMake tests the compiler.
 list(APPEND CMAKE_TRY_COMPILE_PLATFORM_VARIABLES TESSERA_SYSROOT)
 set(TESSERA_SYSROOT "@TESSERA_SYSROOT@" CACHE PATH "Folder that scripts/arm64_sysroot has made")
 if(TESSERA_SYSROOT MATCHES "^@|^$")

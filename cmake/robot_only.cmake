@@ -1,5 +1,5 @@
-# What `tessera package --arch` needs of another kind of processor, as a folder of its own: lib/cmake/tessera with the
-# toolchain, and the libraries.
+# The files that `tessera package --arch` needs for another kind of processor, as a separate folder:
+# lib/cmake/tessera with the toolchain, and the libraries.
 include(CMakePackageConfigHelpers)
 set(package_dir lib/cmake/tessera)
 configure_package_config_file(cmake/tesseraConfig.cmake.in ${PROJECT_BINARY_DIR}/${package_dir}/tesseraConfig.cmake

@@ -19,20 +19,21 @@ struct Value {
   std::span<const std::byte> bytes;   ///< as recordings encode it (tessera/value_encoding.hpp)
 };
 
-/// Which process of the deployment, as the verified system numbers them.
+/// The number of a process of the deployment in the verified system.
 using ProcessNumber = std::uint32_t;
-/// Which channel of the system. All processes number them alike: they execute parts of one verified net.
+/// The number of a channel of the system. All processes use the same numbers, because they execute parts of
+/// one verified net.
 using ChannelNumber = std::uint32_t;
 
-/// What is known of the way from a process that is there. Only for display.
+/// The quality of the link from a process that is reachable. Only for display.
 struct SignsOfLife {
-  std::uint32_t expected = 0;  ///< of its newest signs of life, at most 64
-  std::uint32_t lost = 0;      ///< of these, those that have not come (yet)
+  std::uint32_t expected = 0;  ///< signs of life among the newest, at most 64
+  std::uint32_t lost = 0;      ///< those of them that have not arrived (yet)
   std::optional<ClockOffset> clock;
 };
 
-/// Moves messages between the processes of one deployment. It may lose, repeat, delay and reorder them: the
-/// protocol bears that. It never alters one, and never delivers one of another deployment.
+/// Moves messages between the processes of one deployment. It may lose, repeat, delay and reorder them; the
+/// protocol tolerates that. It never alters a message, and never delivers one of another deployment.
 ///
 /// Threads: all members from one thread, except wake().
 class Carrier {
@@ -43,19 +44,20 @@ class Carrier {
     virtual ~Listener() = default;
     virtual void heard(ChannelNumber channel, const Data& data, const Value& value) = 0;
     virtual void heard(ChannelNumber channel, const State& state) = 0;
-    /// A process of the deployment has been found, or is not heard of any more.
+    /// A process of the deployment is found, or is no longer heard of.
     virtual void reachable(ProcessNumber process, bool is_there) = 0;
-    /// A sign of life has come, as carriers send them that have some.
+    /// A sign of life has arrived. Only some carriers send them.
     virtual void alive(ProcessNumber /*process*/, const SignsOfLife& /*signs*/) {}
-    /// Something was dropped that a person should know of: another version, another net, bytes that make no sense.
+    /// A message is dropped for a reason that a person should know: another version, another net, malformed
+    /// bytes.
     virtual void complaint(std::string_view text) = 0;
   };
 
   virtual ~Carrier() = default;
-  /// value: ignored for a recall. Never waits: what cannot be sent now is lost.
+  /// value: ignored for a recall. Never waits: a message that cannot be sent now is lost.
   virtual void send(ChannelNumber channel, const Data& data, const Value& value) = 0;
   virtual void send(ChannelNumber channel, const State& state) = 0;
-  /// Hands over everything that has arrived. Waits for it until there is something, wake() was called, or `longest` is
+  /// Delivers everything that has arrived. Waits until there is a message, wake() is called, or `longest` is
   /// over.
   virtual void receive(Listener& listener, std::chrono::nanoseconds longest) = 0;
   /// Ends a wait of receive(), or the next one. Threads: any.
@@ -74,13 +76,14 @@ struct ChannelSetup {
   std::uint32_t longest_value_bytes = 0;  ///< of the encoded value
 };
 
-/// What a carrier has to know of the run that it is made for. Views are valid while the carrier is made.
+/// The facts of the run that a carrier needs. Views are valid while the carrier is made.
 struct CarrierSetup {
   std::string_view system, net_hash;            ///< messages of other systems and other nets are dropped
   ProcessNumber process = 0;                    ///< this one
   std::span<const std::string_view> processes;  ///< names, by number
-  std::uint64_t incarnation = 0;                ///< of this start of the process; greater than all before
-  std::chrono::nanoseconds liveliness{0};       ///< a process that was silent for so long is not reachable
+  std::uint64_t incarnation = 0;                ///< number of this start of the process, greater than all
+                                                ///< before
+  std::chrono::nanoseconds liveliness{0};       ///< a process that is silent for longer is not reachable
   int domain = 0;                               ///< of the middleware
   std::string_view interface;                   ///< of the network, or its address; empty: "lo"
   std::span<const std::string_view>
@@ -88,9 +91,9 @@ struct CarrierSetup {
   std::span<const ChannelSetup> channels;  ///< those that begin or end in this process
 };
 
-/// Makes a carrier. A library that offers one has this function under the name open_carrier_function.
+/// Makes a carrier. A library that offers one exports this function under the name open_carrier_function.
 ///
-/// Errors: nullptr, and `error` (of `size` bytes, 0 at its end) says why.
+/// Errors: nullptr, and `error` (of `size` bytes, terminated by 0) says why.
 using OpenCarrier = Carrier*(const CarrierSetup& setup, char* error, std::size_t size);
 inline constexpr const char* open_carrier_function = "tessera_open_carrier_3";
 

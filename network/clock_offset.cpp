@@ -5,7 +5,7 @@ namespace tessera::network {
 void ClockOffsetEstimate::add(Duration difference, Duration longest_way, Duration now) {
   const Sample sample{{difference + longest_way / 2, longest_way / 2}, now};
   const std::optional<ClockOffset> known = at(now);
-  // If both cannot be true, a clock was set: the new one counts.
+  // If the two samples contradict each other, a clock was set: the new sample counts.
   const auto apart = [&] {
     const Duration between = sample.offset.ahead > known->ahead ? sample.offset.ahead - known->ahead
                                                                 : known->ahead - sample.offset.ahead;

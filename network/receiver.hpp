@@ -6,10 +6,10 @@
 
 namespace tessera::network {
 
-/// What a receiver makes of data. As SenderRules.
+/// The decisions of a receiver about data. See SenderRules.
 struct ReceiverRules {
   static bool is_for(const Data& data, Incarnation me) { return data.to == me; }
-  /// A sender that writes to another incarnation of this receiver learns of this one.
+  /// A sender that writes to another incarnation of this receiver learns about this one.
   static bool answers_strangers() { return true; }
   static bool is_newer(Incarnation from, Incarnation peer) { return from > peer; }
   /// The numbers of a new incarnation of the sender begin again.
@@ -18,7 +18,7 @@ struct ReceiverRules {
   /// The acknowledgement may have been lost.
   static bool answers_repetition() { return true; }
   static bool is_duplicate(Number number, Number in_slot) { return number <= in_slot; }
-  /// A value that has arrived is not taken: the receiver may restart before it is read.
+  /// An arrived value does not yet count as taken: the receiver may restart before it is read.
   static bool acknowledges_arrival() { return false; }
   static bool acknowledges_duplicates() { return false; }
   static bool announces_itself() { return true; }
@@ -29,9 +29,9 @@ enum class Receiving : std::uint8_t {
   exchange  ///< non-blocking at both ends: the latest value may be read again and again
 };
 
-/// The receiver's side of a channel between processes. Its owner keeps a slot for one value. It tells the
-/// machine of every message and of the beginning and the end of each read, sends the states that it asks
-/// for, and calls repeat() now and then for as long as repeats().
+/// The receiver's side of a channel between processes. Its owner keeps a slot for one value. The owner
+/// reports every message and the begin and end of each read, sends the states that this class asks for, and
+/// calls repeat() from time to time while repeats() is true.
 ///
 /// Threads: one at a time. No member allocates or throws.
 template <class Rules = ReceiverRules>
@@ -80,9 +80,9 @@ class BasicReceiver {
     return answer();
   }
 
-  /// It is time to say again that this receiver is there.
+  /// Announces this receiver again when the time has come.
   [[nodiscard]] Effects repeat() const { return repeats() ? answer() : Effects{}; }
-  /// No sender has been heard of since the start.
+  /// Whether no sender has been heard since the start.
   [[nodiscard]] bool repeats() const { return Rules::announces_itself() && !peer_.known(); }
 
   [[nodiscard]] bool full() const { return slot_.any(); }
@@ -95,14 +95,14 @@ class BasicReceiver {
   auto operator<=>(const BasicReceiver&) const = default;
 
  private:
-  /// A new incarnation of the sender: what the old one sent and was not read is gone.
+  /// Follows a new incarnation of the sender: an unread value of the old one is discarded.
   void follow(Incarnation sender) {
     peer_ = sender;
     taken_ = Rules::taken_of_new_sender(taken_);
     slot_ = {};
   }
 
-  /// As if the value had been taken.
+  /// Acts as if the value had been taken.
   Effects take_back(Number number) {
     if (number > taken_) {
       taken_ = number;

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-// Both machines are templates over their rules; here they are compiled once as they are used.
+// Both machines are templates over their rules. This file compiles them once with the rules of the product.
 #include "network/receiver.hpp"
 #include "network/sender.hpp"
 

@@ -6,15 +6,15 @@
 
 namespace tessera::network {
 
-/// When a message that may have been lost is sent again: after 20 ms, then after twice as long each time, up
-/// to 500 ms. A recall is sent three times in all, 20 ms apart: its sender waits for nothing.
+/// When a message that may be lost is sent again: after 20 ms, then after twice as long each time, up to 500
+/// ms. A recall is sent three times in all, 20 ms apart, because its sender waits for no answer.
 class Repetition {
  public:
   using Duration = std::chrono::nanoseconds;
   static constexpr Duration first{std::chrono::milliseconds(20)}, longest{std::chrono::milliseconds(500)};
   static constexpr std::uint32_t recalls = 3;
 
-  /// Something new was sent, or is sent to a new peer.
+  /// A new message was sent, or one to a new peer.
   void start(bool recall) {
     recall_ = recall;
     sent_ = 1;

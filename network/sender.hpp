@@ -6,15 +6,15 @@
 
 namespace tessera::network {
 
-/// What a sender makes of the state of a receiver. One function per decision that must not be taken otherwise:
-/// tests take each otherwise, and expect the protocol to fail.
+/// The decisions of a sender about the state of a receiver. Each decision is one function, so that tests can
+/// replace each by a wrong one and expect the protocol to fail.
 struct SenderRules {
   /// Late states of an older incarnation of the receiver do not count.
   static bool counts(const State& state, Incarnation peer) { return state.from >= peer; }
   static Incarnation followed(const State& state, Incarnation /*peer*/) { return state.from; }
   /// Data names the receiver it is for, so that no other incarnation reads it.
   static Incarnation target(Incarnation peer) { return peer; }
-  /// The newest value of this incarnation was taken. A state about an older value says nothing of it.
+  /// The newest value of this incarnation was taken. A state about an older value does not say so.
   static bool acknowledges(const State& state, Incarnation me, Number number) {
     return state.peer == me && state.taken == number && number.any();
   }
@@ -30,8 +30,9 @@ enum class Sending : std::uint8_t {
   exchange       ///< non-blocking at both ends: a new receiver gets the latest value
 };
 
-/// The sender's side of a channel between processes. Its owner keeps the newest value, sends the messages that
-/// it asks for with that value, and calls repeat() for as long as repeats() (network/repetition.hpp says when).
+/// The sender's side of a channel between processes. Its owner keeps the newest value, sends with it the
+/// messages that this class asks for, and calls repeat() while repeats() is true (network/repetition.hpp says
+/// when).
 ///
 /// Threads: one at a time. No member allocates or throws.
 template <class Rules = SenderRules>
@@ -40,14 +41,14 @@ class BasicSender {
   struct Effects {
     std::optional<Data> send{};
     bool taken = false;       ///< a blocking send has ended: its value was taken
-    bool superseded = false;  ///< the receiver follows a later incarnation: this one is not heard any more
+    bool superseded = false;  ///< the receiver follows a later incarnation and ignores this one
   };
 
   BasicSender(Sending mode, Incarnation me) : mode_(mode), me_(me) {}
 
   /// A new value, which overwrites the one before. Precondition: not waiting().
   Effects write() { return write({number_.value + 1}); }
-  /// The same with a number of the caller's, who may leave numbers out. Precondition: greater than number().
+  /// The same with a number of the caller, who may skip numbers. Precondition: greater than number().
   Effects write(Number number) {
     number_ = number;
     pending_ = true;
@@ -56,8 +57,8 @@ class BasicSender {
     return {.send = data()};
   }
 
-  /// The time of a blocking send is up. Whether its value was taken, is taken later or never is not known.
-  /// Precondition: waiting().
+  /// The time of a blocking send is over. The sender does not know whether its value was taken, will be taken
+  /// or never will. Precondition: waiting().
   Effects time_is_up() {
     waiting_ = pending_ = false;
     recall_ = true;
@@ -81,18 +82,18 @@ class BasicSender {
     return effects;
   }
 
-  /// It is time to send again what may have been lost.
+  /// Sends again what may be lost, when the time has come.
   [[nodiscard]] Effects repeat() const {
     if (pending_) return {.send = data()};
-    // A receiver that is not known has accepted nothing.
+    // An unknown receiver has accepted nothing.
     if (recall_ && peer_.known()) return {.send = data()};
     return {};
   }
 
   [[nodiscard]] bool waiting() const { return waiting_; }
-  /// The newest value is not known to be taken, and is still to be delivered.
+  /// Whether the newest value is still to be delivered, and not known to be taken.
   [[nodiscard]] bool pending() const { return pending_; }
-  /// The newest value was given up, and is called back.
+  /// Whether the newest value was given up and is being recalled.
   [[nodiscard]] bool recalling() const { return recall_; }
   [[nodiscard]] bool repeats() const { return pending_ || recall_; }
   [[nodiscard]] Incarnation incarnation() const { return me_; }

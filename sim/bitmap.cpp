@@ -10,7 +10,7 @@ namespace {
 constexpr double finest_pixel_m = 0.003;
 constexpr double speck_m = 0.02;
 
-/// Mean grey value of a block of pixels, which may reach over the picture's edge.
+/// Mean grey value of a block of pixels, which may extend beyond the picture's edge.
 double mean_grey(const Track& track, std::uint32_t x, std::uint32_t y, std::uint32_t block) {
   double sum = 0;
   std::uint32_t count = 0;
@@ -22,8 +22,8 @@ double mean_grey(const Track& track, std::uint32_t x, std::uint32_t y, std::uint
   return sum / count;
 }
 
-/// The pixels of the same kind connected to `seed` (over edges for floor, also over
-/// corners for line). Marks them.
+/// Marks and returns the pixels of the same kind that are connected to `seed` (over edges for floor, also
+/// over corners for line).
 std::vector<std::size_t> region(const Bitmap& picture, std::size_t seed, std::vector<std::uint8_t>& marked) {
   const auto w = static_cast<std::ptrdiff_t>(picture.width);
   const std::array<std::ptrdiff_t, 8> around = {1, -1, w, -w, w + 1, w - 1, -w + 1, -w - 1};
@@ -90,7 +90,7 @@ Bitmap line_of(const Track& track) {
                  .pixel_m = per_pixel * block,
                  .line = {}};
   picture.line.resize(std::size_t{columns + 2} * (rows + 2));
-  // Blocks start at the lower left corner, the origin of the floor; those at the top and right may be cut.
+  // Blocks start at the lower left corner, the origin of the floor; blocks at the top and right may be cut.
   for (std::uint32_t y = 0; y < rows; ++y) {
     const std::uint32_t top = track.height_px() - std::min(track.height_px(), (y + 1) * block);
     for (std::uint32_t x = 0; x < columns; ++x) {

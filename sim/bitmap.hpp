@@ -21,7 +21,7 @@ struct Bitmap {
   [[nodiscard]] Point centre_of(std::size_t pixel) const;
 };
 
-/// Makes pixels darker than half line. Pixels are at least 3 mm wide: a finer picture is averaged.
+/// Pixels darker than half become line. Pixels are at least 3 mm wide: a finer picture is averaged.
 [[nodiscard]] Bitmap line_of(const Track& track);
 
 /// Removes specks (dark spots less than 2 cm across) and fills holes in the line (bright
@@ -29,8 +29,8 @@ struct Bitmap {
 void clean(Bitmap& picture);
 
 /// Thins the line to one pixel.
-/// Source: Z. Guo, R. W. Hall, Parallel thinning with two-subiteration algorithms, CACM
-///         32(3), 1989, algorithm A1.
+/// Source: Z. Guo, R. W. Hall, Parallel thinning with two-subiteration algorithms, CACM 32(3), 1989,
+/// algorithm A1.
 void thin(Bitmap& picture);
 
 }  // namespace tessera::sim

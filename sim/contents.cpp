@@ -11,7 +11,7 @@ using Json = nlohmann::ordered_json;
 
 std::string floats(int count) { return count == 1 ? "float64" : "float64[" + std::to_string(count) + "]"; }
 
-/// Every element with a name; `describe` adds to its entry.
+/// Adds every element with a name; `describe` completes its entry.
 template <class Describe>
 Json list(const mjModel& model, mjtObj type, Describe&& describe) {
   Json entries = Json::array();
@@ -25,7 +25,7 @@ Json list(const mjModel& model, mjtObj type, Describe&& describe) {
   return entries;
 }
 
-/// How many elements have no name, so that no driver can name them.
+/// The numbers of elements without a name, which no driver can refer to.
 Json nameless(const mjModel& model) {
   Json counts = Json::object();
   for (const mjtObj type : {mjOBJ_SENSOR, mjOBJ_JOINT, mjOBJ_ACTUATOR, mjOBJ_SITE, mjOBJ_CAMERA})
@@ -84,7 +84,7 @@ std::string contents_as_json(const mjModel& model) {
   json["actuators"] =
       list(model, mjOBJ_ACTUATOR, [&](int id, Json& entry) { describe_actuator(model, id, entry); });
   json["sites"] = list(model, mjOBJ_SITE, [&](int id, Json& entry) {
-    // What is welded to a body moves as that body does.
+    // A site welded to a body moves as that body does.
     if (const int body = model.body_weldid[model.site_bodyid[id]]; body != 0)
       entry["body"] = name_of(model, mjOBJ_BODY, body);
     entry["kind"] = "scan";

@@ -93,8 +93,7 @@ class Pen {
     y_ += metres * std::sin(heading_);
   }
 
-  /// Moves along a circle whose centre is on that side: 1 left, -1 right. Returns
-  /// the x and y of the centre.
+  /// Moves along a circle whose centre is on that side: 1 left, -1 right. Returns the x and y of the centre.
   std::pair<double, double> turn_about(double angle, double radius_m, double side) {
     const double centre_x = x_ - side * radius_m * std::sin(heading_);
     const double centre_y = y_ + side * radius_m * std::cos(heading_);

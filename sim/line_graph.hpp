@@ -10,8 +10,7 @@
 
 namespace tessera::sim {
 
-/// A thinned line as a graph. Nodes are the points where lines end or meet; edges
-/// are the lines between them.
+/// A thinned line as a graph. Nodes are the points where lines end or meet; edges are the lines between them.
 class LineGraph {
  public:
   struct Edge {
@@ -19,18 +18,18 @@ class LineGraph {
     std::vector<Point> points;        ///< at least two
   };
 
-  /// line_width_m: the scale of details, such as spurs and the short piece between the two junctions that
-  /// thinning makes of one crossing.
+  /// line_width_m: the scale of details, such as spurs and the short piece between the two junctions into
+  /// which thinning splits one crossing.
   LineGraph(const Bitmap& thinned, double line_width_m);
 
   /// Removes dead ends about as short as the line is wide, and merges junctions that are that close.
   void simplify();
   /// Joins free ends that face each other over a gap of up to 6 cm.
   void bridge_gaps();
-  /// Removes all edges that are on no loop, unless hardly anything would be left.
+  /// Removes all edges that are on no loop, unless almost the whole line would vanish.
   void keep_loops();
-  /// The longest way that goes straight on at crossings and uses no edge twice. A loop is
-  /// preferred to an open line.
+  /// The longest way that goes straight on at crossings and uses no edge twice. A loop is preferred to an
+  /// open line.
   [[nodiscard]] Skeleton longest_way() const;
 
  private:

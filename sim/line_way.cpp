@@ -1,4 +1,4 @@
-// LineGraph: from the pieces of a line to the way of the robot.
+// LineGraph: computes the way of the robot from the pieces of a line.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -105,7 +105,7 @@ LineGraph::Partners LineGraph::straight_partners() const {
   return partners;
 }
 
-/// Depth-first search over simple cycles. It gives up after a number of steps that no drawn track needs.
+/// Depth-first search over simple cycles. It gives up after more steps than any drawn track needs.
 LineGraph::Way LineGraph::longest_cycle() const {
   const auto at = ports();
   std::vector<bool> visited(nodes_);

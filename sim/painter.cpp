@@ -57,7 +57,7 @@ struct RigidFrame {
   return from;
 }
 
-/// Where the engine's arrays have a thing that is fixed to a body.
+/// Computes the engine's frame of an object that is fixed to a body.
 void put_frame(const RigidFrame& body, const mjtNum* position, const mjtNum* rotation, mjtNum* xpos,
                mjtNum* xmat) {
   RigidFrame own;
@@ -103,7 +103,7 @@ class Painter final : public WorldPainter {
  private:
   [[nodiscard]] const mjModel& model() const { return physics_->model(); }
 
-  /// A body that is not in the recording does not move, or hangs on one that is.
+  /// A body that is not in the recording does not move, or is attached to one that is recorded.
   void hang_bodies() {
     hung_.resize(static_cast<std::size_t>(model().nbody));
     for (int body = 0; body < model().nbody; ++body) {
@@ -134,7 +134,8 @@ class Painter final : public WorldPainter {
     const double up = static_cast<double>(model().vis.global.fovy) / 2 * std::numbers::pi / 180;
     const double aspect = static_cast<double>(picture.width) / picture.height;
     const double least = std::min(up, std::atan(std::tan(up) * aspect));
-    // What moves is flat as a rule, and seen at a slant: in a wide picture, the sphere may stand out a little.
+    // Moving objects are usually low and seen at a slant: in a wide picture, the sphere may exceed the edges
+    // a little.
     constexpr double wide = 1.4, nearer = 0.8;
     camera_.distance = std::max(picture.radius_m, 0.01) / std::sin(least) * (aspect >= wide ? nearer : 1);
   }
@@ -179,7 +180,7 @@ class Painter final : public WorldPainter {
         }
   }
 
-  /// Where a body is, relative to one whose pose is recorded; otherwise in the world.
+  /// The pose of a body, relative to one whose pose is recorded; otherwise in the world.
   struct Hung {
     std::optional<std::size_t> recorded;
     RigidFrame there;
@@ -206,7 +207,7 @@ class Painter final : public WorldPainter {
                   names.size(), short_list(names), recorded.size(), short_list(recorded))};
 }
 
-/// -1: none is wanted.
+/// -1: no camera is named.
 [[nodiscard]] Result<int> camera_of(const mjModel& model, const std::string& name) {
   if (name.empty()) return -1;
   if (const auto id = find_element(model, mjOBJ_CAMERA, "", name)) return *id;

@@ -7,10 +7,10 @@
 
 namespace tessera::sim {
 
-/// Opens a world to be drawn as it was recorded. The track, if there is one, lies on the floor.
+/// Opens a world in order to draw recorded poses. The track, if there is one, lies on the floor.
 ///
-/// Problem: the world does not open, has other bodies than those of the recording or no such camera, or nothing
-/// can be rendered on this machine.
+/// Problem: the world does not open, its bodies differ from those of the recording, it has no such camera, or
+/// this machine cannot render.
 [[nodiscard]] Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,
                                                                  const PictureOptions& picture);
 

@@ -54,7 +54,7 @@ std::vector<ScatterGroup> groups_of(const json& models) {
   return groups;
 }
 
-/// Problem: there is no such site, or no room.
+/// Problem: there is no such site, or the models do not fit.
 std::optional<Problem> scatter_groups(const WorldOptions& options, const json& models,
                                       std::vector<Placement>& placements) {
   for (const ScatterGroup& group : groups_of(models)) {
@@ -81,7 +81,7 @@ std::vector<Variation> variations_of(const json& models) {
   return variations;
 }
 
-/// Of the placed models.
+/// The composition of the placed models.
 Result<Composition> composition_of(const WorldOptions& options, const json& models) {
   std::vector<Placement> placements;
   for (const json& one : models) placements.push_back(placement_of(one));

@@ -8,10 +8,10 @@
 
 namespace tessera::sim {
 
-/// The physics of the world file with the placed models in it, at its start. What is scattered or varies is
-/// drawn from the seed.
+/// The physics of the world file with the placed models in it, at its start. Scattered positions and varied
+/// values are drawn from the seed.
 ///
-/// Problem: as compose, load and scatter; a model varies in something that is not there.
+/// Problem: as compose, load and scatter; a model varies an element that does not exist.
 [[nodiscard]] Result<std::unique_ptr<Physics>> physics_of(const WorldOptions& options);
 
 }  // namespace tessera::sim

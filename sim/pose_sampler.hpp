@@ -11,8 +11,8 @@
 
 namespace tessera::sim {
 
-/// Shows a world to whoever watches it: what it looks like, and the poses of its bodies at the first step at
-/// or after every multiple of `pose_period`.
+/// Samples a world for display: its appearance, and the poses of its bodies at the first step at or after
+/// every multiple of `pose_period`.
 ///
 /// Threads: one at a time.
 class PoseSampler {

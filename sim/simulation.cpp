@@ -111,7 +111,7 @@ std::vector<std::string> Simulation::robot_names() const {
 
 std::optional<Problem> Simulation::finish() {
   const std::scoped_lock lock(mutex_);
-  trace_.begin(robot_names());  // of a run that has ended before it began
+  trace_.begin(robot_names());  // for a run that has ended before it began
   std::optional<Problem> problem = trace_.finish();
   if (!physics_->failure().empty()) return Problem{physics_->failure()};
   return problem;

@@ -19,9 +19,9 @@
 
 namespace tessera::sim {
 
-/// The state that a world and its devices share: physics over a floor, and the trace of the robot,
-/// the body that has the devices. If several bodies have devices, there is no single path; the trace
-/// then only lists their names.
+/// The state that a world and its devices share: physics over a floor, and the trace of the robot, which is
+/// the body that has the devices. If several bodies have devices, there is no single path; the trace then
+/// only lists their names.
 ///
 /// Threads: all members lock.
 class Simulation {
@@ -29,23 +29,23 @@ class Simulation {
   /// floor: nullopt means white everywhere.
   Simulation(std::unique_ptr<Physics> physics, std::optional<Track> floor, std::string trace);
 
-  /// What the run is judged by, before its first step. Problem: as Judging::read.
+  /// Sets the checks of the run, before its first step. Problem: as Judging::read.
   [[nodiscard]] std::optional<Problem> judge_by(const std::string& checks_json);
   [[nodiscard]] std::optional<Problem> problem_with_checks(const std::string& checks_json);
   [[nodiscard]] std::vector<WorldFailure> take_failures();
-  /// As Judging::results; judges what holds at the end.
+  /// As Judging::results; first judges the conditions at the end.
   [[nodiscard]] std::string results();
 
   /// Throws std::runtime_error once the physics has failed.
   void advance_to(Time time);
-  /// What tessera::World says about them.
+  /// The scene in the form of tessera::World.
   [[nodiscard]] WorldScene scene(std::span<const DriverRequest> devices) const;
   void show_poses(PoseSink& sink);
   /// Problem: the physics has failed, or the trace could not be written.
   [[nodiscard]] std::optional<Problem> finish();
 
-  /// Calls `use(physics)` while nobody else uses the physics. Throws std::runtime_error once the physics has
-  /// failed; what `use` has read then means nothing.
+  /// Calls `use(physics)` with exclusive access. Throws std::runtime_error once the physics has failed;
+  /// values that `use` has read are then meaningless.
   template <class Use>
   void use(Use&& use) {
     const std::scoped_lock lock(mutex_);
@@ -53,17 +53,17 @@ class Simulation {
     throw_failure();
   }
 
-  /// The same for commands, which a world takes also after its physics has failed: nothing moves any more, so
-  /// every command is obeyed.
+  /// The same for commands. A world accepts them also after its physics has failed: no body moves any more,
+  /// so every command succeeds.
   template <class Use>
   void command(Use&& use) {
     const std::scoped_lock lock(mutex_);
     std::forward<Use>(use)(*physics_);
   }
 
-  /// A site as a light sensor, which from now on counts for the trace. Returns its number.
+  /// Adds a site as a light sensor, which from now on counts for the trace. Returns its number.
   [[nodiscard]] std::size_t add_eye(int site, double footprint_m);
-  /// The robot that has such a device counts for the trace.
+  /// Adds the robot that has such a device to the trace.
   void add_robot_of_site(int site);
   void add_robot_of_actuator(int actuator);
   /// As Physics::wrap.
@@ -82,8 +82,8 @@ class Simulation {
   mutable std::mutex mutex_;
   std::unique_ptr<Physics> physics_;
   Eyes eyes_;
-  std::unique_ptr<Judging> judging_;    // nullptr: there is nothing to judge
-  std::set<Physics::RootBody> robots_;  // that have devices
+  std::unique_ptr<Judging> judging_;    // nullptr: there are no checks or measures
+  std::set<Physics::RootBody> robots_;  // the robots that have devices
   TraceWriter trace_;
   PoseSampler watched_;
   Duration next_sample_{0};

@@ -6,9 +6,9 @@ namespace tessera::sim {
 
 namespace {
 
-constexpr double stretch_m = 0.4;  // length of a robot and of what it sees ahead
+constexpr double stretch_m = 0.4;  // length of a robot and of the stretch that it sees ahead
 
-/// The point a stretch further along the line; nullopt past the end of an open one.
+/// The point one stretch further along the line; nullopt past the end of an open one.
 std::optional<std::size_t> stretch_from(const Skeleton& line, std::size_t first) {
   double way = 0;
   std::size_t at = first;

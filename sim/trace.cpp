@@ -7,7 +7,7 @@
 namespace tessera::sim {
 namespace {
 
-/// Takes the number up to the next comma off `line`.
+/// Removes the number up to the next comma from `line`.
 bool take(std::string_view& line, double& value) {
   const auto [end, status] = std::from_chars(line.data(), line.data() + line.size(), value);
   if (status != std::errc{}) return false;

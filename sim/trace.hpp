@@ -8,7 +8,7 @@
 
 namespace tessera::sim {
 
-/// The pose of a simulated robot at one time, and what its light sensors saw.
+/// The pose of a simulated robot at one time, and the readings of its light sensors.
 struct TracePoint {
   double t_s = 0;
   double x_m = 0, y_m = 0,
@@ -17,10 +17,10 @@ struct TracePoint {
   bool on_line = false;             ///< any light sensor over the line
 };
 
-/// The path of one robot. The file has comma-separated values, one line per point, after a line of
-/// column names "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line". The same run writes the same bytes.
-/// If several bodies have devices, there is no single path: the file has a line "# several robots:
-/// NAME, NAME" first, and no points.
+/// The path of one robot. The file has comma-separated values, one line per point, after a line of column
+/// names "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line". The same run writes the same bytes. If several
+/// bodies have devices, there is no single path: the file then has a line "# several robots: NAME, NAME"
+/// first, and no points.
 struct Trace {
   std::string robots;  ///< "rover, rover_2"; empty: there is only one robot
   std::vector<TracePoint> points;

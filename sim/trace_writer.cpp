@@ -46,7 +46,7 @@ void TraceWriter::add(const TracePoint& point) {
   }
   line += point.on_line ? "1\n" : "0\n";
   file_ << line;
-  // Another program may be watching.
+  // Another program may be following the file.
   const auto now = std::chrono::steady_clock::now();
   if (now - flushed_ < std::chrono::milliseconds(50)) return;
   flushed_ = now;

@@ -61,13 +61,13 @@ class Row {
 
 }  // namespace
 
-// Exact along x. Along y, each row of pixels is cut into strips of equal height, and the chord of each
-// strip is taken at mid-height.
+// The integral is exact along x. Along y, each row of pixels is cut into strips of equal height, and the
+// chord of each strip is taken at mid-height.
 double Track::reflectance(Point at, double footprint_m) const {
   const double x = at.x_m / metres_per_pixel_;
   const double y = height_ - at.y_m / metres_per_pixel_;  // rows count from the top
   const double radius = std::max(footprint_m / metres_per_pixel_ / 2, 1e-3);
-  // Far outside everything is white; this also keeps the conversions to integers in range.
+  // Far outside, everything is white; the limit also keeps the conversions to integers in range.
   const double reach = radius + 1;
   if (!(x > -reach && y > -reach && x < width_ + reach && y < height_ + reach)) return 1;
 

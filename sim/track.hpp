@@ -21,12 +21,12 @@ struct Point {
   return std::hypot(a.x_m - b.x_m, a.y_m - b.y_m);
 }
 
-/// A floor picture: dark is line. Outside it the floor is white.
+/// A floor picture: dark is line. The floor outside it is white.
 class Track {
  public:
   static constexpr std::uint64_t largest_picture_px = 100'000'000;
 
-  /// Any PNG that libpng reads; colours become grey, transparency white.
+  /// Reads any PNG that libpng supports; colours become grey, transparency white.
   [[nodiscard]] static Result<Track> load(const std::string& png, double metres_per_pixel);
 
   /// Mean reflectance (0 dark .. 1 bright) of the disc with that diameter around `at`.
@@ -46,8 +46,8 @@ class Track {
   std::vector<std::uint8_t> pixels_;
 };
 
-/// The middle of the line as a polyline in driving order: the longest loop of the picture's
-/// skeleton, with gaps bridged.
+/// The middle of the line as a polyline in driving order: the longest loop of the picture's skeleton, with
+/// gaps bridged.
 struct Skeleton {
   std::vector<Point> points;
   bool closed = false;
@@ -55,15 +55,15 @@ struct Skeleton {
 };
 [[nodiscard]] Skeleton skeleton(const Track& track);
 
-/// A start pose for a robot that shall follow the line: on its straightest part, facing along it. nullopt:
-/// there is no line, or it is shorter than a robot.
+/// A start pose for a robot that follows the line: on its straightest part, facing along it. nullopt: there
+/// is no line, or it is shorter than a robot.
 struct Pose {
   Point at;
   double heading_rad = 0;
 };
 [[nodiscard]] std::optional<Pose> start_on(const Skeleton& line);
 
-/// How well a path kept to the line.
+/// How well a path followed the line.
 struct LineMetrics {
   double laps = 0;  ///< full progress along the skeleton: distance along it / its length, either direction
   double line_lost_s = 0;  ///< total time with no sensor over the line

@@ -69,7 +69,7 @@ std::optional<Problem> vary(mjModel& model, const std::vector<Variation>& variat
   if (variations.empty()) return std::nullopt;
   for (const Variation& one : variations)
     if (auto problem = vary(model, one, seed)) return problem;
-  // What the engine derives from masses.
+  // Updates the values that the engine derives from masses.
   std::string complaint = complaint_of([&] {
     const DataPtr data(mj_makeData(&model));
     if (data) mj_setConst(&model, data.get());

@@ -98,7 +98,7 @@ class ViewOfWorld final : public WorldState {
   }
 
  private:
-  /// The other errors of a simulation are those of a world, too.
+  /// The other errors of a simulation become errors of a world, too.
   template <class Use>
   void use(Use&& what) const try {
     simulation_->use(std::forward<Use>(what));

@@ -8,7 +8,7 @@
 
 namespace tessera::sim {
 
-/// The simulation as drivers of `agent` see it that are C++ classes.
+/// The simulation for drivers of `agent` that are C++ classes.
 [[nodiscard]] std::shared_ptr<WorldState> view_of_world(std::shared_ptr<Simulation> simulation,
                                                         std::string agent);
 

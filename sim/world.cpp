@@ -116,7 +116,7 @@ extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World
       tessera::sim::without_exceptions([&] { return tessera::sim::open(options); }), error);
 }
 
-/// Lists what a MuJoCo world has; throws nothing. See tessera::ListWorld.
+/// Lists the contents of a MuJoCo world; throws nothing. See tessera::ListWorld.
 extern "C" __attribute__((visibility("default"))) bool tessera_list_world_3(
     const tessera::WorldOptions& options, std::string& json, std::string& error) {
   auto listed = tessera::sim::without_exceptions([&] { return tessera::sim::list(options); });
@@ -127,7 +127,7 @@ extern "C" __attribute__((visibility("default"))) bool tessera_list_world_3(
   return static_cast<bool>(listed);
 }
 
-/// Opens a MuJoCo world to be drawn; throws nothing. See tessera::OpenPainter.
+/// Opens a MuJoCo world for drawing; throws nothing. See tessera::OpenPainter.
 extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::WorldPainter>
 tessera_open_painter_1(const tessera::WorldOptions& options, const tessera::PictureOptions& picture,
                        std::string& error) {

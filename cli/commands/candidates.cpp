@@ -22,7 +22,7 @@ namespace {
 
 constexpr std::size_t most_candidates = 2000;
 
-/// A word as the program would get it: without the quotes and backslashes of the shell.
+/// A word as the program gets it: without the quotes and backslashes of the shell.
 std::string unquoted(const std::string& word) {
   std::string text;
   for (std::size_t at = 0; at < word.size(); ++at) {
@@ -79,7 +79,7 @@ std::vector<std::string> property_values(const std::string& given) {
   return names;
 }
 
-/// The real buffers of this project with panels; of one of them the fields: "forward=".
+/// The real buffers with panels of this project; after the name of one of them, its fields: "forward=".
 std::vector<std::string> panel_values(const std::string& path) {
   const KnownOfProject known = specification_of(".");
   std::set<std::string> words;
@@ -97,7 +97,7 @@ std::vector<std::string> panel_values(const std::string& path) {
   return {words.begin(), words.end()};
 }
 
-/// Systems that run now, and processes of them: names like "SYSTEM.PROCESS.PID".
+/// The running systems, and processes of them: names like "SYSTEM.PROCESS.PID".
 std::vector<std::string> running_systems() {
   std::set<std::string> names;
   for (const std::filesystem::path& file : project::control_sockets(monitor_folder())) {
@@ -124,10 +124,10 @@ const std::map<std::string, ValueSource>& sources_of_values() {
   return sources;
 }
 
-/// What a line says so far.
+/// The words of the line typed so far.
 struct TypedLine {
   const CommandLine::Words* command = nullptr;
-  const CommandLine::Word* awaits_value = nullptr;  ///< the option whose value is typed
+  const CommandLine::Word* awaits_value = nullptr;  ///< the option whose value is being typed
   std::vector<std::string> arguments;               ///< without options and their values
 };
 
@@ -198,7 +198,7 @@ Candidates all_of(const std::vector<CommandLine::Words>& commands, const TypedLi
 
 Candidates candidates(const CommandLine& line, std::vector<std::string> typed) {
   if (typed.empty()) typed.emplace_back();
-  // bash takes --page=robot apart at the sign.
+  // bash splits --page=robot at the sign.
   std::erase(typed, "=");
   for (std::string& word : typed) word = unquoted(word);
   std::string last = typed.back();

@@ -12,8 +12,8 @@ namespace tessera::cli {
 
 namespace {
 
-// The scripts ask the command itself, so that completion is always up to date. `:files` is its answer where
-// the name of a file is wanted.
+// The scripts ask the command itself, so completion is always up to date. The answer `:files` means the name
+// of a file.
 constexpr const char* for_bash =
     R"(# bash completion of tessera: source this, or put it into /etc/bash_completion.d
 _tessera() {
@@ -78,7 +78,7 @@ void complete(const CommandLine& line, std::vector<std::string> typed) {
     for (const std::string& word : found.words)
       if (word.find('\n') == std::string::npos) fmt::print("{}\n", word);
   } catch (const std::exception&) {
-    // A shell that completes has no place for messages.
+    // A shell has no place for messages during completion.
   }
 }
 

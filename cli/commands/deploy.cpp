@@ -32,7 +32,7 @@ using namespace project;
 
 namespace {
 
-/// The names of `--only`; empty: it was not given. Throws std::runtime_error: it names nothing.
+/// The names of `--only`; empty: it was not given. Throws std::runtime_error: a name does not exist.
 std::vector<std::string> names_of_only(const std::string& list) {
   if (list == DeployOptions::all) return {};
   std::vector<std::string> names;
@@ -47,7 +47,7 @@ std::vector<std::string> names_of_only(const std::string& list) {
   return names;
 }
 
-/// Throws std::runtime_error: it is none.
+/// Throws std::runtime_error: it does not exist.
 std::uint32_t domain_of(const spec::Deployment& deployment, const NetworkOptions& network) {
   if (network.domain.empty()) return deployment.domain;
   std::uint32_t domain = 0;
@@ -75,7 +75,8 @@ bool may_start(const spec::Model& model, const std::vector<std::uint32_t>& proce
   return true;
 }
 
-/// What a restart cannot mend, since the others wait for ever for what a dead process has lost.
+/// A warning about the limits of a restart: other processes wait for ever for messages that a dead process
+/// has lost.
 void warn_of_partition(const Controller& controller, const DeployOptions& deploy) {
   if (deploy.restart == "never" && deploy.on_failure == "stop") return;
   const auto& all = controller.report.properties;
@@ -86,7 +87,7 @@ void warn_of_partition(const Controller& controller, const DeployOptions& deploy
         "may wait for ever (`tessera verify` says where a timeout is missing)\n");
 }
 
-/// Prints what the processes say, and keeps how each has ended.
+/// Prints the lines of the processes, and stores how each has ended.
 class DeployedRun final : public ProcessSetListener {
  public:
   DeployedRun(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
@@ -106,7 +107,7 @@ class DeployedRun final : public ProcessSetListener {
                   problem));
             })) {
     std::fflush(stdout);
-    options_.progress = false;  // several cannot share one line
+    options_.progress = false;  // several processes cannot share one line
     for (const std::uint32_t number : placement_.here) width_ = std::max(width_, name_of(number).size());
     ends_.resize(placement_.here.size());
   }
@@ -186,14 +187,14 @@ class DeployedRun final : public ProcessSetListener {
     nlohmann::json summary = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
     return summary.is_object() ? summary : nlohmann::json::object();
   }
-  /// One that was asked to stop has failed if it died, or says so itself.
+  /// A process that was asked to stop has failed if it died, or reports a failure itself.
   [[nodiscard]] bool has_failed(std::uint32_t number, const ProcessEnd& end) const {
     if (!end.asked) return end.exit.code != 0;
     if (never_began(number, end)) return false;
     const nlohmann::json summary = summary_of(number, end.start);
     return summary.empty() || summary.value("failed", false);
   }
-  /// The signal came before the controller could handle it: it has moved nothing.
+  /// The signal came before the controller could handle it: it has moved no device.
   [[nodiscard]] bool never_began(std::uint32_t number, const ProcessEnd& end) const {
     return end.asked && end.exit.code == 128 + asked_by_ && end.ran < std::chrono::seconds(2) &&
            summary_of(number, end.start).empty();
@@ -246,14 +247,14 @@ class DeployedRun final : public ProcessSetListener {
   Placement placement_;
   bool coloured_, any_failed_ = false;
   DeploymentFile file_;
-  /// Standard output and error. Pointers: their threads hold on to where they are.
+  /// Standard output and error. They are pointers, because their threads need a fixed address.
   std::unique_ptr<UnhurriedOutput> told_, said_;
   std::size_t width_ = 0;
   std::vector<End> ends_;
   int stopped_by_ = 0, asked_by_ = 0;
 };
 
-/// What a person has to start on other machines.
+/// The commands for other machines, which a person has to run there.
 void tell_of_others(const spec::Deployment& deployment, const Placement& placement,
                     const LaunchOptions& options, bool chosen) {
   std::map<std::string, std::string> by_host;
@@ -291,7 +292,7 @@ bool check_deployment(const std::string& spec, const DeployOptions& deploy, cons
            false;
   const std::vector<std::string> named =
       process.empty() ? names_of_only(deploy.only) : std::vector<std::string>{process};
-  // Throws for a name that is unknown.
+  // Throws for an unknown name.
   return may_start(*model, placement_of(deployment, named, machine_name()).here, deploy.network);
 }
 

@@ -17,8 +17,9 @@ struct DeployOptions {
   project::NetworkOptions network;
 };
 
-/// Do the options fit the deployment of the specification? Prints why not. process: of `--process`. True, too,
-/// if the specification cannot be read, which is told elsewhere. Called before anything is built.
+/// Checks that the options fit the deployment of the specification. Prints the mistakes. process: of
+/// `--process`. It is also true if the specification cannot be read, because another function reports that.
+/// Called before anything is built.
 [[nodiscard]] bool check_deployment(const std::string& spec, const DeployOptions& deploy,
                                     const std::string& process);
 

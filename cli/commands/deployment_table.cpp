@@ -20,7 +20,7 @@ using project::DeploymentWatch;
 using project::Snapshot;
 using project::WatchedProcess;
 
-/// A line of the table. Those in order are left out first.
+/// A line of the table. Lines without a problem are left out first.
 struct TableLine {
   std::string text;
   bool in_order = false;
@@ -58,10 +58,11 @@ std::string doings(const Snapshot& now) {
   return text;
 }
 
-/// Processes that run here, and those that others tell of.
+/// The processes of this machine, and those that others report.
 std::vector<TableLine> process_lines(const DeploymentWatch& deployment) {
   std::vector<TableLine> lines;
-  std::map<std::string, std::pair<std::string, std::string>> elsewhere;  // host, and who tells of it
+  std::map<std::string, std::pair<std::string, std::string>> elsewhere;  // host, and the process that reports
+                                                                         // it
   std::size_t width = 7;
   for (const WatchedProcess* one : deployment.processes()) width = std::max(width, one->name().size());
   for (const WatchedProcess* one : deployment.processes()) {
@@ -98,7 +99,7 @@ std::vector<TableLine> waiting_lines(const DeploymentWatch& deployment) {
   std::vector<TableLine> lines;
   for (const project::WaitingChain& chain : waiting_chains(deployment)) {
     std::string indent;
-    // What is at its end matters most.
+    // The end of the text matters most.
     const std::size_t left_out = chain.steps.size() > 6 ? chain.steps.size() - 4 : 0;
     for (std::size_t at = 0; at < chain.steps.size(); ++at) {
       if (left_out > 0 && at == 2) {
@@ -156,7 +157,7 @@ std::vector<TableLine> link_lines(const DeploymentWatch& deployment) {
   return lines;
 }
 
-/// At most `room` lines; those in order go first, then the last ones.
+/// At most `room` lines; those without a problem are dropped first, then the last ones.
 void shorten(std::vector<TableLine>& lines, std::size_t room, const char* what) {
   if (lines.size() <= room) return;
   const std::size_t all = lines.size();

@@ -12,8 +12,9 @@ struct ScreenSize {
   std::size_t rows = SIZE_MAX, columns = SIZE_MAX;
 };
 
-/// All processes of a deployed system on one screen: who waits for whom, what each process does, and what
-/// passes between them. What is in order is left out first if there is no room for all.
+/// All processes of a deployed system on one screen: which process waits for which, the state of each
+/// process, and the messages between them. If the screen is too small, lines without a problem are left out
+/// first.
 [[nodiscard]] std::string deployment_table(const std::string& system,
                                            const project::DeploymentWatch& deployment, ScreenSize screen);
 

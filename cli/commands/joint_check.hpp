@@ -9,13 +9,13 @@
 
 namespace tessera::cli {
 
-/// The recordings that an argument of `tessera replay` means: itself, or all of a folder that
-/// `tessera run --deploy` has made.
+/// The recordings for an argument of `tessera replay`: itself, or all in a folder that `tessera run --deploy`
+/// has made.
 [[nodiscard]] std::vector<std::string> recordings_of(const std::string& given);
 
-/// Are the recordings a legal run of the net of the specification? One recording, or several of the processes
-/// of a deployed system (replay/joint_legality.hpp). nullopt after the reason has been printed that there is
-/// no net to check against, or that they cannot be judged together.
+/// Checks that the recordings are a legal run of the net of the specification: one recording, or several of
+/// the processes of a deployed system (replay/joint_legality.hpp). nullopt: there is no net to check against,
+/// or they cannot be judged together; the reason has been printed.
 [[nodiscard]] std::optional<replay::Legality> check_against(const std::string& specification,
                                                             const std::vector<Recording>& recordings);
 

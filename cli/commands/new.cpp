@@ -31,12 +31,12 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A robot to begin with. An example is the template, so tests run what a new project starts from.
+/// A robot to start from. An example is the template, so the tests run what a new project starts from.
 struct Robot {
   const char* name;     ///< as --robot has it
   const char* example;  ///< its folder
   const char* system;   ///< the name of its system, which becomes that of the project
-  const char* what;     ///< in words
+  const char* what;     ///< description
   const char* hint;     ///< what to change first
 };
 
@@ -76,8 +76,8 @@ void copy_tree(const fs::path& from, const fs::path& to, const std::string& old_
       copy_renamed(entry.path(), to / fs::relative(entry.path(), from), old_name, name);
 }
 
-/// A folder beside that of the project, where the project is made. Nobody sees an incomplete project. A
-/// failure leaves no files behind and changes no existing ones.
+/// A folder beside that of the project, in which the project is made. So no program sees an incomplete
+/// project. A failure leaves no files behind and changes no existing ones.
 class Workshop {
  public:
   explicit Workshop(const fs::path& project) {
@@ -87,7 +87,7 @@ class Workshop {
     if (mkdtemp(pattern.data()) == nullptr)
       throw std::runtime_error(fmt::format("cannot write to {}: {}", parent.string(), std::strerror(errno)));
     folder_ = pattern;
-    fs::create_directory(folder_ / "project");  // with the usual mode
+    fs::create_directory(folder_ / "project");  // with the default mode
   }
   ~Workshop() {
     std::error_code ignored;
@@ -96,7 +96,7 @@ class Workshop {
   Workshop(const Workshop&) = delete;
   Workshop& operator=(const Workshop&) = delete;
   [[nodiscard]] fs::path folder() const { return folder_ / "project"; }
-  /// false: something with that name exists by now.
+  /// false: a file with that name exists meanwhile.
   [[nodiscard]] bool move_to(const fs::path& project) const {
     if (renameat2(AT_FDCWD, folder().c_str(), AT_FDCWD, project.c_str(), RENAME_NOREPLACE) == 0) return true;
     if (errno == EEXIST) return false;
@@ -120,7 +120,8 @@ bool may_name_a_system(const std::string& name) {
   return false;
 }
 
-/// Specification, code, tests and models. The rest of the example, such as its README, is not for a project.
+/// Copies specification, code, tests and models. The rest of the example, such as its README, is not for a
+/// project.
 void copy_example(const fs::path& example, const fs::path& made, const std::string& system,
                   const std::string& name) {
   for (const auto& entry : fs::directory_iterator(example)) {
@@ -132,7 +133,7 @@ void copy_example(const fs::path& example, const fs::path& made, const std::stri
   }
 }
 
-/// The project's own copies of the world and the floor that come with Tessera.
+/// Copies the world and the floor that come with Tessera into the project.
 void copy_shared_world(const fs::path& share, const fs::path& made) {
   fs::copy_file(share / "worlds/line_world.xml", made / "line_world.xml");
   fs::copy_file(share / "tracks/oval.png", made / "oval.png");

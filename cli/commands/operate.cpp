@@ -34,7 +34,7 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
 
 /// nullopt: it has ended, or does not answer.
 std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
-  // Beside answers it sends what it does, several times a second: lines come as long as it lives.
+  // It sends its state several times a second, beside answers: lines come as long as it runs.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
     const std::optional<std::string> said = controller.line();
@@ -46,15 +46,15 @@ std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
   return std::nullopt;
 }
 
-/// What is wrong; nullopt: nothing.
+/// The mistake; nullopt: there is none.
 std::optional<Problem> problem_of(const RunningController& controller,
                                   const std::optional<project::CommandAnswer>& answer) {
   if (!answer) return Problem{controller.name() + " has ended, or does not answer"};
   return answer->error.empty() ? std::nullopt : std::optional(Problem{answer->error});
 }
 
-/// One controller, or all processes of a deployed system: a parameter may be in any of them. Empty after the
-/// reason has been printed why there is none, or why they are not meant together.
+/// One controller, or all processes of a deployed system: a parameter may be in any of them. Empty: there is
+/// none, or they cannot be meant together; the reason has been printed.
 std::vector<SeenController> find_system(const std::string& which) {
   std::vector<SeenController> seen = first_look(find_controllers(which));
   if (seen.size() <= 1 || common_deployment(seen)) return seen;
@@ -101,11 +101,11 @@ int set_command(const OperateOptions& options) {
   return code;
 }
 
-/// Stops all controllers unless one is named: in an emergency, nobody has time to look up names.
+/// Stops all controllers unless one is named: in an emergency, there is no time to look up names.
 int emergency_stop_command(const OperateOptions& options) {
   std::vector<RunningController> controllers = find_controllers(options.which);
   const project::command::EmergencyStop command{options.why};
-  // All are told before one is waited for.
+  // Sends the command to all before it waits for one.
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
   for (RunningController& one : controllers) {
@@ -117,8 +117,8 @@ int emergency_stop_command(const OperateOptions& options) {
   return code;
 }
 
-/// The processes of a deployed system that have an emergency stop. To move devices again is nothing that
-/// should happen to a system that was not named.
+/// The processes of a deployed system that have an emergency stop. A system must be named, because its
+/// devices move again.
 int reset_processes(std::vector<SeenController>& processes, const std::string& system) {
   std::vector<SeenController*> stopped;
   int code = ok;

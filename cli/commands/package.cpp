@@ -35,7 +35,7 @@ std::vector<std::string> names_between_commas(const std::string& list) {
   return names;
 }
 
-/// nullopt: that of this machine. Throws std::runtime_error if nothing is installed for another one.
+/// nullopt: the processor of this machine. Throws std::runtime_error if the other one is not installed.
 std::optional<OtherProcessor> processor_of(const PackageCommandOptions& options) {
   const std::string& name = options.architecture;
   if (name.empty() || (options.runtime.empty() && name == architecture_of_this_machine()))

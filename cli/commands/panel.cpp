@@ -21,7 +21,7 @@
 #include "project/process/control_messages.hpp"
 #include "tessera/given_values.hpp"
 
-/// `tessera panel`: an operator without a page.
+/// `tessera panel`: a panel for an operator without a browser.
 namespace tessera::cli {
 
 namespace {
@@ -37,7 +37,7 @@ struct PanelOptions {
 constexpr std::chrono::milliseconds repetition{100};
 std::atomic<bool> interrupted{false};
 
-/// nullopt after the complaint.
+/// nullopt: the mistake has been printed.
 std::optional<PanelCommand::Value> panel_value(const std::string& text) {
   if (text == "true" || text == "false") return text == "true";
   double number = 0;
@@ -63,7 +63,7 @@ std::optional<PanelCommand> panel_command_of(const PanelOptions& options) {
   return command;
 }
 
-/// The answer to a command, among the lines that come anyhow. nullopt: it does not answer.
+/// The answer to a command, found among the regular lines. nullopt: the process does not answer.
 std::optional<project::CommandAnswer> panel_answer(RunningController& controller,
                                                    const PanelCommand& command) {
   static int last = 0;
@@ -80,7 +80,7 @@ std::optional<project::CommandAnswer> panel_answer(RunningController& controller
   return std::nullopt;
 }
 
-/// The process that has the panel, which has taken the command; nullptr after the complaint.
+/// The process that has the panel and has taken the command; nullptr: the mistake has been printed.
 RunningController* operate(std::vector<SeenController>& processes, const PanelCommand& command) {
   std::string unknown = "no controller answers";
   for (SeenController& one : processes) {

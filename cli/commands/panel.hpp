@@ -4,7 +4,7 @@
 
 namespace tessera::cli {
 
-/// Says which panels nobody can operate in a simulated run that takes no commands.
+/// Prints the panels that cannot be operated in a simulated run without a control socket.
 void tell_of_panels(const spec::Model& model);
 
 }  // namespace tessera::cli

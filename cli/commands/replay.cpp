@@ -47,7 +47,7 @@ struct ReplayOptions {
   std::size_t last = 0;
   bool check = false, print = false;
   FilmOptions film;
-  std::string values;  ///< of buffers whose path contains this; all_values; empty: none
+  std::string values;  ///< buffers whose path contains this; all_values; empty: none
 };
 
 // ---------------------------------------------------------------------------------------------- the events
@@ -180,7 +180,7 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
 
 // ---------------------------------------------------------------------------------------------- check
 
-/// The specification of a recording: in its folder or in one above.
+/// The specification of a recording, in its folder or in one above.
 std::string specification_of(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
@@ -228,7 +228,7 @@ bool known_values(const Recording& recording, const std::string& wanted) {
   return false;
 }
 
-/// The last run of the project in this folder, wherever its files are kept.
+/// The last run of the project in this folder, wherever its files are.
 std::string last_recording(const fs::path& project = ".") {
   const fs::path kept = state_folder(fs::canonical(project)) / "last";
   for (const fs::path& last : {(project / usual_recording).parent_path().lexically_normal(), kept}) {
@@ -238,7 +238,7 @@ std::string last_recording(const fs::path& project = ".") {
   return usual_recording;
 }
 
-/// Of all recordings together, which must be of one net.
+/// The joint summary of all recordings, which must be of one net.
 int coverage_command(const ReplayOptions& options) {
   const std::optional<Specification> specification = read(specification_of(options), terminal());
   if (!specification) return exit_code_without_net();
@@ -268,7 +268,7 @@ json to_json(const replay::Legality& legality) {
   return {{"verdict", name_of(legality.verdict)}, {"firings", legality.firings}, {"why", legality.why}};
 }
 
-/// Of the processes of a deployed system.
+/// The check of the recordings of a deployed system's processes.
 int joint_command(const ReplayOptions& options) {
   std::vector<Recording> recordings;
   for (const std::string& file : options.recordings) {
@@ -284,7 +284,7 @@ int joint_command(const ReplayOptions& options) {
   return exit_code_of(legality->verdict);
 }
 
-/// --check alone is for several recordings, too.
+/// Only --check accepts several recordings.
 bool only_checks(const ReplayOptions& options) {
   return options.check && !options.print && options.values.empty() && options.csv.empty() &&
          options.perfetto.empty();

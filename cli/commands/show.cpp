@@ -23,7 +23,7 @@ struct ShowOptions {
   bool flat = false, counts = false;
 };
 
-// Levels of pages below the system down to, and with, that layer.
+// Levels of pages below the system down to, and including, that layer.
 unsigned levels_to(const std::string& layer) {
   for (std::size_t index = 0; index < net::layer_count; ++index)
     if (layer == net::name_of(static_cast<net::Layer>(index))) return static_cast<unsigned>(index);
@@ -59,7 +59,7 @@ void print_counts(const net::Counts& counts) {
              counts.transitions, counts.arcs);
 }
 
-// Writes one or two pictures, if they are asked for.
+// Writes one or two pictures, if they are requested.
 bool draw(const ShowOptions& options, const Specification& specification, const Nets& nets,
           net::PageId page) {
   const drawing::Options picture = picture_options(options, specification.model);

@@ -42,8 +42,8 @@ struct RunCommandOptions : LaunchOptions {
   DeployOptions deploy;
 };
 
-// Even a run that failed writes a summary, which says why. Only a controller that
-// could not start leaves none.
+// Even a run that failed writes a summary, which says why. Only a controller that could not start leaves
+// none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
            const Command& command, const std::string& json, const std::string& report_folder,
            const std::string& coverage = {}) {
@@ -70,7 +70,7 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
   return exit.code;
 }
 
-// The command that repeats one of the schedules, alone and recorded, when its seed is put behind it.
+// The command that repeats one of the schedules, alone and recorded, when its seed is appended.
 std::string reproduction(const SimulateOptions& options) {
   Command line{"tessera", "simulate", options.spec, "--interleave", "--for", options.duration};
   const auto add = [&](const char* option, const std::string& value) {
@@ -117,14 +117,14 @@ RunFolder folder_for(Controller& controller, LaunchOptions& options, const char*
   return folder;
 }
 
-/// Called before anything takes time.
+/// Called before any long work.
 void check_outputs(const LaunchOptions& options, const std::string& json, const std::string& report) {
   check_recording(options.record);
   check_replaceable(json, "{");
   check_report(report);
 }
 
-/// The options of schedules mean nothing without them.
+/// The options of schedules have no effect without them.
 bool schedules_fit(const SimulateOptions& options) {
   const ScheduleOptions& schedules = options.schedules;
   const bool is_asked = !schedules.part.empty() || schedules.jobs > 0 || !schedules.results.empty();
@@ -138,7 +138,7 @@ int simulate_command(SimulateOptions options) {
   if (options.spec.ends_with(".pnml"))
     return play_net({options.spec, options.steps, options.seed, options.json});
   if (const int code = check_run(options, options.from.empty()); code != ok) return code;
-  // A scenario shows a violation, so the controller must be made in spite of it.
+  // A scenario shows a violation, so the controller must be made although the property is violated.
   if (!options.scenario.empty()) options.gate.accept_violations = true;
   check_outputs(options, options.json, options.report);
   check_replaceable(options.schedules.results, "{");
@@ -174,7 +174,7 @@ int simulate_command(SimulateOptions options) {
   return launch(*controller, folder, options, command, options.json, options.report, options.coverage);
 }
 
-/// One process of a deployed system, as any other run.
+/// One process of a deployed system, run like any other.
 int launch_process(const Controller& controller, const RunFolder& folder, const RunCommandOptions& options) {
   Command command = controller_command(controller, options, "run", /*simulated=*/false);
   add_process(command, options.process, options.deploy.network);

@@ -28,7 +28,7 @@ struct StudioCommandOptions {
   bool no_browser = false;
 };
 
-/// Keeps SIGINT and SIGTERM from all threads that are made while it exists.
+/// Blocks SIGINT and SIGTERM for all threads that are made during its lifetime.
 class EndSignals {
  public:
   EndSignals() {
@@ -50,7 +50,7 @@ class EndSignals {
 };
 
 void open_browser(const std::string& url) {
-  // Without a display, the user reads the address.
+  // Without a display, the user opens the printed address.
   if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
   try {
     static_cast<void>(project::capture({"xdg-open", url}));
@@ -62,7 +62,7 @@ int studio_command(const StudioCommandOptions& options) {
   fs::path given = project::spec_file(options.spec);
   if (fs::is_directory(given)) given /= project::file_names::specification;
   const bool is_there = fs::exists(given);
-  // Only a name that was meant for a specification is one to begin: others are most likely mistyped.
+  // A new file is begun only under the name of a specification: other names are most likely mistyped.
   const bool can_begin = given.extension() == ".yaml" || given.extension() == ".yml";
   const fs::path folder = fs::absolute(given).parent_path();
   if (!is_there && !(can_begin && fs::is_directory(folder)))

@@ -35,7 +35,7 @@ std::vector<std::string> names_of_tests(Command command) {
   std::vector<std::string> names;
   std::string suite;
   static_cast<void>(capture(command, [&](std::string_view line) {
-    // The name of a suite, "Follow.", is not indented; its tests are, some with a comment.
+    // The name of a suite, "Follow.", is not indented; its tests are, and some have a comment.
     line = line.substr(0, line.find("  #"));
     while (line.ends_with('\n') || line.ends_with(' ')) line.remove_suffix(1);
     if (line.starts_with("  "))
@@ -46,7 +46,7 @@ std::vector<std::string> names_of_tests(Command command) {
   return names;
 }
 
-/// Running no test at all says nothing about the functions, so it is an error.
+/// A command that runs no test at all checks no function, so it is an error.
 int complain_of_no_tests(const std::string& program, const std::string& filter) {
   const std::vector<std::string> all = names_of_tests({program});
   if (all.empty()) return complain("test/ has files, and no test in them: write TEST(Suite, Name) { ... }");
@@ -57,8 +57,8 @@ int complain_of_no_tests(const std::string& program, const std::string& filter) 
   return complain(fmt::format("no test matches --filter {}; there are {}", filter, list));
 }
 
-/// Says which lines of the user's functions the tests have not reached, and which parts of the net their
-/// simulations have not.
+/// Prints the lines of the user's functions that the tests have not reached, and the parts of the net that
+/// their simulations have not reached.
 void report_reached(const Specification& specification, const fs::path& recordings) {
   std::size_t all = 0, missed = 0;
   fmt::print("\nlines of src/ that the tests have reached:\n");

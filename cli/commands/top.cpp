@@ -55,7 +55,7 @@ std::string state_of(const Snapshot::Subsystem& subsystem) {
   return *subsystem.behaviour + (subsystem.calling ? " *" : "");
 }
 
-/// "    free 0.35  side 1", on as many lines as it takes.
+/// "    free 0.35  side 1", on as many lines as needed.
 std::string memory_of(const Snapshot::Subsystem& subsystem) {
   constexpr std::size_t widest = 108, most_lines = 4;
   std::vector<std::string> lines;
@@ -74,7 +74,7 @@ std::string memory_of(const Snapshot::Subsystem& subsystem) {
                                             : "\n");
 }
 
-/// Both of one controller.
+/// The table and the details of one controller.
 std::string table(const Snapshot& now, const Snapshot& before) {
   const double elapsed_s = now.time_s - before.time_s;
   std::string text =
@@ -133,7 +133,7 @@ int watch_one(SeenController& watched, const TopOptions& options) {
 
 using Clock = project::DeploymentWatch::Clock;
 
-/// Until each process that was found has told what it does, or takes too long.
+/// Waits until each process that was found has sent its state, or takes too long.
 void wait_for_all(project::DeploymentWatch& deployment, std::size_t found,
                   const project::DeploymentWatch::EachLine& each_line) {
   const auto end = Clock::now() + project::DeploymentWatch::longest_silence + std::chrono::milliseconds(200);
@@ -194,7 +194,7 @@ int watch_deployment(const std::string& system, std::size_t found, const TopOpti
       shown = now;
       if (options.once) return ok;
     }
-    // One that has failed may be started again.
+    // A process that has failed may be started again.
     if (now - last_seen > std::chrono::seconds(3)) break;
     deployment.poll(std::chrono::milliseconds(200));
   }

@@ -13,7 +13,7 @@ namespace tessera::cli {
 
 UnhurriedOutput::UnhurriedOutput(int descriptor, Complain complain)
     : descriptor_(descriptor), complain_(std::move(complain)) {
-  // Its writes may raise signals that end or stop a process; signals of others go to other threads.
+  // Its writes may raise signals that end or stop a process; signals of other origin go to other threads.
   sigset_t all, before;
   sigfillset(&all);
   pthread_sigmask(SIG_BLOCK, &all, &before);
@@ -69,13 +69,13 @@ void UnhurriedOutput::write_all() {
   }
 }
 
-/// A piece that cannot be written is lost: a later one may find room on the disk again.
+/// A piece that cannot be written is lost; a later one may find space on the disk again.
 void UnhurriedOutput::write_one(const std::string& text) {
   int error = 0;
   for (std::string_view left = text; !left.empty() && error == 0;) {
     const ssize_t count = ::write(descriptor_, left.data(), left.size());
     if (count >= 0) left.remove_prefix(static_cast<std::size_t>(count));
-    if (count < 0 && errno == EAGAIN) {  // somebody has made it non-blocking
+    if (count < 0 && errno == EAGAIN) {  // another program has made it non-blocking
       std::this_thread::sleep_for(std::chrono::milliseconds(10));
     } else if (count < 0 && errno != EINTR) {
       error = errno;

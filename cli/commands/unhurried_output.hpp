@@ -12,28 +12,29 @@
 
 namespace tessera::cli {
 
-/// Text to a descriptor that may take it slowly, or not at all: a stopped terminal, a full pipe or disk, a
-/// reader that has gone. Nobody who writes waits or fails, since they may watch over robots. What finds no room
+/// Text to a descriptor that may accept it slowly, or not at all: a stopped terminal, a full pipe or disk, a
+/// reader that has gone. No writer waits or fails, because it may watch over robots. Text beyond the buffer
 /// is left out, and the output says how many pieces that were.
 ///
 /// Threads: any.
 class UnhurriedOutput {
  public:
-  /// Beyond so much that nobody has taken, text is left out.
+  /// Text beyond this unread amount is left out.
   static constexpr std::size_t most_waiting = std::size_t{1} << 20U;
 
-  /// Told what is wrong with the output, each time anew that something is: "Broken pipe". It is called in a
-  /// thread of the output, and must not wait or throw.
+  /// Receives the problem of the output, "Broken pipe", each time that one begins. It is called in a thread
+  /// of the output, and must not wait or throw.
   using Complain = std::function<void(std::string_view)>;
   explicit UnhurriedOutput(int descriptor, Complain complain = {});
-  /// Waits until all is written, or cannot be.
+  /// Waits until all text is written, or cannot be.
   ~UnhurriedOutput();
   UnhurriedOutput(const UnhurriedOutput&) = delete;
   UnhurriedOutput& operator=(const UnhurriedOutput&) = delete;
 
   /// text: whole lines.
   void write(std::string text);
-  /// Waits until all is written or cannot be, at most so long; not again while nobody takes anything.
+  /// Waits until all text is written or cannot be, at most for this time; not again while the reader is
+  /// blocked.
   void settle(std::chrono::milliseconds longest);
 
  private:
@@ -47,7 +48,7 @@ class UnhurriedOutput {
   std::deque<std::string> waiting_;
   std::size_t bytes_ = 0, left_out_ = 0;
   bool writing_ = false, ending_ = false, stuck_ = false;
-  int error_ = 0;  ///< of the last write; 0: it went well. Used by the thread only
+  int error_ = 0;  ///< of the last write; 0: it succeeded. Used by the thread only
   std::thread thread_;
 };
 

@@ -36,7 +36,7 @@ struct VerifyOptions {
 std::atomic<bool> searches_stopped{false};
 void stop_searches(int /*signal*/) { searches_stopped.store(true, std::memory_order_relaxed); }
 
-/// While it exists, Ctrl-C ends the searches and not the command.
+/// During its lifetime, Ctrl-C ends the searches and not the command.
 class Interruptible {
  public:
   Interruptible() : before_(std::signal(SIGINT, stop_searches)) {}
@@ -48,10 +48,10 @@ class Interruptible {
   void (*before_)(int);
 };
 
-/// The net to judge, of a specification or of a PNML file.
+/// The net to judge, from a specification or from a PNML file.
 struct Judged {
   std::string file;
-  std::optional<Nets> nets;  ///< of a specification
+  std::optional<Nets> nets;  ///< from a specification
   std::optional<net::Net> drawn;
   std::vector<net::Invariant> invariants;
 

@@ -35,7 +35,7 @@ constexpr Group groups[] = {{"sensors", "Sensors"}, {"joints", "Joints"},       
                             {"sites", "Sites"},     {"cameras", "Cameras"},       {"bodies", "Bodies"},
                             {"geoms", "Geoms"},     {"equalities", "Equalities"}, {"keyframes", "Keyframes"}};
 
-/// "gyro  sensor  float64[3]", and what else there is to say.
+/// "gyro  sensor  float64[3]", and the remaining facts.
 std::string line_of(const Json& entry) {
   std::string more;
   if (entry.contains("joint")) more += "  " + text_in(entry, "joint");

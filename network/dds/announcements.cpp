@@ -8,7 +8,7 @@
 namespace tessera::dds {
 namespace {
 
-/// So that strangers cannot fill the memory.
+/// The limit keeps other hosts from filling the memory.
 constexpr std::size_t most_complaints = 1000;
 
 std::string host_name() {
@@ -22,7 +22,7 @@ std::string boot_id() {
   return id;
 }
 
-/// Text of strangers, for a terminal.
+/// Text from other hosts, made safe for a terminal.
 std::string shown(const std::string& text) {
   std::string result = text.substr(0, 64);
   for (char& letter : result)

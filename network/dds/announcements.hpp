@@ -9,10 +9,11 @@
 
 namespace tessera::dds {
 
-/// Of the messages that carry values, states and signs of life. Those of another version are never read.
+/// The version of the messages that carry values, states and signs of life. Messages of another version are
+/// never read.
 inline constexpr std::uint32_t wire_version = 2;
 
-/// What each process says of itself to all others of its domain.
+/// The description of itself that each process sends to all others of its domain.
 struct Announcement {
   std::uint64_t incarnation = 0;
   std::string system, process_name;
@@ -23,11 +24,11 @@ struct Announcement {
   auto operator<=>(const Announcement&) const = default;
 };
 
-/// Of this process.
+/// The announcement of this process.
 [[nodiscard]] Announcement announcement_of(const Deployment& deployment);
 
-/// Tells of processes of the same system that cannot work together with this one. Without that they would
-/// only never be found. Each is told of once.
+/// Reports processes of the same system that cannot work together with this one. Without a report, they would
+/// silently never connect. Each is reported once.
 class Announcements {
  public:
   explicit Announcements(const Deployment& deployment);

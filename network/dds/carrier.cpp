@@ -11,7 +11,7 @@
 namespace tessera::dds {
 namespace {
 
-/// So that a flood of messages does not keep receive() for ever.
+/// The limit keeps a flood of messages from holding up receive() for ever.
 constexpr int most_at_once = 1000;
 
 network::Incarnation incarnation(std::uint64_t value) { return {value}; }
@@ -65,7 +65,7 @@ Announcement fields(const tessera_wire_Announcement& sample) {
           .boot = sample.boot};
 }
 
-/// Notices whether a listener was told something.
+/// Notices whether a listener was called.
 class Attentive final : public network::Carrier::Listener {
  public:
   explicit Attentive(network::Carrier::Listener& listener) : listener_(listener) {}
@@ -81,7 +81,7 @@ class Attentive final : public network::Carrier::Listener {
     told_ = true;
     listener_.reachable(process, is_there);
   }
-  // It changes nothing that anybody waits for.
+  // Does not count as news: no caller waits for a sign of life.
   void alive(ProcessNumber process, const network::SignsOfLife& signs) override {
     listener_.alive(process, signs);
   }
@@ -119,7 +119,7 @@ DdsCarrier::DdsCarrier(const network::CarrierSetup& setup, const AddressOf& addr
       search_(hosts_of(location_.unresolved), address_of, search_interval),
       domain_(setup.domain),
       endpoints_(std::make_unique<Endpoints>(deployment_, domain_, location_)),
-      // One byte more than the longest, so that a longer one is noticed.
+      // One byte more than the longest value, so that a longer one is noticed.
       room_(deployment_.longest_received_bytes() + 1) {}
 
 void DdsCarrier::wake() {
@@ -134,9 +134,9 @@ void DdsCarrier::tell_of_unresolved(Listener& listener) {
   location_.unresolved.clear();
 }
 
-/// The middleware takes peers only when its domain is made. So a second domain replaces the first. The others
-/// see this process leave and come again, with the same incarnation; the protocol of channels sends again what was
-/// on the way.
+/// The middleware takes peers only when its domain is made. So a second domain replaces the first. The other
+/// processes see this process leave and return with the same incarnation; the protocol of channels repeats
+/// the messages that were on the way.
 void DdsCarrier::join_found(Listener& listener) {
   bool any = false;
   for (const PeerSearch::Found& found : search_.take_found()) try {
@@ -150,7 +150,7 @@ void DdsCarrier::join_found(Listener& listener) {
     auto wider = std::make_unique<Endpoints>(deployment_, domain_, location_);
     const std::lock_guard lock(replacing_);
     endpoints_.swap(wider);
-    endpoints_->wake();  // a wake of the first may be lost
+    endpoints_->wake();  // a wake of the first domain may be lost
     next_sign_of_life_ = Clock::time_point::min();
   } catch (const SetupError& problem) {
     listener.complaint(std::string("peers cannot be added: ") + problem.what());
@@ -172,7 +172,7 @@ void DdsCarrier::send(ChannelNumber number, const network::Data& data, const net
   if (!data.recall) {
     sample.stamp_ns = value.stamp.count();
     sample.valid = value.valid;
-    // The middleware reads them only. Its type knows no constant bytes.
+    // The middleware only reads them, but its C type has no const.
     sample.bytes._buffer =
         const_cast<std::uint8_t*>(reinterpret_cast<const std::uint8_t*>(value.bytes.data()));
     sample.bytes._length = sample.bytes._maximum = static_cast<std::uint32_t>(value.bytes.size());
@@ -192,7 +192,7 @@ void DdsCarrier::send(ChannelNumber number, const network::State& state) {
 }
 
 void DdsCarrier::count_unsent(dds_return_t result, const Channel& channel) {
-  // A timeout is what a full network looks like: the protocol sends again.
+  // A full network shows as a timeout; the protocol sends again.
   if (result == DDS_RETCODE_OK || result == DDS_RETCODE_TIMEOUT) return;
   unsent_.add([&] { return "on channel " + channel.name + ": " + dds_strretcode(result); });
 }
@@ -205,7 +205,7 @@ void DdsCarrier::receive(Listener& told, std::chrono::nanoseconds longest) {
     join_found(listener);
     const bool woken = endpoints_->was_woken();
     take_all(listener);
-    // After what has arrived: it may have waited for long, if nobody received.
+    // After the messages that have arrived: they may have waited for long if receive() was not called.
     const Clock::time_point now = Clock::now();
     presence_.look(now, listener);
     dropped_.tell(now, listener);
@@ -247,8 +247,8 @@ void DdsCarrier::take_all(Listener& listener) {
 }
 
 bool DdsCarrier::take(tessera_wire_Data& sample, dds_sample_info_t& info) {
-  // The middleware cuts off what is longer: the room is not its own to grow. It forgets the room if somebody has
-  // gone and there is no value.
+  // The middleware cuts off a longer value, because it cannot enlarge this buffer. It forgets the buffer when
+  // a writer has left and there is no value.
   sample.bytes._buffer = room_.data();
   sample.bytes._maximum = static_cast<std::uint32_t>(room_.size());
   sample.bytes._length = 0;
@@ -312,7 +312,7 @@ void DdsCarrier::take_alive(Listener& listener, Clock::time_point now) {
 
 void DdsCarrier::hear(const ReceivedAlive& alive, bool whole, Listener& listener, Clock::time_point now) {
   presence_.heard(alive.process, alive.incarnation, now, listener);
-  if (!whole) return;  // the middleware tells only that it is there
+  if (!whole) return;  // the middleware reports a writer without a value
   if (const auto signs = signs_.hear(alive, Clock::now().time_since_epoch(), wall_time()))
     listener.alive(alive.process, *signs);
 }

@@ -22,15 +22,15 @@ namespace tessera::dds {
 
 /// Carries the messages of channels over Cyclone DDS (docs/fleets.md, "On the wire").
 ///
-/// A process that shares a channel with this one is reachable when its signs of life arrive. They are sent while
-/// receive() runs: a process that does not call it is not reachable for the others. An incarnation that replaces
-/// another is told of as not reachable, then reachable.
+/// A process that shares a channel with this one is reachable while its signs of life arrive. They are sent
+/// by receive(), so a process that does not call it is unreachable for the others. When an incarnation
+/// replaces another, the process is reported as unreachable, then as reachable.
 ///
-/// After it was made it allocates nothing for a message. (The middleware does.)
+/// After its construction, it allocates nothing for a message. (The middleware does.)
 class DdsCarrier final : public network::Carrier {
  public:
-  /// address_of: for peers that are named by their name. It waits for that. A peer that has no address yet is
-  /// asked for again; the process goes on without it meanwhile.
+  /// address_of: resolves peers that are given by name; the constructor waits for it. A peer that has no
+  /// address yet is looked up again later, and the process goes on without it meanwhile.
   /// Errors: SetupError.
   explicit DdsCarrier(const network::CarrierSetup& setup, const AddressOf& address_of = resolve,
                       std::chrono::milliseconds search_interval = PeerSearch::interval);
@@ -65,10 +65,10 @@ class DdsCarrier final : public network::Carrier {
   Location location_;
   PeerSearch search_;
   const int domain_;
-  std::mutex replacing_;  ///< of endpoints_, against wake()
+  std::mutex replacing_;  ///< protects endpoints_ against wake()
   std::unique_ptr<Endpoints> endpoints_;
   Clock::time_point next_sign_of_life_ = Clock::time_point::min();
-  std::vector<std::uint8_t> room_;  ///< for the value that is read next
+  std::vector<std::uint8_t> room_;  ///< buffer for the value that is read next
 };
 
 }  // namespace tessera::dds

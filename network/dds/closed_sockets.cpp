@@ -22,7 +22,7 @@ struct FolderCloser {
   void operator()(DIR* folder) const { closedir(folder); }
 };
 
-/// Bound to all addresses, at a port of the domain.
+/// Whether the socket is bound to all addresses, at a port of the domain.
 bool is_receiver_of(int domain, int file) {
   sockaddr_in address{};
   socklen_t size = sizeof address;
@@ -32,7 +32,7 @@ bool is_receiver_of(int domain, int file) {
   return port >= first_port(domain) && port < first_port(domain) + ports_of_a_host;
 }
 
-/// Accepts what comes from one of two interfaces. Messages of a host to its own address come from loopback.
+/// Accepts packets from these two interfaces only. Messages of a host to its own address come from loopback.
 void accept_only_from(int file, unsigned interface, unsigned loopback) {
   constexpr auto whole = std::numeric_limits<std::uint32_t>::max();
   const auto load = static_cast<std::uint32_t>(SKF_AD_OFF + SKF_AD_IFINDEX);

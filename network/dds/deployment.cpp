@@ -11,9 +11,9 @@
 namespace tessera::dds {
 namespace {
 
-/// FNV-1a, of all names in their order, and of the liveliness: if two processes had different ones, the one with the
-/// shorter would take the other for gone between its signs of life. It tells deployments apart; it protects from
-/// nobody.
+/// FNV-1a of all names in their order, and of the liveliness: with different ones, the process with the
+/// shorter liveliness would lose the other between two signs of life. The hash tells deployments apart; it is
+/// no protection against an attacker.
 std::string hash_of(std::span<const std::string_view> names, std::chrono::nanoseconds liveliness) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&](unsigned char byte) { hash = (hash ^ byte) * 0x100000001b3U; };

@@ -19,15 +19,15 @@ struct Channel {
   std::uint32_t longest_value_bytes = 0;
 };
 
-/// What a process knows of the system that it is a part of: a setup, kept and checked.
+/// The facts of a system that a process is a part of: a CarrierSetup, copied and checked.
 struct Deployment {
   std::string system, net_hash;
   std::string processes_hash;  ///< 16 hexadecimal digits, of the names of all processes and of the liveliness
   ProcessNumber process = 0;   ///< this one
   std::uint64_t incarnation = 0;
-  std::chrono::nanoseconds liveliness{0};  ///< a process that was silent for so long is not reachable
+  std::chrono::nanoseconds liveliness{0};  ///< a process that is silent for longer is not reachable
 
-  /// How often a process says that it is there: five signs of life may be lost in a row.
+  /// The period of the signs of life of a process. Five in a row may be lost.
   [[nodiscard]] std::chrono::nanoseconds sign_of_life_period() const { return liveliness / 6; }
 
   std::vector<std::string> processes;  ///< names, by number
@@ -35,10 +35,10 @@ struct Deployment {
   std::vector<ProcessNumber> peers;  ///< the processes that share a channel with this one, in ascending order
 
   [[nodiscard]] const Channel* channel(ChannelNumber number) const;
-  /// A channel on which this process sends values to `peer`, or receives them from it, exists.
+  /// Whether there is a channel on which this process sends values to `peer`, or receives them from it.
   [[nodiscard]] bool sends_to(ProcessNumber peer) const;
   [[nodiscard]] bool receives_from(ProcessNumber peer) const;
-  /// Of the values that this process receives.
+  /// The size of the longest value that this process receives.
   [[nodiscard]] std::uint32_t longest_received_bytes() const;
 };
 

@@ -9,18 +9,19 @@
 
 namespace tessera::dds {
 
-/// Counts messages that were dropped, and tells of them once a second at most: an attacker, or a mistake,
-/// shall not fill the disk with complaints.
+/// Counts dropped messages, and reports them once a second at most, so that an attacker or a mistake cannot
+/// fill the disk with complaints.
 class Dropped {
  public:
-  /// verb: "dropped"; "could not send".
+  /// verb: "dropped" or "could not send".
   explicit Dropped(const char* verb) : verb_(verb) {}
-  /// describe: gives the text for this message. It is called for the first one since the last complaint only.
+  /// describe: gives the text for this message. It is called only for the first message since the last
+  /// complaint.
   template <class Describe>
   void add(Describe describe) {
     if (count_++ == 0) first_ = describe();
   }
-  /// Complains if there is something, and the last complaint was at least a second ago.
+  /// Complains if a message was dropped and the last complaint is at least a second old.
   void tell(Clock::time_point now, network::Carrier::Listener& listener) {
     if (count_ == 0 || now < next_) return;
     next_ = now + std::chrono::seconds(1);

@@ -25,7 +25,7 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 
 Qos new_qos() { return {dds_create_qos(), &dds_delete_qos}; }
 
-/// Keeps the newest value of each channel. A write waits for nothing.
+/// Keeps the newest value of each channel. A write never waits.
 Qos newest(dds_reliability_kind_t reliability, dds_durability_kind_t durability) {
   Qos qos = new_qos();
   dds_qset_reliability(qos.get(), reliability, 0);
@@ -38,7 +38,7 @@ Qos qos_of_data() { return newest(DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_VOLAT
 Qos qos_of_state() { return newest(DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL); }
 Qos qos_of_alive() { return newest(DDS_RELIABILITY_BEST_EFFORT, DDS_DURABILITY_VOLATILE); }
 
-/// "tessera/2/line/0a1b/2c3d/data". Other versions, systems, nets and lists of processes do not match.
+/// "tessera/2/line/0a1b/2c3d/data". Other versions, systems, nets and lists of processes have other names.
 std::string topic_name(const Deployment& deployment, const char* what) {
   std::string name = "tessera/" + std::to_string(wire_version) + "/" + deployment.system + "/" +
                      deployment.net_hash + "/" + deployment.processes_hash + "/" + what;
@@ -47,7 +47,7 @@ std::string topic_name(const Deployment& deployment, const char* what) {
   return name;
 }
 
-/// A number, since names like "cart[0]" would be patterns for some implementations.
+/// A number, because some implementations take names like "cart[0]" as patterns.
 Qos in_partitions(const std::vector<ProcessNumber>& processes) {
   std::vector<std::string> names;
   for (const ProcessNumber process : processes) names.push_back(std::to_string(process));
@@ -59,7 +59,7 @@ Qos in_partitions(const std::vector<ProcessNumber>& processes) {
 }
 
 std::uint32_t next_number_of_domain() {
-  static std::atomic<std::uint32_t> next{0x7e55e7a0U};  // far from the numbers that others use
+  static std::atomic<std::uint32_t> next{0x7e55e7a0U};  // far from the numbers that other programs use
   return next++;
 }
 

@@ -9,8 +9,8 @@
 
 namespace tessera::dds {
 
-/// The domain of a carrier with all that is in it. It is one of its own, even if others in this process
-/// use the same number of a domain, so that its configuration is its own.
+/// The DDS domain of a carrier with everything in it. Each carrier has a domain object of its own, even if
+/// others in this process use the same domain number, so that its configuration is its own.
 class Domain {
  public:
   /// Errors: SetupError.
@@ -24,10 +24,10 @@ class Domain {
   dds_entity_t domain_ = 0, participant_ = 0;
 };
 
-/// What a process writes and reads.
+/// The writers and readers of a process.
 ///
-/// Each process reads from a partition that has its number, and writes to the partitions of those for whom it has
-/// something. So no message of a channel goes to a process that does not have the channel.
+/// Each process reads from the partition of its own number, and writes to the partitions of the processes
+/// that share a channel with it. So a message of a channel never reaches a process without that channel.
 class Endpoints {
  public:
   /// Errors: SetupError.
@@ -46,7 +46,7 @@ class Endpoints {
   void wait(dds_duration_t longest) const;
   /// Threads: any.
   void wake() const { dds_set_guardcondition(guard_, true); }
-  /// Whether wake() was called since.
+  /// Whether wake() was called since the last call.
   [[nodiscard]] bool was_woken() const;
 
  private:

@@ -10,7 +10,7 @@
 
 namespace tessera::dds {
 
-/// Where in the network a process is, and where it looks for others.
+/// The address of a process in the network, and the addresses where it looks for others.
 struct Location {
   unsigned interface_index = 0;  ///< as the kernel numbers interfaces
   bool is_loopback = false;
@@ -22,10 +22,10 @@ struct Location {
   std::vector<Unresolved> unresolved;  ///< peers that have no address now
 };
 
-/// By the name service of this machine. See AddressOf.
+/// Asks the name service of this machine. See AddressOf.
 [[nodiscard]] std::optional<std::string> resolve(const std::string& host, std::string& why);
 
-/// false: it was there already, or is this host. Errors: SetupError: it cannot be reached over the interface.
+/// false: it was there already, or is this host. Errors: SetupError: the interface does not reach it.
 bool add_peer(Location& location, std::string_view host, const std::string& address);
 
 /// interface: a name ("wlan0") or an IPv4 address of one; empty: loopback. peers: host names or addresses.

@@ -12,7 +12,7 @@ namespace {
 
 struct Kept {
   std::mutex mutex;
-  std::uint64_t lines = 0;  ///< since the last time that they were told of
+  std::uint64_t lines = 0;  ///< since the last report
   std::string newest;
   std::chrono::steady_clock::time_point next = std::chrono::steady_clock::time_point::min();
 };
@@ -23,7 +23,7 @@ Kept& kept() {
   return *all;
 }
 
-/// Text that may come from the network, for a terminal.
+/// Makes text that may come from the network safe for a terminal.
 std::string shown(std::string_view text) {
   constexpr std::size_t longest = 200;
   while (!text.empty() && text.back() == '\n') text.remove_suffix(1);

@@ -7,17 +7,17 @@
 
 namespace tessera::dds {
 
-/// From now on, keeps what Cyclone DDS logs instead of letting it write to standard error: it writes a line
-/// for each packet that it cannot read, so that anybody on the network could fill the disk.
+/// From this call on, keeps the log lines of Cyclone DDS instead of letting it write them to standard error:
+/// it writes a line for each packet that it cannot read, so any host on the network could fill the disk.
 ///
-/// Threads: any, as those of the functions below.
+/// Threads: any; the same holds for the functions below.
 void keep_middleware_log();
 
-/// The newest line, with ": " before it, for a message that says that a call has failed. Empty: there is none since
-/// the last time.
+/// The newest line, with ": " before it, as the end of a message about a failed call. Empty: there is none
+/// since the last call.
 [[nodiscard]] std::string take_newest_log_line();
 
-/// What to tell a person of what has been logged: once a second at most, with the number of lines and the newest.
+/// A report of the lines logged, at most once a second, with their number and the newest.
 [[nodiscard]] std::optional<std::string> tell_of_middleware_log(std::chrono::steady_clock::time_point now);
 
 }  // namespace tessera::dds

@@ -12,9 +12,9 @@ namespace tessera::dds {
 /// The IPv4 address of a host, as text. nullopt: it has none now; `why` says why. Waits for the name service.
 using AddressOf = std::function<std::optional<std::string>(const std::string& host, std::string& why)>;
 
-/// Asks for the addresses of hosts again and again, until each has one.
+/// Looks up the addresses of hosts again and again, until each has one.
 ///
-/// Threads: one, beside its own.
+/// Threads: one caller; the search has a thread of its own.
 class PeerSearch {
  public:
   static constexpr std::chrono::milliseconds interval{5000};
@@ -28,14 +28,14 @@ class PeerSearch {
   ~PeerSearch();
   PeerSearch(const PeerSearch&) = delete;
   PeerSearch& operator=(const PeerSearch&) = delete;
-  /// Those that were found since the last call.
+  /// The addresses found since the last call.
   [[nodiscard]] std::vector<Found> take_found();
 
  private:
   struct Shared;
   static void search(const std::shared_ptr<Shared>& shared, std::vector<std::string> hosts,
                      const AddressOf& address_of, std::chrono::milliseconds every);
-  std::shared_ptr<Shared> shared_;  ///< with a thread that may outlive this object
+  std::shared_ptr<Shared> shared_;  ///< shared with a thread that may outlive this object
 };
 
 }  // namespace tessera::dds

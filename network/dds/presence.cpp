@@ -5,7 +5,7 @@
 namespace tessera::dds {
 namespace {
 
-/// Late messages of a process that has just been restarted are no complaint. Signs of life that go on are.
+/// Some late messages of a process that has just restarted are no complaint; continued signs of life are.
 constexpr int older_is_there = 5;
 
 }  // namespace

@@ -14,20 +14,20 @@ namespace tessera::dds {
 
 using Clock = std::chrono::steady_clock;
 
-/// Which processes are there, from what has been heard of them, and when. Tells the listener of each change.
-/// It knows no middleware.
+/// Tracks which processes are reachable, from when they were last heard of, and reports each change to the
+/// listener. It knows no middleware.
 class Presence {
  public:
   explicit Presence(const Deployment& deployment);
 
-  /// Something has come from this incarnation of a process. Others than peers are ignored.
+  /// A message of this incarnation of a process has arrived. Processes that are no peers are ignored.
   void heard(ProcessNumber process, std::uint64_t incarnation, Clock::time_point now,
              network::Carrier::Listener& listener);
-  /// That incarnation has taken its leave.
+  /// That incarnation has announced its end.
   void left(ProcessNumber process, std::uint64_t incarnation, network::Carrier::Listener& listener);
-  /// Looks whose silence has become too long.
+  /// Reports the processes that have been silent for too long.
   void look(Clock::time_point now, network::Carrier::Listener& listener);
-  /// When to look next; nullopt: nobody is there.
+  /// When to call look() next; nullopt: no process is reachable.
   [[nodiscard]] std::optional<Clock::time_point> next_look() const;
 
  private:
@@ -36,7 +36,7 @@ class Presence {
     std::uint64_t incarnation = 0;
     bool is_there = false;
     Clock::time_point heard;
-    std::uint64_t older = 0;  ///< an incarnation that goes on speaking after a later one has begun
+    std::uint64_t older = 0;  ///< an older incarnation that still sends after a later one has begun
     int heard_of_older = 0;
   };
   void heard_older(Peer& peer, std::uint64_t incarnation, network::Carrier::Listener& listener);

@@ -9,7 +9,7 @@
 
 namespace tessera::dds {
 
-/// The fields of a message as the middleware gives them. Anybody on the network can have written them.
+/// The fields of a message as the middleware gives them. Any host on the network can have written them.
 struct ReceivedData {
   std::uint32_t channel = 0, process = 0;
   std::uint64_t from = 0, to = 0, number = 0;
@@ -31,15 +31,15 @@ struct ReceivedAlive {
   std::int64_t echo_ns = 0, held_ns = 0;
 };
 
-/// Why a message is dropped. No process of the deployment sends one like it.
+/// The reason why a message is dropped. No process of the deployment sends such a message.
 enum class Refusal : std::uint8_t {
   none,
-  unknown_channel,   ///< or one that does not begin or end in this process
+  unknown_channel,   ///< or the channel does not begin or end in this process
   wrong_process,     ///< the channel does not begin (end) in the process that it names
   wrong_direction,   ///< this process sends on that channel (receives from it)
-  no_incarnation,    ///< of its sender
-  no_number,         ///< of the value
-  state_of_nothing,  ///< a value was taken from nobody
+  no_incarnation,    ///< the sender names no incarnation
+  no_number,         ///< the value has no number
+  state_of_nothing,  ///< a state that acknowledges a value of no sender
   recall_with_value,
   too_large,
   time_before_zero,

@@ -10,8 +10,8 @@ std::string element(const std::string& name, const std::string& content) {
   return "<" + name + ">" + content + "</" + name + ">";
 }
 
-/// On loopback a datagram holds as much as it can. Elsewhere it fits into one frame, since a datagram of ten
-/// frames is lost with any of them.
+/// On loopback, a datagram is as long as possible. Elsewhere it fits into one frame, because a datagram of
+/// ten frames is lost when any of them is.
 std::string sizes(bool is_loopback) {
   return element("MaxMessageSize", is_loopback ? "65000 B" : "1456 B") +
          element("FragmentSize", is_loopback ? "32000 B" : "1344 B");
@@ -23,8 +23,9 @@ std::string peers_of(const Location& location) {
   return element("Peers", peers);
 }
 
-/// A cut of the network that is shorter than the lease heals at once. After a longer one the processes find each
-/// other again within the interval of discovery (SPDP). Both cost traffic (docs/scale.md).
+/// An interruption of the network that is shorter than the lease has no effect on discovery. After a longer
+/// one, the processes find each other again within the interval of discovery (SPDP). Both cost traffic
+/// (docs/scale.md).
 std::string discovery(int domain, const Location& location) {
   return element("Discovery",
                  element("ExternalDomainId", std::to_string(domain)) + element("ParticipantIndex", "auto") +
@@ -32,10 +33,11 @@ std::string discovery(int domain, const Location& location) {
                      peers_of(location) + element("SPDPInterval", "4 s") + element("LeaseDuration", "20 s"));
 }
 
-/// A writer is never held back: it keeps one value of each channel, so that what it keeps is bounded.
+/// A writer is never held back: it keeps one value of each channel, so its memory is bounded.
 ///
-/// A writer asks once a second (not ten times) whether all has arrived. While many processes meet at once, most of the
-/// traffic would be such questions and their answers. The protocol of channels repeats sooner than either.
+/// A writer asks once a second (not ten times) whether everything has arrived. While many processes meet at
+/// once, most of the traffic would be such questions and their answers. The protocol of channels repeats
+/// sooner than either.
 std::string writing() {
   return element(
       "Internal",

@@ -6,17 +6,17 @@
 
 namespace tessera::dds {
 
-/// How many processes can be found on one host.
+/// The largest number of processes that can find each other on one host.
 inline constexpr int most_processes_on_a_host = 80;
 
-/// The first UDP port of a domain for unicast, and how many follow it.
+/// The first UDP port of a domain for unicast, and the number of ports that follow it.
 [[nodiscard]] int first_port(int domain);
 inline constexpr int ports_of_a_host = 2 * most_processes_on_a_host + 2;
 
-/// The configuration of Cyclone DDS: only this interface, no multicast, only these peers. The environment
-/// (CYCLONEDDS_URI) has no part in it.
+/// The configuration of Cyclone DDS: only this interface, no multicast, only these peers. It ignores the
+/// environment (CYCLONEDDS_URI).
 ///
-/// Errors: SetupError: no such domain.
+/// Errors: SetupError: there is no such domain.
 [[nodiscard]] std::string settings(int domain, const Location& location);
 
 }  // namespace tessera::dds

@@ -4,7 +4,7 @@
 
 namespace tessera::dds {
 
-/// Why a carrier cannot be made, for a person to read.
+/// The reason why a carrier cannot be made, as text for people.
 class SetupError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

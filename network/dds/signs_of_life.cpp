@@ -7,7 +7,7 @@ namespace tessera::dds {
 namespace {
 
 constexpr std::uint32_t window = 64;
-/// Times beyond that are nonsense that somebody has sent, and sums of them would overflow.
+/// Later times cannot be genuine, and sums of them would overflow.
 constexpr std::int64_t latest_ns = std::int64_t{1} << 62;
 
 }  // namespace
@@ -41,7 +41,7 @@ std::optional<network::SignsOfLife> SignsOfLife::hear(const ReceivedAlive& sign,
   if (found == peers_.end() || found->process != sign.process) return std::nullopt;
   Peer& peer = *found;
   if (sign.incarnation < peer.incarnation) return std::nullopt;
-  if (sign.incarnation > peer.incarnation)  // which may run on another machine
+  if (sign.incarnation > peer.incarnation)  // the process may run on another machine now
     peer = {.process = peer.process, .incarnation = sign.incarnation};
   take_number(peer, sign.number);
   if (sign.number == peer.newest) {
@@ -55,7 +55,7 @@ std::optional<network::SignsOfLife> SignsOfLife::hear(const ReceivedAlive& sign,
 }
 
 void SignsOfLife::take_number(Peer& peer, std::uint64_t number) const {
-  if (peer.expected == 0) {  // the first that is heard, and not the first that was sent
+  if (peer.expected == 0) {  // the first sign that arrives need not be the first that was sent
     peer.newest = number;
     peer.seen = peer.expected = 1;
   } else if (number > peer.newest) {

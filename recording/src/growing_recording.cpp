@@ -75,7 +75,7 @@ void GrowingRecording::begin() {
   }
 }
 
-/// Whether another file is being written now, so that nothing is added to this one.
+/// Whether another file is being written now, so that this one is complete.
 bool GrowingRecording::is_full() const {
   struct stat ours {
   }, newest{};
@@ -83,7 +83,7 @@ bool GrowingRecording::is_full() const {
          (ours.st_ino != newest.st_ino || ours.st_dev != newest.st_dev);
 }
 
-/// Goes on to the segment after this one, or, if that is gone already, to the newest.
+/// Continues with the segment after this one, or, if that is gone already, with the newest.
 void GrowingRecording::go_on() {
   const std::string after = segment_path(path_, *file_.segment + 1);
   File next = open(after);

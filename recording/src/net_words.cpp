@@ -1,20 +1,20 @@
 #include "tessera/net_words.hpp"
 
-/// Stands before every word. Only a test says another one.
+/// A prefix of every word. Only a test sets one.
 #ifndef TESSERA_WORD_PREFIX
 #define TESSERA_WORD_PREFIX ""
 #endif
 
 namespace tessera::words {
 
-// Every page.
+// Words of every page.
 const std::string_view input = TESSERA_WORD_PREFIX "in";
 const std::string_view output = TESSERA_WORD_PREFIX "out";
 const std::string_view start = TESSERA_WORD_PREFIX "t_in";
 const std::string_view end = TESSERA_WORD_PREFIX "t_out";
 const std::string_view leave = TESSERA_WORD_PREFIX "t_";
 
-// A behaviour.
+// Words of a behaviour.
 const std::string_view send_page = TESSERA_WORD_PREFIX "snd";
 const std::string_view receive_page = TESSERA_WORD_PREFIX "rcv";
 const std::string_view step = TESSERA_WORD_PREFIX "2";
@@ -25,7 +25,7 @@ const std::string_view go_on = TESSERA_WORD_PREFIX "t4";
 const std::string_view terminal = TESSERA_WORD_PREFIX "t5";
 const std::string_view error = TESSERA_WORD_PREFIX "t6";
 
-// A block of a communication page.
+// Words of a block of a communication page.
 const std::string_view transfer = TESSERA_WORD_PREFIX "2";
 const std::string_view waiting = TESSERA_WORD_PREFIX "wait";
 const std::string_view begin_transfer = TESSERA_WORD_PREFIX "t1";
@@ -38,13 +38,13 @@ const std::string_view fork = TESSERA_WORD_PREFIX "fork";
 const std::string_view join = TESSERA_WORD_PREFIX "join";
 const std::string_view pass = TESSERA_WORD_PREFIX "t1";
 
-// The memory of a channel.
+// Words of the memory of a channel.
 const std::string_view lock = TESSERA_WORD_PREFIX "channel";
 const std::string_view empty = TESSERA_WORD_PREFIX "empty";
 const std::string_view full = TESSERA_WORD_PREFIX "full";
 const std::string_view acknowledged = TESSERA_WORD_PREFIX "ack";
 
-// The memory of a channel between processes, and what moves values from one side to the other.
+// Words of the memory of a channel between processes, and of the transitions that move its values.
 const std::string_view idle = TESSERA_WORD_PREFIX "idle";
 const std::string_view sent = TESSERA_WORD_PREFIX "sent";
 const std::string_view more = TESSERA_WORD_PREFIX "more";

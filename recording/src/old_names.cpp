@@ -10,7 +10,7 @@ namespace {
 
 using Word = std::pair<std::string_view, Step>;
 
-// Literals, not tessera/net_words.hpp: these names are in files that exist.
+// These are literals and not tessera/net_words.hpp, because the names are in existing files.
 constexpr std::array<Word, 6> of_behaviour{{{"t1", Step::begin_sending},
                                             {"t2", Step::end_sending},
                                             {"t3", Step::begin_receiving},
@@ -48,7 +48,7 @@ template <std::size_t N>
   return number ? local.substr(0, last) : std::string_view{};
 }
 
-/// Of the system, an agent, or the medium of a channel.
+/// A step of the system, an agent, or the medium of a channel.
 [[nodiscard]] Step step_above(std::string_view name) {
   if (name.find("->") != std::string_view::npos) return find(of_medium, last_part(name), Step::other);
   const bool of_system = name.find('.') == std::string_view::npos;

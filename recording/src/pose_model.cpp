@@ -10,8 +10,8 @@ namespace {
 constexpr std::size_t rotation_begins = 3;
 constexpr std::int64_t unit = 8191;
 
-/// How the body goes on if it moves and turns steadily. A point that turns steadily about a fixed axis has
-/// next = 2 cos(angle) * last - before, in each of its coordinates; the same holds for quaternions.
+/// Predicts the next pose of a body that moves and turns steadily. A point that turns steadily about a fixed
+/// axis has next = 2 cos(angle) * last - before, in each of its coordinates; the same holds for quaternions.
 [[nodiscard]] RoundedPose going_on(const RoundedPose& last, const RoundedPose& before) {
   RoundedPose next;
   std::int64_t cosine = 0;
@@ -70,8 +70,8 @@ constexpr std::int64_t finer = 64, fine_unit = unit * unit / 1024;
   return result;
 }
 
-/// How the body goes on if it stays where it is in the frame of its parent, and turns steadily in it.
-/// `then` and `now` are the last pose of the parent and the one that the frame has.
+/// Predicts the pose of a body that keeps its place in the frame of its parent, and turns steadily in it.
+/// `then` and `now` are the last pose of the parent and its pose in this frame.
 [[nodiscard]] RoundedPose going_along(const RoundedPose& last, const RoundedPose& before,
                                       const RoundedPose& parent_before, const RoundedPose& parent_then,
                                       const RoundedPose& parent_now) {
@@ -104,7 +104,7 @@ constexpr std::int64_t finer = 64, fine_unit = unit * unit / 1024;
   return largest;
 }
 
-/// What the part must be for the length of the quaternion to be 1, with the sign that it was expected to have.
+/// The value of the part that makes the length of the quaternion 1, with the sign that was predicted.
 [[nodiscard]] std::int64_t rest_of_rotation(const RoundedPose& pose, std::size_t part,
                                             const RoundedPose& expected) {
   std::int64_t rest = unit * unit, root = 0;
@@ -151,7 +151,7 @@ bool PoseModel::code_number(Coder& coder, NumberModel& model, std::int64_t& numb
   coder.bit(model.zero, zero);
   if (zero) return number = 0, true;
   coder.bit(model.sign, negative);
-  // As in Elias' gamma code: the length of the number, then its bits after the first.
+  // Elias' gamma code: the length of the number, then its bits after the first.
   std::uint64_t size = static_cast<std::uint64_t>(std::abs(number));
   std::size_t length = 0;
   const std::size_t its_length = static_cast<std::size_t>(std::bit_width(size));
@@ -179,7 +179,7 @@ bool PoseModel::code_moved(Coder& coder, Body& body, RoundedPose& pose) {
   const RoundedPose on = going_on(body.last, body.before);
   RoundedPose along = on;
   if (body.parent) {
-    const Body& parent = bodies_[*body.parent];  // whose frame has been coded
+    const Body& parent = bodies_[*body.parent];  // the frame of the parent has been coded
     along = going_along(body.last, body.before, parent.older, parent.before, parent.last);
   }
   const std::size_t largest = largest_of_rotation(along);

@@ -13,24 +13,25 @@
 
 namespace tessera {
 
-/// What both ends of a stream of packed poses expect of the next frame: how each body goes on, and how far it
-/// was from that lately. All of it is computed with whole numbers, so that every machine expects the same.
+/// The prediction that both ends of a stream of packed poses make of the next frame: the motion of each body,
+/// and the size of its last prediction errors. It computes with whole numbers only, so every machine predicts
+/// the same.
 class PoseModel {
  public:
-  /// parents: as PoseEncoder has them.
+  /// parents: see PoseEncoder.
   PoseModel(std::size_t bodies, const PoseParents& parents);
 
-  /// Begins anew with bodies that rest there.
+  /// Starts again with bodies that rest at these poses.
   void restart(const std::vector<RoundedPose>& poses);
-  /// Appends the poses to `bytes`, as many as there are bodies. whole: so that no frame before is needed.
+  /// Appends the poses to `bytes`, as many as there are bodies. whole: the result needs no earlier frame.
   void pack(bool whole, const std::vector<RoundedPose>& poses, std::string& bytes);
   /// false: the bytes are damaged.
   [[nodiscard]] bool unpack(bool whole, std::string_view bytes, std::vector<RoundedPose>& poses);
 
  private:
   static constexpr std::size_t components = 7, longest_number = 44, classes = 16;
-  static constexpr std::size_t ways = 3;  // to guess: it rests; it goes on; it goes along with its parent
-  /// Of numbers that are alike in size.
+  static constexpr std::size_t ways = 3;  // of prediction: at rest; continued motion; motion with the parent
+  /// A model for numbers of similar size.
   struct NumberModel {
     BitModel zero, sign;
     std::array<BitModel, longest_number> length, next;  // next: the bit after the first, by length
@@ -38,7 +39,7 @@ class PoseModel {
   struct Body {
     RoundedPose last, before, older;  // of the last three frames
     std::optional<std::size_t> parent;
-    std::array<std::uint8_t, components> sizes{};  // of the last surprises, in bits
+    std::array<std::uint8_t, components> sizes{};  // of the last prediction errors, in bits
     std::array<std::array<std::uint32_t, ways>, components> misses{};
     bool rested = false;
   };

@@ -31,7 +31,7 @@ void put_varint(std::string& bytes, std::uint64_t number) {
   return std::nullopt;
 }
 
-/// Small numbers of either sign become small numbers.
+/// Maps numbers near zero, of either sign, to small numbers.
 [[nodiscard]] std::uint64_t zigzag(std::int64_t number) {
   return static_cast<std::uint64_t>(number) << 1U ^ static_cast<std::uint64_t>(number >> 63);
 }

@@ -6,11 +6,11 @@
 #include <string>
 #include <string_view>
 
-/// Arithmetic coding of bits: a bit takes as little room as it was to be expected. The interval is halved as in
+/// Arithmetic coding of bits: the more probable a bit, the less space it takes. The interval is halved as in
 /// G. N. N. Martin, Range encoding, 1979.
 namespace tessera {
 
-/// How likely the next bit of a kind is 0; learned from those before it.
+/// The probability that the next bit of a kind is 0, learned from the bits before it.
 class BitModel {
  public:
   [[nodiscard]] std::uint32_t share_of(std::uint32_t range) const { return (range >> bits) * zero_; }
@@ -35,9 +35,9 @@ class RangeEncoder {
     model.learn(bit);
     take(bit, zero);
   }
-  /// As likely 0 as 1.
+  /// A bit that is 0 or 1 with equal probability.
   void even_bit(bool& bit) { take(bit, range_ >> 1U); }
-  /// Zeros at the end are not written: the decoder reads zeros behind the end.
+  /// Zeros at the end are not written: the decoder reads zeros beyond the end.
   void finish(std::size_t begin) {
     // The number of the interval that ends with the most zeros.
     for (unsigned zeros = 32; zeros > 0; --zeros) {
@@ -82,7 +82,7 @@ class RangeEncoder {
   bool begun_ = false;
 };
 
-/// Takes any bytes.
+/// Accepts any bytes.
 class RangeDecoder {
  public:
   explicit RangeDecoder(std::string_view bytes) : bytes_(bytes) {

@@ -202,7 +202,7 @@ namespace {
   RecordingReader reader;
   reader.feed(content);
   const bool cut = !reader.has_header() && reader.problem().empty();
-  if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // for the padding after the header
+  if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // ends the padding after the header
   if (!reader.has_header()) {
     const bool begins_well = content.size() >= 12 && reader.problem().empty();
     error = fmt::format("'{}' {}", path,
@@ -224,7 +224,7 @@ namespace {
          last.version != 0;
 }
 
-/// Newest first; at least one.
+/// Precondition: at least one segment. The newest comes first.
 [[nodiscard]] Recording joined(std::vector<Recording> segments) {
   Recording all = std::move(segments.back());
   for (segments.pop_back(); !segments.empty(); segments.pop_back()) {

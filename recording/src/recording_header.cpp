@@ -30,7 +30,7 @@ namespace {
   return true;
 }
 
-/// false: a transition has a channel or a subsystem that is not there.
+/// false: a transition has a channel or a subsystem that does not exist.
 [[nodiscard]] bool read_transitions(const nlohmann::json& header, Recording& recording) {
   if (header.contains("channels")) header.at("channels").get_to(recording.channels);
   for (const nlohmann::json& written : header.at("transitions")) {
@@ -50,7 +50,7 @@ namespace {
   return true;
 }
 
-/// How the run was started.
+/// Reads the settings with which the run was started.
 void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("parameters")) header.at("parameters").get_to(recording.parameters);
   if (header.contains("injected")) header.at("injected").get_to(recording.injected);
@@ -59,7 +59,7 @@ void read_run(const nlohmann::json& header, Recording& recording) {
   if (header.contains("duration_ns")) recording.duration_ns = header.at("duration_ns").get<std::int64_t>();
 }
 
-/// Of a deployed system. false: the incarnation is no number.
+/// Reads the fields of a deployed system. false: the incarnation is no number.
 [[nodiscard]] bool read_deployment(const nlohmann::json& header, Recording& recording) {
   if (header.contains("processes")) header.at("processes").get_to(recording.processes);
   if (header.contains("networked")) header.at("networked").get_to(recording.networked);

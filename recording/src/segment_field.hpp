@@ -11,12 +11,12 @@ namespace tessera {
 
 inline constexpr std::string_view segment_key = ",\"segment\":";
 
-/// What the headers of segments of one run have in common.
+/// The part of the header that all segments of one run have in common.
 [[nodiscard]] inline std::string_view without_segment(std::string_view header) {
   return header.substr(0, header.rfind(segment_key));
 }
 
-/// nullopt: it is no header of a segment.
+/// nullopt: it is not the header of a segment.
 [[nodiscard]] inline std::optional<std::uint64_t> segment_in(std::string_view header) {
   const std::size_t at = header.rfind(segment_key);
   if (at == std::string_view::npos) return std::nullopt;

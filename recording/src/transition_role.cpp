@@ -6,7 +6,7 @@
 namespace tessera {
 namespace {
 
-// In the order of the enumerators.
+// The names, in the order of the enumerators.
 constexpr std::array<std::string_view, 22> step_names{
     "other",   "start_system",  "end_system",    "start_agent",     "end_agent", "start",
     "leave",   "begin_sending", "end_sending",   "begin_receiving", "go_on",     "terminal",

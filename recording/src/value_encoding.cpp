@@ -13,7 +13,7 @@ constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // derived from the golden ra
   return std::rotl(product, 29) ^ product;
 }
 
-/// Uses four lanes, because a processor multiplies faster than one product follows from another.
+/// Uses four lanes, because a processor can start a multiplication before the previous one has finished.
 [[nodiscard]] std::uint64_t hash_of(const std::byte* bytes, std::size_t count, std::uint64_t seed) {
   std::array<std::uint64_t, 4> lanes{seed ^ count, seed + odd, ~seed, seed ^ odd};
   std::array<std::uint64_t, 4> words{};
@@ -30,8 +30,8 @@ constexpr std::uint64_t odd = 0x9e3779b97f4a7c15;  // derived from the golden ra
 
 }  // namespace
 
-/// Bytes beyond the limit are hashed block by block, together with what was kept before.
-/// Not inline: where the limit and the size are known, the compiler warns of a copy that is never made.
+/// Bytes beyond the limit are hashed block by block, together with those that were kept before. Not inline:
+/// with known limit and size, the compiler warns about a copy that is never made.
 void ValueSink::put(const void* bytes, std::size_t count) {
   total_ += count;
   if (count > limit_ - filled_) return spill(bytes, count);

@@ -55,7 +55,7 @@ bool are_bools(const std::byte* from, std::size_t count) {
 }
 
 struct NumberFacts {
-  int digits;  ///< bits of a whole number that all fit
+  int digits;  ///< bits of a whole number up to which all values fit
   bool is_signed, real;
 };
 NumberFacts facts_of(Primitive type) {
@@ -96,7 +96,7 @@ std::uint32_t CdrReader::length() {
 
 std::string_view CdrReader::text() {
   const std::uint32_t size = length();
-  if (!ok_ || size == 0) return {};  // some write an empty string without its zero
+  if (!ok_ || size == 0) return {};  // some implementations write an empty string without its zero
   if (size > left() || data_[at_ + size - 1] != std::byte{0}) {
     ok_ = false;
     return {};

@@ -19,8 +19,8 @@ static_assert(std::endian::native == std::endian::little, "the codec writes numb
 /// Bytes before the data: the representation, and how much padding follows the data.
 inline constexpr std::size_t encapsulation_size = 4;
 
-/// Reads the data behind the encapsulation header. After the first read that goes wrong, `ok` is false for
-/// good, and reads give zeros.
+/// Reads the data behind the encapsulation header. After the first failed read, `ok` stays false, and reads
+/// give zeros.
 class CdrReader {
  public:
   /// nullopt: the header is not that of plain CDR.
@@ -36,9 +36,9 @@ class CdrReader {
   /// `count` numbers of `size` bytes, aligned; empty if they are not there.
   std::span<const std::byte> numbers(std::size_t size, std::size_t count);
   [[nodiscard]] std::uint32_t length();
-  /// Without the terminating zero.
+  /// The text without the terminating zero.
   std::string_view text();
-  /// A wide string has another form in every implementation and cannot be skipped: this fails.
+  /// Fails for wide strings: their form differs between implementations, so they cannot be skipped.
   void skip(const Type& element, std::size_t count);
 
  private:
@@ -54,24 +54,24 @@ class CdrWriter {
   explicit CdrWriter(std::vector<std::byte>& to);
 
   void number(const void* bytes, std::size_t size);
-  /// Room for `count` numbers of `size` bytes, aligned and zeroed.
+  /// Space for `count` numbers of `size` bytes, aligned and zeroed.
   std::byte* numbers(std::size_t size, std::size_t count);
   void length(std::uint32_t length) { number(&length, sizeof length); }
   void text(std::string_view text);
-  /// Pads to four bytes, and says so in the header.
+  /// Pads to four bytes, and notes the padding in the header.
   void finish();
 
  private:
   std::vector<std::byte>& to_;
 };
 
-/// Copies `count` numbers of one type to those of another, which has all values of the first. from and to
-/// need not be aligned. swapped: the bytes of `from` are in the other order.
+/// Copies `count` numbers of one type to those of another, which can represent all values of the first. from
+/// and to need not be aligned. swapped: the bytes of `from` are in the other order.
 ///
 /// false: a bool that is neither 0 nor 1.
 [[nodiscard]] bool convert(Primitive from_type, const std::byte* from, bool swapped, Primitive to_type,
                            std::byte* to, std::size_t count);
-/// Whether `to` has every value of `from`.
+/// Whether `to` can represent every value of `from`.
 [[nodiscard]] bool converts_exactly(Primitive from, Primitive to);
 
 }  // namespace tessera::ros2

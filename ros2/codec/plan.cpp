@@ -11,7 +11,7 @@ namespace {
 /// Messages without fields have one byte.
 constexpr std::uint8_t empty_message = 0;
 
-/// Notes where the parts of a message are that the buffer takes.
+/// Records the positions of the message's parts that the buffer takes.
 class Finder {
  public:
   struct Found {
@@ -62,7 +62,7 @@ class Finder {
   bool other_length_ = false;
 };
 
-/// The place of each name in the message.
+/// The index of each name in the message.
 std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const Finder::Found& found,
                                                  const std::vector<std::string>& names) {
   constexpr std::size_t nowhere = ~std::size_t{0};
@@ -136,7 +136,7 @@ class ValueWriter {
   std::vector<std::byte> value_;
 };
 
-/// Where the blocks of a value are; nullopt: these are not the bytes of such a value.
+/// The positions of the blocks of a value; nullopt: the bytes are not such a value.
 std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
     std::span<const std::byte> value, const std::vector<Plan::Block>& blocks) {
   std::vector<std::span<const std::byte>> parts;
@@ -157,7 +157,7 @@ std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
   return value.empty() ? std::optional(std::move(parts)) : std::nullopt;
 }
 
-/// As the buffer has it: unsigned, and little-endian.
+/// In the form of the buffer: unsigned, and little-endian.
 void put_number(std::uint64_t number, const Plan::Block& block, std::vector<std::byte>& value) {
   const std::size_t first = value.size(), size = size_of(block.primitive);
   value.resize(first + size);
@@ -210,7 +210,7 @@ class MessageWriter {
     const std::span<const std::byte> part = parts_[number];
     if (type.primitive != Primitive::string) {
       std::byte* const to = writer_.numbers(size_of(type.primitive), block.count);
-      // A bool of a buffer may be any byte that is true to the compiler; it is 0 or 1.
+      // A bool of a buffer may be any byte that the compiler takes for true; the message gets 0 or 1.
       static_cast<void>(convert(block.primitive, part.data(), false, type.primitive, to, block.count));
       return;
     }
@@ -282,7 +282,7 @@ std::optional<std::uint64_t> Plan::own_value(std::size_t block, std::span<const 
 
 Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::byte>& value,
                            std::span<const std::uint64_t> own) const {
-  // The data may be padded to four bytes. More than that belongs to another definition of the message.
+  // The data may be padded to four bytes. More extra bytes mean another definition of the message.
   constexpr std::size_t most_padding = 3;
   auto reader = CdrReader::open(message);
   if (!reader) return Outcome::malformed;

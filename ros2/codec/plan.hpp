@@ -17,52 +17,52 @@ namespace tessera::ros2 {
 
 enum class Direction : std::uint8_t { receive, send };
 
-/// A number of the buffer that the driver gives or takes, because no message has it.
+/// A number of the buffer that the driver sets or reads itself, because no message has it.
 struct OwnField {
   std::string name;
   std::vector<Primitive> types;  ///< any of these
   bool needed = true;
-  std::string meaning{};  ///< "the number of the call", for complaints
+  std::string meaning{};  ///< "the number of the call", for error messages
 };
 
 /// How a message and a real buffer correspond.
 struct Mapping {
-  /// Field of the message -> field of the buffer: {"linear.x", "v"}. An empty field of the buffer is all of
-  /// it. Without any, fields of equal names correspond; a buffer that is no structure corresponds to the
-  /// only field of the message, or to its field `data`.
+  /// Field of the message -> field of the buffer: {"linear.x", "v"}. An empty buffer field is the whole
+  /// buffer. If the list is empty, fields of equal names correspond; a buffer that is no structure
+  /// corresponds to the only field of the message, or to its field `data`.
   std::vector<std::pair<std::string, std::string>> fields{};
   /// With names, the message has a field `name` (sensor_msgs/JointState). Its sequences are received in the
-  /// order of these names, whatever order the sender has; they are sent with these names.
+  /// order of these names, whatever order the sender uses; they are sent with these names.
   std::vector<std::string> names{};
-  /// What is sent as `header.frame_id`.
+  /// The value of `header.frame_id` in sent messages.
   std::string frame_id{};
   /// Fields of the buffer that are no part of the message.
   std::vector<OwnField> own{};
 };
 
-/// What is wrong with a mapping.
+/// A mistake in a mapping.
 struct MappingProblem {
   std::string subject;  ///< the field of the message as the mapping names it; "names"; empty: all of it
   std::string text, hint{};
 };
 
-/// Time of a message that is sent.
+/// The time stamp of a sent message.
 struct Stamp {
   std::int32_t sec = 0;
   std::uint32_t nanosec = 0;
 };
 
-/// Translates messages into values of a real buffer, or the other way round. Values are in the form of
-/// tessera/value_encoding.hpp. Made once, since it compares the types.
+/// Translates messages into values of a real buffer, or the reverse. Values are in the form of
+/// tessera/value_encoding.hpp. It is made once, because it compares the types.
 ///
-/// Sending fills what the buffer does not: defaults of the definition, otherwise zeros; the field `header`
-/// gets the time and the `frame_id`.
+/// When it sends, it fills the fields that the buffer does not: with defaults of the definition, otherwise
+/// zeros. The field `header` gets the time and the `frame_id`.
 ///
 /// Threads: const functions at any time.
 class Plan {
  public:
-  /// Errors: all problems are reported, then nullopt. A number must convert exactly, so that int64 does not
-  ///         become float64. Every field of the buffer corresponds to one of the message.
+  /// Errors: all problems are reported, then nullopt. A number must convert exactly, so int64 does not become
+  /// float64. Every field of the buffer must correspond to one of the message.
   [[nodiscard]] static std::optional<Plan> make(std::shared_ptr<const Structure> message,
                                                 const ValueType& value, const Mapping& mapping,
                                                 Direction direction, std::vector<MappingProblem>& problems);
@@ -75,22 +75,22 @@ class Plan {
   };
   /// The value is unchanged unless the outcome is good. Reads any bytes safely.
   ///
-  /// own: values of Mapping::own; those that are missing are 0.
+  /// own: values of Mapping::own; missing ones are 0.
   [[nodiscard]] Outcome decode(std::span<const std::byte> message, std::vector<std::byte>& value,
                                std::span<const std::uint64_t> own = {}) const;
   /// A value without a message: numbers are 0 and strings empty, except for its own fields.
   [[nodiscard]] std::vector<std::byte> empty_value(std::span<const std::uint64_t> own) const;
-  /// The number in an own field of a value; 0: the buffer has no such field, or the value is none of its
+  /// The number in an own field of a value; 0: the buffer has no such field, or the value does not have its
   /// type.
   [[nodiscard]] std::uint64_t own_number(std::span<const std::byte> value, std::size_t field) const;
   /// Whether the buffer has that field of Mapping::own.
   [[nodiscard]] bool has_own(std::size_t field) const { return own_[field].has_value(); }
 
-  /// false: the value has not the bytes of its type. The message replaces what is in `message`.
+  /// false: the value does not have the bytes of its type. The result replaces the content of `message`.
   [[nodiscard]] bool encode(std::span<const std::byte> value, const Stamp& stamp,
                             std::vector<std::byte>& message) const;
 
-  /// Numbers and texts of the buffer, in its order; those of an array of numbers are one.
+  /// Numbers and texts of the buffer, in its order; an array of numbers is one block.
   struct Block {
     Primitive primitive = Primitive::boolean;
     std::uint32_t count = 1, capacity = 0;
@@ -99,18 +99,18 @@ class Plan {
   /// A field of the message, or an element of it.
   struct Step {
     Type type;
-    std::optional<std::size_t> block{};  ///< the part of the buffer that corresponds
+    std::optional<std::size_t> block{};  ///< the corresponding part of the buffer
     Fill fill = Fill::nothing;
     bool by_name = false;       ///< its elements are in the order of Mapping::names
     bool per_element = false;   ///< `members` has one step for each element of an array of messages
-    std::vector<Step> members;  ///< of a message
+    std::vector<Step> members;  ///< for a message
     std::vector<Literal> defaults{};
   };
 
  private:
   friend class Planner;
   Plan() = default;
-  /// What a block has that is an own field; nullopt: it is none.
+  /// The number of a block that is an own field; nullopt: it is none.
   [[nodiscard]] std::optional<std::uint64_t> own_value(std::size_t block,
                                                        std::span<const std::uint64_t> own) const;
   std::shared_ptr<const Structure> message_;

@@ -34,7 +34,7 @@ std::vector<std::string> member_names(const ValueType& type) {
   return names;
 }
 
-/// "did you mean 'x'?", or all of them if nothing is near.
+/// "did you mean 'x'?", or all names if none is near.
 std::string hint_of(std::string_view word, const std::vector<std::string>& names, std::string_view owner) {
   if (std::string guess = did_you_mean(word, names); !guess.empty()) return guess;
   std::string list;
@@ -155,7 +155,7 @@ class Planner {
       if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Plan::Fill::stamp_nanosec;
   }
 
-  /// Fields that the driver fills or takes are no part of the message.
+  /// Fields that the driver itself sets or reads are no part of the message.
   bool take_own_fields() {
     bool good = true;
     for (const OwnField& own : mapping_.own) {
@@ -259,7 +259,7 @@ class Planner {
     return value;
   }
 
-  /// value_path, message_path: for people and for numbers of blocks.
+  /// value_path, message_path: for error messages and for the numbers of blocks.
   void match(const ValueType& value, const std::string& value_path, Plan::Step& step,
              const std::string& message_path) {
     if (step.type.primitive == Primitive::structure || value.primitive == Primitive::structure)
@@ -359,7 +359,7 @@ class Planner {
     return "a buffer of type " + type + " does";
   }
 
-  /// Silence about a part of the buffer would be worse than an error.
+  /// A part of the buffer that is silently left out would be worse than an error.
   void complain_of_rest() {
     for (std::size_t block = 0; block < plan_.blocks_.size(); ++block)
       if (!used_.contains(block))

@@ -25,7 +25,7 @@ std::optional<RequestHeader> take_header(std::vector<std::byte>& message) {
     std::reverse(bytes.begin(), bytes.begin() + header_size / 2);
     std::reverse(bytes.begin() + header_size / 2, bytes.end());
   }
-  // Its size is a multiple of the largest alignment, so that what follows is aligned as before.
+  // Its size is a multiple of the largest alignment, so the data after it stays aligned.
   message.erase(first, first + header_size);
   return std::bit_cast<RequestHeader>(bytes);
 }

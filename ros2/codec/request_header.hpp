@@ -8,17 +8,18 @@
 
 namespace tessera::ros2 {
 
-/// What tells whose request a message of a service is, and which. It stands before the data of a request,
-/// and of the reply to it, as rmw_cyclonedds_cpp has it. (rmw_fastrtps_cpp sends it beside the data, in a
-/// form that Cyclone DDS can neither send nor read.)
+/// Identifies a request of a service: its client and its number. It stands before the data of a request and
+/// of its reply, as in rmw_cyclonedds_cpp. (rmw_fastrtps_cpp sends it beside the data, in a form that Cyclone
+/// DDS can neither send nor read.)
 struct RequestHeader {
   std::uint64_t client = 0;   ///< a number that no other client has
-  std::int64_t sequence = 0;  ///< of the request
+  std::int64_t sequence = 0;  ///< number of the request
 
   bool operator==(const RequestHeader&) const = default;
 };
 
-/// Takes the header out of a message with encapsulation; what is left is the message alone. nullopt: there is
+/// Removes the header from a message with encapsulation, and leaves the message alone. nullopt: there is
+/// none, and the message is unchanged.
 /// none, and the message is unchanged.
 [[nodiscard]] std::optional<RequestHeader> take_header(std::vector<std::byte>& message);
 /// Puts a header before the data of a little-endian message.

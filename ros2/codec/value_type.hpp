@@ -21,7 +21,7 @@ struct ValueType {
 
   /// "float64[8]", "a structure"
   [[nodiscard]] std::string text() const;
-  /// nullptr: there is none of that name.
+  /// nullptr: no member has that name.
   [[nodiscard]] const Member* find(std::string_view name) const;
 };
 struct ValueType::Member {

@@ -8,11 +8,11 @@
 
 namespace tessera::ros2 {
 
-/// A mapping as it stands in the tables of a controller: "linear.x=v, angular.z=omega", or "data" for all of
-/// the buffer; "shoulder, elbow".
+/// Parses a mapping from the tables of a controller: "linear.x=v, angular.z=omega", or "data" for the whole
+/// buffer; "shoulder, elbow".
 [[nodiscard]] Mapping written_mapping(std::string_view fields, std::string_view names, std::string frame_id);
-/// Fields of the buffer of a service that are no part of its messages: "call", and "outcome" of the receptor
-/// of a client, in this order.
+/// Fields of a service's buffer that are no part of its messages: "call", and "outcome" for the receptor of a
+/// client, in this order.
 [[nodiscard]] std::vector<OwnField> own_fields_of_service(bool has_outcome);
 inline constexpr std::size_t call_field = 0, outcome_field = 1;
 

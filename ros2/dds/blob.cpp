@@ -26,7 +26,7 @@ Blob* new_blob(const ddsi_sertype* type, ddsi_serdata_kind kind) {
   return blob.release();
 }
 
-// What Cyclone DDS asks of a type. There are no keys, so that all samples have the same one.
+// The functions that Cyclone DDS requires of a type. There are no keys, so all samples have the same one.
 
 bool all_keys_equal(const ddsi_serdata* /*a*/, const ddsi_serdata* /*b*/) { return true; }
 std::uint32_t size_of_blob(const ddsi_serdata* data) {
@@ -64,7 +64,7 @@ ddsi_serdata* from_parts(const ddsi_sertype* type, ddsi_serdata_kind kind, ddsrt
 ddsi_serdata* from_key(const ddsi_sertype* type, const ddsi_keyhash* /*key*/) {
   return new_blob(type, SDK_KEY);
 }
-/// Applications write bytes (write_blob) and no samples.
+/// Never used: applications write bytes (write_blob) and no samples.
 ddsi_serdata* from_sample(const ddsi_sertype* /*type*/, ddsi_serdata_kind /*kind*/, const void* /*sample*/) {
   return nullptr;
 }
@@ -84,7 +84,7 @@ void to_bytes(const ddsi_serdata* data, std::size_t offset, std::size_t size, vo
 }
 ddsi_serdata* lend_bytes(const ddsi_serdata* data, std::size_t offset, std::size_t size,
                          ddsrt_iovec_t* part) {
-  // Messages are padded to four bytes by who writes them, so that nothing beyond their end is asked for.
+  // The writer pads messages to four bytes, so no bytes beyond their end are requested.
   part->iov_base = const_cast<std::byte*>(blob_of(data).bytes.data()) + offset;
   part->iov_len = size;
   return ddsi_serdata_ref(data);

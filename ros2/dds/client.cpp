@@ -13,7 +13,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr auto between_looks = std::chrono::milliseconds(5);
-/// Of a receptor that is not read.
+/// The limit for a receptor that is not read.
 constexpr std::size_t most_results = 16;
 
 }  // namespace
@@ -57,7 +57,7 @@ bool ServiceClient::call(std::uint64_t number, std::vector<std::byte> request) {
   const std::lock_guard lock(mutex_);
   refused_ = false;
   if (number != 0 && number != last_) {
-    progress();  // a reply to the call before may be here already
+    progress();  // the reply to the previous call may be here already
     if (pending_) finish(CallOutcome::replaced);
     last_ = number;
     newest_.reset();

@@ -11,35 +11,35 @@
 
 namespace tessera::ros2 {
 
-/// What became of a call: the field `outcome` of the receptor's buffer (docs/ros2.md).
+/// The outcome of a call: the field `outcome` of the receptor's buffer (docs/ros2.md).
 enum class CallOutcome : std::uint8_t {
   answered = 1,
-  no_server = 2,   ///< the request was not sent: until its time was up, nobody was there who would get it
-  no_reply = 3,    ///< it was sent, and its time was up
+  no_server = 2,   ///< the request was not sent: no server could receive it before the timeout
+  no_reply = 3,    ///< it was sent, and no reply came before the timeout
   replaced = 4,    ///< a newer call has begun; the server may execute both
-  unreadable = 5,  ///< a reply came that does not fit the buffer
+  unreadable = 5,  ///< the reply does not fit the buffer
 };
 
-/// One call at a time. Each call has a number that is not 0; a number other than the last one begins a call.
-/// A call is sent once, since a server may execute what it gets twice.
+/// Makes one call at a time. Each call has a number that is not 0; a number other than the last one begins a
+/// call. A call is sent once, because a server may execute a repeated request twice.
 ///
 /// Threads: any.
 class ServiceClient {
  public:
   explicit ServiceClient(const ServiceSetup& setup) : setup_(setup) {}
-  /// Zero changes nothing.
+  /// Zero keeps the present timeout.
   void use_timeout(Duration timeout);
 
-  /// The second driver opens what the first has opened. Throws std::runtime_error.
+  /// Opens the service; for the second driver of it, it is open already. Throws std::runtime_error.
   void open();
-  /// When the last driver closes it, it waits up to half a second until the server has got the last request.
+  /// The close of the last driver waits up to half a second until the server has received the last request.
   void close();
-  /// Whether a server is there within this time.
+  /// Whether a server is found within this time.
   [[nodiscard]] bool await_server(Duration timeout);
 
   /// request: with encapsulation, without a header. false: DDS refused.
   [[nodiscard]] bool call(std::uint64_t number, std::vector<std::byte> request);
-  /// The same for a process that is about to end: whether the call was answered within this time.
+  /// The same for a process that is about to end: whether a reply came within this time.
   [[nodiscard]] bool call_and_wait(std::uint64_t number, const std::vector<std::byte>& request,
                                    Duration timeout);
 
@@ -48,9 +48,9 @@ class ServiceClient {
     CallOutcome outcome = CallOutcome::answered;
     std::vector<std::byte> reply{};
   };
-  /// From now on results are kept for `take_result`.
+  /// From this call on, results are kept for `take_result`.
   void keep_results();
-  /// The oldest result that was not taken. Each call has one.
+  /// The oldest result that was not taken yet. Each call has one result.
   [[nodiscard]] std::optional<Result> take_result();
 
  private:

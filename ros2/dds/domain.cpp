@@ -16,8 +16,8 @@ namespace tessera::ros2 {
 namespace {
 
 constexpr std::uint32_t highest_domain = 232;
-/// Domains have a number of their own inside a process, so that parts of it that use the same domain with
-/// other settings do not meet.
+/// Each domain object has a number of its own inside the process, so that two parts that use the same domain
+/// with different settings stay apart.
 constexpr std::uint32_t first_number = 0x7e55'0000;
 constexpr const char* user_data = "enclave=/;";
 
@@ -54,7 +54,7 @@ dds_entity_t checked(const std::string& what, dds_entity_t entity) {
   return entity;
 }
 
-/// Identifiers of DDS have 16 bytes. Up to ROS 2 Humble, 24 are sent.
+/// DDS identifiers have 16 bytes. ROS 2 up to Humble sends 24.
 std::size_t bytes_of_identifier() {
   const char* const distribution = std::getenv("ROS_DISTRO");
   static const std::set<std::string_view> old{"dashing", "eloquent", "foxy", "galactic", "humble"};
@@ -191,7 +191,7 @@ void Participant::announce() {
     }
   }
   writer.finish();
-  // Who looks for nodes sees fewer of them if this fails; the topics work all the same.
+  // If this fails, other programs see fewer nodes; the topics work all the same.
   static_cast<void>(write_blob(writer_, announcing_->topic, message));
 }
 

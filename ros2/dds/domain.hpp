@@ -10,7 +10,7 @@
 
 namespace tessera::ros2 {
 
-/// Where a participant lives.
+/// The network of a participant.
 struct Network {
   std::uint32_t domain = 0;
   std::string interface = "lo";  ///< a name or an address
@@ -21,16 +21,16 @@ struct Network {
 
 [[nodiscard]] bool is_loopback(const Network& network);
 
-/// The configuration of Cyclone DDS for that network: one interface and no other. On loopback, or with
-/// peers, nothing is sent to a multicast group; otherwise only the messages that look for others are.
-/// Throws std::runtime_error: no interface or host is named so.
+/// The configuration of Cyclone DDS for that network: one interface and no other. On loopback, or with peers,
+/// no multicast is sent; otherwise only discovery uses it. Throws std::runtime_error: no interface or host
+/// has that name.
 [[nodiscard]] std::string configuration_of(const Network& network);
 
-/// The domain of ROS_DOMAIN_ID, or 0. Throws std::runtime_error: it is no number from 0 to 232.
+/// The domain of ROS_DOMAIN_ID, or 0. Throws std::runtime_error: the variable is no number from 0 to 232.
 [[nodiscard]] std::uint32_t domain_of_environment();
 
-/// A participant of DDS, shared by all drivers of this process with the same network. It tells ROS 2 which
-/// nodes are there, and which topics they read and write.
+/// A participant of DDS, shared by all drivers of this process with the same network. It tells ROS 2 the
+/// nodes, and the topics that they read and write.
 ///
 /// Threads: any.
 class Participant {
@@ -44,7 +44,7 @@ class Participant {
   [[nodiscard]] dds_entity_t entity() const { return participant_; }
   void add(const std::string& node, dds_entity_t endpoint, bool writes);
   void remove(dds_entity_t endpoint);
-  /// A text for both endpoints of a client or server of a service, which tells that they belong together.
+  /// A text that identifies the two endpoints of a client or server of a service as belonging together.
   [[nodiscard]] std::string new_service_identity();
 
  private:

@@ -25,14 +25,14 @@ void await_other_side(const Endpoint& endpoint, const Prepared& prepared, const 
     throw std::runtime_error("there is no " + std::string(other) + " of " + prepared.endpoint.topic);
 }
 
-/// The endpoint of a topic, which is watched whether anybody is at its other side.
+/// The endpoint of a topic, with a watch for a missing other side.
 class WatchedEndpoint {
  public:
   WatchedEndpoint(const EndpointSetup& setup, bool writes)
       : endpoint_(setup, writes), watch_(setup, writes, OtherSideWatch::Clock::now()) {}
   [[nodiscard]] Endpoint* operator->() { return &endpoint_; }
   [[nodiscard]] const Endpoint& operator*() const { return endpoint_; }
-  /// Prints what there is to tell. It takes a microsecond, so that each reading and writing may call it.
+  /// Prints a pending message. The call takes a microsecond, so every read and write may make it.
   void watch() {
     if (const auto text = watch_.look(endpoint_.has_other_side(), OtherSideWatch::Clock::now()))
       std::fprintf(stderr, "warning: %s\n", text->c_str());
@@ -100,7 +100,7 @@ class Publisher final : public RealEffector {
     return true;
   }
   void close() override {
-    // A best-effort writer expects no receipts. Subscribers may be gone as well, which is no fault here.
+    // A best-effort writer gets no receipts. Missing subscribers are no fault here.
     static_cast<void>((*endpoint_)->await_receipt(longest_receipt));
     endpoint_.reset();
   }
@@ -115,7 +115,7 @@ class Publisher final : public RealEffector {
   }
 
  private:
-  /// A subscriber gets nothing that was written before it has found the writer, though the writer may have
+  /// A subscriber receives no sample that was written before it has found the writer, even if the writer has
   /// found it already. So the command is sent several times.
   [[nodiscard]] bool write_until_received() {
     constexpr int times = 4;
@@ -128,8 +128,8 @@ class Publisher final : public RealEffector {
     return received;
   }
 
-  /// The guardian makes its drivers early, and opens them in a process that it forks for that. This process
-  /// says "taken" only of what somebody has got.
+  /// The guardian makes its drivers early, and opens them in a process that it forks for that. That process
+  /// reports "taken" only for samples that a subscriber has received.
   [[nodiscard]] bool is_guardian() const { return getpid() != maker_; }
 
   Prepared prepared_;

@@ -16,7 +16,7 @@ dds_duration_t dds_time_of(Duration duration) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();
 }
 
-/// How ROS 2 names what differs.
+/// The ROS 2 names of the policies that can differ.
 const char* name_of_policy(std::uint32_t policy) {
   switch (policy) {
     case DDS_RELIABILITY_QOS_POLICY_ID:
@@ -144,7 +144,9 @@ void Endpoint::remember(dds_entity_t reader, dds_instance_handle_t writer, Told&
   dds_builtintopic_endpoint_t* const known = dds_get_matched_publication_data(reader, writer);
   if (known == nullptr) return;
   const std::lock_guard lock(told.mutex);
-  if (told.found.size() >= most_writers) told.found.clear();  // those that are there are found in `others`
+  if (told.found.size() >= most_writers)
+    told.found.clear();  // writers that still exist are found in
+                         // `others`
   told.found[writer] = user_data_in(*known);
   dds_builtintopic_free_endpoint(known);
 }

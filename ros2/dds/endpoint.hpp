@@ -15,19 +15,19 @@
 
 namespace tessera::ros2 {
 
-/// What an endpoint of a topic is made of.
+/// The parameters of an endpoint of a topic.
 struct EndpointSetup {
-  std::string path;                 ///< of the driver, for messages
+  std::string path;                 ///< path of the driver, for messages
   std::string topic;                ///< "/cmd_vel"
   std::string dds_topic, dds_type;  ///< as DDS names them
-  std::string user_data{};          ///< what the other side is told of the endpoint
+  std::string user_data{};          ///< the text about the endpoint that the other side receives
   std::string node;
   Qos qos;
   Network network;
 };
 
-/// A writer or reader of a topic of ROS 2. If the other side has a quality of service that does not go
-/// together with ours, a warning says so on standard error.
+/// A writer or reader of a ROS 2 topic. If the quality of service of the other side is incompatible with
+/// ours, a warning on standard error says so.
 ///
 /// Threads: one at a time.
 class Endpoint {
@@ -38,35 +38,35 @@ class Endpoint {
   Endpoint(const Endpoint&) = delete;
   Endpoint& operator=(const Endpoint&) = delete;
 
-  /// Whether somebody at the other side is matched now.
+  /// Whether an endpoint of the other side is matched now.
   [[nodiscard]] bool has_other_side() const;
   /// Whether the other side was found within this time.
   [[nodiscard]] bool await_other_side(Duration timeout) const;
-  /// Of a writer: false: DDS refused.
+  /// For a writer. false: DDS refused.
   [[nodiscard]] bool write(std::span<const std::byte> message);
-  /// Of a reliable writer: whether all that are there have got everything within this time.
+  /// For a reliable writer: whether all matched readers have received everything within this time.
   [[nodiscard]] bool await_receipt(Duration timeout) const;
-  /// Of a reader: gives the messages that came since the last call, the oldest first.
+  /// For a reader: gives the messages that came since the last call, the oldest first.
   void take(void (*use)(void* context, const TakenBlob& blob), void* context) const;
 
-  /// A matched endpoint of the other side. Its DDS calls tell nothing of one that has gone meanwhile.
+  /// A matched endpoint of the other side. DDS does not report one that has left meanwhile.
   struct Other {
     dds_instance_handle_t handle = 0;
     std::string user_data;
   };
   [[nodiscard]] std::vector<Other> others() const;
-  /// Of a reader: the user data of a writer that it knows, or has known. A message may be read after its
-  /// writer has gone. nullopt: it was never found.
+  /// For a reader: the user data of a writer that it has found. A message may be read after its writer has
+  /// left. nullopt: it was never found.
   [[nodiscard]] std::optional<std::string> user_data_of(dds_instance_handle_t writer) const;
   /// A number that no other writer or reader has.
   [[nodiscard]] std::uint64_t identity() const;
 
  private:
-  /// What listeners need; it does not move.
+  /// The state that listeners use; its address stays the same.
   struct Told {
     std::string path, topic;
     bool writes;
-    bool remembers;  ///< the writers that were found
+    bool remembers;  ///< whether it keeps the writers that were found
     std::mutex mutex{};
     std::map<dds_instance_handle_t, std::string> found{};
   };

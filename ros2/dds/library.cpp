@@ -1,8 +1,8 @@
-// What the library exports. Controllers load it at run time, so that they need no DDS to build.
+// The exported functions of the library. Controllers load it at run time, so they need no DDS to build.
 #include "ros2/dds/clock.hpp"
 #include "ros2/dds/drivers.hpp"
 
-// Both sides of the call are C++; only the names are those of C.
+// Both sides of the call are C++; only the linkage is that of C.
 #ifdef __clang__
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif

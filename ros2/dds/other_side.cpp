@@ -22,8 +22,8 @@ std::string another_interface() {
   return name;
 }
 
-/// Participants announce the addresses of their interfaces without loopback, if they have others. A driver
-/// that uses loopback alone has no way to those addresses.
+/// Participants announce the addresses of their other interfaces rather than loopback. A driver that uses
+/// loopback alone cannot reach those addresses.
 std::string advice_for(const Network& network) {
   const std::string domain = "is ROS_DOMAIN_ID the same at the other side";
   if (!is_loopback(network))

@@ -8,8 +8,8 @@
 
 namespace tessera::ros2 {
 
-/// Tells when a topic has had nobody at the other side for a while, and when somebody comes after that. DDS says
-/// nothing about participants that it cannot reach.
+/// Reports when a topic has had no endpoint at the other side for a while, and when one appears after that.
+/// DDS reports nothing about participants that it cannot reach.
 ///
 /// Threads: one at a time.
 class OtherSideWatch {
@@ -19,7 +19,7 @@ class OtherSideWatch {
   static constexpr std::chrono::seconds patience{3};
 
   OtherSideWatch(const EndpointSetup& setup, bool writes, Clock::time_point now);
-  /// is_there: somebody at the other side is matched. The text to print, if there is one.
+  /// is_there: an endpoint of the other side is matched. Returns the text to print, if there is one.
   [[nodiscard]] std::optional<std::string> look(bool is_there, Clock::time_point now);
 
  private:

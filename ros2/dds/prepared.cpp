@@ -17,7 +17,7 @@ T given(std::optional<T> value, const std::string& error) {
   return *std::move(value);
 }
 
-/// The message that the buffer is: of a service, one of its two.
+/// The message of the buffer; for a service, one of its two.
 std::string message_type(const Ros2Binding& binding, Direction direction) {
   if (binding.role.empty()) return binding.type;
   const bool requests = (binding.role == "client") == (direction == Direction::send);
@@ -61,7 +61,7 @@ Prepared prepare(const Ros2Binding& binding, Direction direction) {
   if (!is_node_name(endpoint.node)) throw std::runtime_error("'" + endpoint.node + "' is no name of a node");
   endpoint.network = {binding.domain ? *binding.domain : domain_of_environment(), binding.interface,
                       binding.peers};
-  static_cast<void>(configuration_of(endpoint.network));  // so that mistakes are found before anything opens
+  static_cast<void>(configuration_of(endpoint.network));  // finds mistakes before a device is opened
   return prepared;
 }
 

@@ -8,10 +8,10 @@
 
 namespace tessera::ros2 {
 
-/// What a driver is made of, of a topic or of one side of a service.
+/// The parts of a driver of a topic or of one side of a service.
 struct Prepared {
   Plan plan;
-  EndpointSetup endpoint;  ///< of a service: without the names of DDS
+  EndpointSetup endpoint;  ///< for a service: without the DDS names
   const ValueEncoding* encoding;
   Duration wait;
 };
@@ -19,7 +19,7 @@ struct Prepared {
 /// Throws std::runtime_error: the binding is wrong.
 [[nodiscard]] Prepared prepare(const Ros2Binding& binding, Direction direction);
 
-/// Whether the n-th of a kind of event is told: the 1st, 10th, 100th and so on.
+/// Whether the n-th event of a kind is reported: the 1st, 10th, 100th and so on.
 [[nodiscard]] bool is_told(std::uint64_t count);
 
 }  // namespace tessera::ros2

@@ -64,7 +64,7 @@ bool ServiceServer::reply(std::uint64_t number, std::vector<std::byte> message) 
   if (number != 0 && current_ && number == number_ && reply_.empty()) {
     put_header(current_->header, message);
     reply_ = std::move(message);
-  } else if (number != 0 && number != told_) {  // an effector writes the same reply again and again
+  } else if (number != 0 && number != told_) {  // an effector may write the same reply several times
     warn(useless_, "a reply was dropped: its call is over, or there was none of that number");
   }
   if (number != 0) told_ = number;
@@ -103,7 +103,7 @@ void ServiceServer::take_requests() {
   }
 }
 
-/// A client that has sent a request may not have been found yet by the writer of replies.
+/// The writer of replies may not have found the client of a request yet.
 void ServiceServer::send_reply() {
   const bool hears = ends_->hears(current_->client);
   if (!hears && ends_->is_there(current_->writer)) return;

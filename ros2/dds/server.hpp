@@ -13,28 +13,28 @@
 
 namespace tessera::ros2 {
 
-/// One request after the other: the next one is given when the last one was answered, or its time is up. So
-/// no request is lost in a buffer that a newer one overwrites.
+/// Serves one request after the other: it gives the next one when the last was answered or has timed out. So
+/// a newer request never overwrites an older one in a buffer.
 ///
 /// Threads: any.
 class ServiceServer {
  public:
   explicit ServiceServer(const ServiceSetup& setup) : setup_(setup) {}
-  /// Zero changes nothing.
+  /// Zero keeps the present timeout.
   void use_timeout(Duration timeout);
 
-  /// The second driver opens what the first has opened. Throws std::runtime_error.
+  /// Opens the service; for the second driver of it, it is open already. Throws std::runtime_error.
   void open();
-  /// When the last driver closes it, it waits up to half a second until the client has got the last reply.
+  /// The close of the last driver waits up to half a second until the client has received the last reply.
   void close();
 
   struct Request {
     std::uint64_t number = 0;  ///< 1, 2, 3 ...
     std::vector<std::byte> message{};
   };
-  /// nullopt: none has come, or one is being answered.
+  /// nullopt: none has arrived, or one is being answered.
   [[nodiscard]] std::optional<Request> next_request();
-  /// The request is not one of the type of the service: it gets no reply.
+  /// The request does not have the type of the service: it gets no reply.
   void drop(std::uint64_t number);
   /// A reply to the request of that number. 0, and a number whose request was answered, do nothing.
   /// false: DDS refused.
@@ -63,7 +63,7 @@ class ServiceServer {
   std::deque<Waiting> waiting_;
   std::optional<Waiting> current_;
   std::vector<std::byte> reply_;  ///< to the current request; empty: there is none yet
-  std::uint64_t number_ = 0;      ///< of the newest request that was given
+  std::uint64_t number_ = 0;      ///< number of the newest request that was given
   std::uint64_t told_ = 0;
   std::uint64_t foreign_ = 0, strange_ = 0, crowded_ = 0, unanswered_ = 0, unheard_ = 0, useless_ = 0;
 };

@@ -81,7 +81,7 @@ class OutgoingMessage {
  public:
   explicit OutgoingMessage(const Prepared& prepared) : sink_(prepared.encoding->most) {}
 
-  /// false: the value is none of its type.
+  /// false: the value does not have its type.
   [[nodiscard]] bool make(const Prepared& prepared, std::span<const std::byte> value) {
     sink_.clear();
     prepared.encoding->put(value.data(), sink_);
@@ -106,7 +106,7 @@ class RequestEffector final : public RealEffector {
         maker_(getpid()) {}
 
   [[nodiscard]] bool open() override {
-    if (is_guardian()) return true;  // most safe commands call nobody
+    if (is_guardian()) return true;  // most safe commands make no call
     client_->open();
     await_server(*client_, prepared_);
     return true;
@@ -122,8 +122,8 @@ class RequestEffector final : public RealEffector {
   }
 
  private:
-  /// The guardian makes its drivers early, and opens them in a process that it forks for that. This process
-  /// says "taken" only of a call that was answered.
+  /// The guardian makes its drivers early, and opens them in a process that it forks for that. That process
+  /// reports "taken" only for a call that was answered.
   [[nodiscard]] bool is_guardian() const { return getpid() != maker_; }
 
   Prepared prepared_;

@@ -16,10 +16,10 @@
 
 namespace tessera::ros2 {
 
-/// How long the end of a run waits until the other side has got the last message.
+/// The longest time that the end of a run waits until the other side has received the last message.
 inline constexpr Duration longest_goodbye = std::chrono::milliseconds(500);
 
-/// A client or server of a service. The receptor and the effector of an agent that name the same service in
+/// A client or server of a service. The receptor and the effector of an agent that name the same service and
 /// the same role share one.
 struct ServiceSetup {
   EndpointSetup endpoint;  ///< its topic is the name of the service
@@ -28,11 +28,11 @@ struct ServiceSetup {
   Duration timeout{};
 };
 
-/// The two endpoints of a client or server, as rmw_cyclonedds_cpp makes them: their user data says who is
-/// who ("clientid=...;", "serviceid=...;").
+/// The two endpoints of a client or server, as rmw_cyclonedds_cpp makes them: their user data identifies them
+/// ("clientid=...;", "serviceid=...;").
 ///
-/// Other implementations of ROS 2 use the same topics and types, but send no header in the message. Taken for
-/// ours, their bytes would be wrong values, and so would ours for them. The user data tells them apart.
+/// Other implementations of ROS 2 use the same topics and types, but send no header in the message. Their
+/// bytes, read in our form, would be wrong values, and the reverse. The user data tells them apart.
 ///
 /// Threads: one at a time.
 class ServiceEnds {
@@ -41,34 +41,34 @@ class ServiceEnds {
   explicit ServiceEnds(const ServiceSetup& setup);
 
   [[nodiscard]] bool write(std::span<const std::byte> message);
-  /// Whether all others have got what was written, within this time.
+  /// Whether all matched readers have received everything within this time.
   [[nodiscard]] bool await_receipt(Duration timeout) const { return writer_->await_receipt(timeout); }
   struct Taken {
     std::vector<std::byte> message;
     dds_instance_handle_t writer = 0;
   };
-  /// What came since the last call, the oldest first.
+  /// The messages since the last call, the oldest first.
   [[nodiscard]] std::vector<Taken> take() const;
   [[nodiscard]] std::uint64_t identity() const { return writer_->identity(); }
 
-  /// Of a client: how many servers will get a request and can be heard.
+  /// For a client: the number of servers that receive a request and can reply to us.
   struct Servers {
     std::size_t ready = 0;
-    bool foreign = false;  ///< somebody would misunderstand a request
+    bool foreign = false;  ///< some server would misread a request
   };
   [[nodiscard]] Servers servers() const;
-  /// Of a server: the client with that writer, which may have gone; nullopt: it is no client of this kind.
+  /// For a server: the client with that writer, which may have left; nullopt: it is no client of this kind.
   [[nodiscard]] std::optional<std::string> client_of(dds_instance_handle_t writer) const;
-  /// Whether that client is still there.
+  /// Whether that client still exists.
   [[nodiscard]] bool is_there(dds_instance_handle_t writer) const;
-  /// Whether that client will get a reply.
+  /// Whether that client receives a reply.
   [[nodiscard]] bool hears(const std::string& client) const;
 
  private:
   std::optional<Endpoint> writer_, reader_;
 };
 
-/// The one object of the drivers with that service and role in an agent of this process.
+/// The object that the drivers of that service and role share in an agent of this process.
 template <class Service>
 [[nodiscard]] std::shared_ptr<Service> shared_service(const ServiceSetup& setup) {
   static std::mutex mutex;

@@ -74,7 +74,7 @@ std::optional<Literal> text_literal(std::string_view text, bool bare) {
       found += text[at];
     }
   }
-  return std::nullopt;  // without an end
+  return std::nullopt;  // no closing quote
 }
 
 std::optional<Literal> literal_of(Primitive primitive, std::string_view text, bool bare) {
@@ -117,7 +117,7 @@ std::string_view without_comment(std::string_view line) {
       quote = line[at];
     }
   }
-  // A quote that never ends is an apostrophe in a comment, if there is one.
+  // A quote without an end counts as an apostrophe in a comment, if there is a comment.
   return quote == 0 ? line : line.substr(0, line.find('#'));
 }
 

@@ -17,7 +17,7 @@ namespace tessera::ros2 {
 [[nodiscard]] std::optional<std::vector<Literal>> parse_literals(Primitive primitive, std::string_view text,
                                                                  std::string& error);
 
-/// The line without its comment; a # within quotes begins none.
+/// The line without its comment; a # within quotes begins no comment.
 [[nodiscard]] std::string_view without_comment(std::string_view line);
 [[nodiscard]] std::string_view trimmed(std::string_view text);
 

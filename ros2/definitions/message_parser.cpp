@@ -70,7 +70,7 @@ class MessageReader {
     structure_.name = name;
   }
 
-  /// first_line: its number.
+  /// first_line: its line number.
   std::optional<Structure> read(std::string_view text, std::size_t first_line) {
     const std::size_t before = mistakes_.size();
     line_ = first_line;
@@ -94,7 +94,8 @@ class MessageReader {
     const std::size_t blank = line.find_first_of(" \t");
     if (blank == std::string_view::npos) return wrong("a field needs a name: '" + std::string(line) + "'");
     std::string_view written = line.substr(0, blank), rest = trimmed(line.substr(blank));
-    // "string<= 5 x" is not valid, and "string <=5" neither; both would look like a strange name below.
+    // "string<= 5 x" and "string <=5" are not valid; without this check both would be reported as a strange
+    // name below.
     const auto type = read_type(written);
     if (!type) return;
     structure_.text += std::string(line) + '\n';

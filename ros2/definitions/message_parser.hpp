@@ -10,9 +10,9 @@
 
 namespace tessera::ros2 {
 
-/// What is wrong with a definition, or with a name of one.
+/// A mistake in a definition, or in its name.
 struct Mistake {
-  std::string file;      ///< empty: no file is to blame
+  std::string file;      ///< empty: the mistake is in no file
   std::size_t line = 0;  ///< from 1; 0: the whole file
   std::string text, hint{};
 
@@ -20,7 +20,7 @@ struct Mistake {
   [[nodiscard]] std::string shown() const;
 };
 
-/// Reads a .msg file. Types of other messages are named in full and not looked up.
+/// Reads a .msg file. Types of other messages get their full names and are not looked up.
 ///
 /// name: "geometry_msgs/msg/Twist". file: for mistakes. All mistakes are reported, then nullopt.
 /// Threads: pure.

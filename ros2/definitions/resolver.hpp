@@ -12,7 +12,7 @@
 
 namespace tessera::ros2 {
 
-/// Where definitions come from.
+/// A source of definitions.
 class Definitions {
  public:
   struct Text {
@@ -25,7 +25,7 @@ class Definitions {
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
 };
 
-/// Folders with PACKAGE/msg/NAME.msg and PACKAGE/srv/NAME.srv; the first folder that has one counts.
+/// Folders with PACKAGE/msg/NAME.msg and PACKAGE/srv/NAME.srv; the first folder that has a file wins.
 class DefinitionFolders : public Definitions {
  public:
   explicit DefinitionFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
@@ -36,8 +36,9 @@ class DefinitionFolders : public Definitions {
   std::vector<std::filesystem::path> folders_;
 };
 
-/// One text with a message and all that it uses, as recordings of ROS 2 have it: the definition of the
-/// message, then for each other a line of 80 '=', a line "MSG: geometry_msgs/Vector3" and its definition.
+/// One text with a message and everything that it uses, in the form of ROS 2 recordings: the definition of
+/// the message, then for each other one a line of 80 '=', a line "MSG: geometry_msgs/Vector3" and its
+/// definition.
 class DefinitionBundle : public Definitions {
  public:
   DefinitionBundle(std::string name, std::string_view text);
@@ -48,7 +49,7 @@ class DefinitionBundle : public Definitions {
   std::vector<std::pair<std::string, std::string>> messages_;
 };
 
-/// Reads a message and all that it uses. nullptr after mistakes: unknown messages, wrong definitions,
+/// Reads a message and everything that it uses. nullptr after mistakes: unknown messages, wrong definitions,
 /// a message that contains itself.
 [[nodiscard]] std::shared_ptr<const Structure> resolve(const std::string& name,
                                                        const Definitions& definitions,

@@ -28,7 +28,7 @@ enum class Primitive : std::uint8_t {
 
 /// "float64"; "message" for a structure.
 [[nodiscard]] const char* name_of(Primitive primitive);
-/// Bytes of a number or bool in CDR, which is also its alignment. Strings and structures: 0.
+/// The size in CDR of a number or bool in bytes, which is also its alignment. Strings and structures: 0.
 [[nodiscard]] std::size_t size_of(Primitive primitive);
 
 /// A constant or default value of one element.
@@ -41,9 +41,9 @@ struct Type {
   Primitive primitive = Primitive::boolean;
   std::uint32_t string_bound = 0;  ///< 0: none
   Repeat repeat = Repeat::once;
-  std::uint32_t count = 0;  ///< of an array its elements; of a sequence the most of them, 0: no bound
-  std::string refers{};     ///< of a structure: "geometry_msgs/msg/Vector3"
-  std::shared_ptr<const Structure> structure{};  ///< of a structure, once it is resolved
+  std::uint32_t count = 0;  ///< array: number of elements; sequence: largest number, 0: no bound
+  std::string refers{};     ///< for a structure: "geometry_msgs/msg/Vector3"
+  std::shared_ptr<const Structure> structure{};  ///< for a structure, once it is resolved
 
   /// As definitions write it: "float64[36]", "geometry_msgs/Vector3".
   [[nodiscard]] std::string text() const;
@@ -69,7 +69,7 @@ struct Structure {
   std::vector<Constant> constants{};
   std::string text{};  ///< the definition without comments and empty lines
 
-  /// nullptr: there is none of that name.
+  /// nullptr: no field has that name.
   [[nodiscard]] const Field* find(const std::string& field) const;
 };
 

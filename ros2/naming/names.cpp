@@ -19,7 +19,7 @@ bool is_token(std::string_view token) {
          std::ranges::all_of(token, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
-/// Of a package or a type.
+/// Whether it can be the name of a package or a type.
 bool is_name(std::string_view part) {
   return !part.empty() &&
          std::ranges::all_of(part, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });

@@ -17,7 +17,7 @@ namespace {
 constexpr double tolerance = 1e-12;
 constexpr std::size_t most_listed = 10;
 
-/// Compares an instance. `Rows` of numbers are found through pointers to members of mjModel.
+/// Compares one instance. `Rows` of numbers are found through pointers to members of mjModel.
 class InstanceComparison {
  public:
   InstanceComparison(const mjModel& composed, const PlacedModel& placed)
@@ -42,7 +42,7 @@ class InstanceComparison {
   void note(const std::string& what) {
     if (found_.size() < most_listed) found_.push_back(what);
   }
-  /// The elements of a type that have names, in both models.
+  /// The named elements of a type, in both models.
   std::vector<Pair> pairs(mjtObj type, int count, const char* kind) {
     std::vector<Pair> all;
     kind_ = kind;
@@ -72,8 +72,8 @@ class InstanceComparison {
   void row(const char* what, const Pair& pair, Number* mjModel::*values, int width = 1) {
     equal(what, pair, alone_.*values + width * pair.alone, composed_.*values + width * pair.composed, width);
   }
-  /// The frame of something that is a child of the world alone is moved with the placement if it is one in
-  /// the composed world too.
+  /// Compares frames. The frame of a child of the world moves with the placement, if it is also a child of
+  /// the world in the composed world.
   void frame(const Pair& pair, mjtNum* mjModel::*positions, mjtNum* mjModel::*quaternions, bool is_moved) {
     const mjtNum* position = alone_.*positions + 3 * pair.alone;
     const mjtNum* quaternion = alone_.*quaternions + 4 * pair.alone;

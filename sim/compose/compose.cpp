@@ -20,10 +20,10 @@ namespace tessera::sim {
 namespace {
 
 constexpr std::size_t most_placements = 10'000;
-/// The engine counts pairs of bodies with 16 bits for each, and does not notice when they do not suffice.
+/// The engine numbers the bodies of a pair with 16 bits each, and does not notice an overflow.
 constexpr int most_bodies = 32'000;
 constexpr std::size_t longest_name = 200;
-/// Beyond that the numbers of the engine, and its pictures, are of no use.
+/// Beyond this distance, the numbers of the engine and its pictures are too coarse.
 constexpr double farthest_m = 1e6;
 
 bool is_usual(char c) {
@@ -82,7 +82,7 @@ std::optional<Problem> clash(const ModelFile& world, const std::set<std::string_
   return problem;
 }
 
-/// Model files, each read once, with names that differ.
+/// The model files. Each is read once and gets a name that no other has.
 class Library {
  public:
   struct Entry {
@@ -121,7 +121,7 @@ std::optional<Problem> too_many_bodies(const ModelFile& world, const std::vector
                  std::to_string(most_bodies)};
 }
 
-/// The engine has one way to find the inertia of meshes, which decides how they lie in their geoms.
+/// The engine has one setting for the inertia of meshes, which decides how they lie in their geoms.
 std::optional<Problem> mixed_mesh_inertia(const std::vector<const ModelFile*>& files) {
   const ModelFile* first = nullptr;
   for (const ModelFile* file : files) {
@@ -140,7 +140,7 @@ bool has_exact_mesh_inertia(const std::vector<const ModelFile*>& files) {
   });
 }
 
-/// Which file each placement has, and all files, the world first.
+/// The file of each placement, and all files, the world first.
 struct Chosen {
   std::vector<const Library::Entry*> of_placement;
   std::vector<const ModelFile*> files;

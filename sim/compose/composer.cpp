@@ -15,7 +15,7 @@ constexpr std::array<const char*, 6> sections{"custom", "contact",  "equality",
                                               "tendon", "actuator", "sensor"};
 
 Naming naming_of(const ModelFile& file, const std::string& instance, const std::string& id) {
-  // Nothing of the world is renamed but its classes: the outermost would be that of all files.
+  // Only the classes of the world are renamed: its outermost class would be that of all files.
   if (id.empty()) return {"", "", "/", main_class_of(file.root())};
   return {instance + "/", id + "/", id + "/", main_class_of(file.root())};
 }
@@ -37,7 +37,7 @@ Composer::Composer(bool exact_mesh_inertia) {
   set_attribute(root_, "model", "composed");
   pugi::xml_node compiler = root_.append_child("compiler");
   set_attribute(compiler, "angle", "radian");
-  // All is limited explicitly but the parts of composites, which can have limits in this way only.
+  // All limits are explicit, except for parts of composites, which can have limits only in this way.
   set_attribute(compiler, "autolimits", "true");
   set_attribute(compiler, "exactmeshinertia", exact_mesh_inertia ? "true" : "false");
   defaults_ = root_.append_child("default");
@@ -51,7 +51,7 @@ void Composer::add_world(const ModelFile& world) {
   for (const char* section : {"option", "size", "visual", "statistic"}) {
     for (const pugi::xml_node part : world.root().children(section)) root_.append_copy(part);
   }
-  // Models may have more of each than the world thinks there is; by itself the engine counts right.
+  // Models may need more of each than the world sets; without a setting the engine counts right.
   for (pugi::xml_node size : root_.children("size")) {
     for (const char* count : {"nkey", "nuser_body", "nuser_jnt", "nuser_geom", "nuser_site", "nuser_cam",
                               "nuser_tendon", "nuser_actuator", "nuser_sensor"})
@@ -74,7 +74,7 @@ void Composer::add_shared(const ModelFile& file, const Naming& naming) {
   const bool is_world = naming.element("").empty();
   for (const pugi::xml_node section : file.root().children("asset")) {
     for (const pugi::xml_node asset : section.children()) {
-      // There is one sky, that of the world.
+      // Only the sky of the world is kept.
       if (!is_shared_asset(asset) || (!is_world && is_sky(asset))) continue;
       const pugi::xml_node copy = assets_.append_copy(asset);
       naming.give_main_class(copy);
@@ -95,8 +95,8 @@ void Composer::add_elements(Instance instance) {
   for (const char* section : sections) put_section(instance, section);
 }
 
-/// A child of the file's worldbody. Planes and height fields go to the world as well: in any other body the
-/// engine compares them with all bodies, and has no room for that many pairs.
+/// Adds a child of the file's worldbody. Planes and height fields go to the world as well: in any other body,
+/// the engine compares them with all bodies, and cannot hold that many pairs.
 void Composer::put_in_world(Instance& instance, pugi::xml_node element) {
   if (!is_element(element)) return;
   const mjModel& alone = *instance.file.alone;
@@ -154,8 +154,8 @@ void Composer::put_section(Instance& instance, const char* section) {
   }
 }
 
-/// What is welded or connected to the world moves with the placement; what is not to collide with the world
-/// shall not collide with the fixed part of its file either.
+/// Elements that are welded or connected to the world move with the placement. Elements that are not to
+/// collide with the world do not collide with the fixed part of its file either.
 void Composer::hold_to_instance(Instance& instance, pugi::xml_node element) {
   const std::string_view kind = element.name();
   const auto is_world = [&](const char* key) {

@@ -17,19 +17,19 @@ class Composer {
   explicit Composer(bool exact_mesh_inertia);
 
   void add_world(const ModelFile& world);
-  /// Assets and default classes, once a file. id: in front of their names.
+  /// Adds assets and default classes, once per file. id: prefix of their names.
   void add_file(const ModelFile& file, const std::string& id);
   void add_instance(const ModelFile& file, const std::string& id, const Placement& placement);
   [[nodiscard]] std::string text();
 
  private:
-  /// What is put where.
+  /// A file and its placement.
   struct Instance {
     const ModelFile& file;
     Naming naming;
     const Placement* placement;  ///< nullptr: the world itself
     Frame frame;
-    pugi::xml_node fixed;  ///< the body that holds all that does not move freely; made when needed
+    pugi::xml_node fixed;  ///< the body that holds all parts that do not move freely; made when needed
   };
   void add_shared(const ModelFile& file, const Naming& naming);
   void add_elements(Instance instance);
@@ -40,7 +40,7 @@ class Composer {
   [[nodiscard]] pugi::xml_node fixed_body(Instance& instance);
 
   pugi::xml_document document_;
-  pugi::xml_document with_state_;  ///< actuators that the engine wants after all others
+  pugi::xml_document with_state_;  ///< actuators that the engine requires after all others
   pugi::xml_node root_, defaults_, assets_, world_;
 };
 

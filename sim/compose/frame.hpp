@@ -9,12 +9,12 @@
 
 namespace tessera::sim {
 
-/// Where something stands and how it is turned (quaternion w x y z).
+/// A position and an orientation (quaternion w x y z).
 struct Frame {
   std::array<mjtNum, 3> position{};
   std::array<mjtNum, 4> quaternion{1, 0, 0, 0};
 
-  /// The frame of what stands at `position`, `quaternion` in this frame.
+  /// The frame of an object that is at `position`, `quaternion` in this frame.
   [[nodiscard]] Frame of(const mjtNum* at, const mjtNum* turned) const {
     Frame inner;
     mju_rotVecQuat(inner.position.data(), at, quaternion.data());
@@ -29,8 +29,8 @@ struct Frame {
           {std::cos(placement.heading_rad / 2), 0, 0, std::sin(placement.heading_rad / 2)}};
 }
 
-/// Whether a body moves by itself in the world: on a free joint, or as a mocap body. The engine allows that
-/// for children of the world only.
+/// Whether a body moves on its own in the world: on a free joint, or as a mocap body. The engine allows both
+/// only for children of the world.
 [[nodiscard]] inline bool moves_freely(const mjModel& model, int body) {
   if (model.body_mocapid[body] >= 0) return true;
   return model.body_jntnum[body] > 0 && model.jnt_type[model.body_jntadr[body]] == mjJNT_FREE;

@@ -56,7 +56,7 @@ InitialValues::Joint joint_value(const mjModel& alone, int key, int joint) {
           {velocity, velocity + count.velocity}};
 }
 
-/// Where the one number of an actuator's state stands; -1: it has none.
+/// The index of an actuator's one state number; -1: it has none.
 int activation_of(const mjModel& model, int actuator) {
   const bool has_state = model.actuator_dyntype[actuator] != mjDYN_NONE;
   return has_state ? actuator - (model.nu - model.na) : -1;

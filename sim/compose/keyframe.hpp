@@ -7,12 +7,12 @@
 
 namespace tessera::sim {
 
-/// Adds what the keyframe of a placement gives its instance. Nothing is added if it names none.
-/// Error: the file has no such keyframe.
+/// Adds the values that the keyframe of a placement gives its instance; none if it names no keyframe. Error:
+/// the file has no such keyframe.
 [[nodiscard]] std::optional<Problem> add_initial_values(const ModelFile& file, const Placement& placement,
                                                         InitialValues& values);
 
-/// The state at the start of a compiled world: that of the world file, and what keyframes give.
+/// The state at the start of a compiled world: that of the world file, and the values of keyframes.
 [[nodiscard]] InitialState initial_state(const mjModel& model, const InitialValues& values);
 
 }  // namespace tessera::sim

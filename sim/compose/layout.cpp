@@ -49,7 +49,7 @@ bool is_inside(const Volume& volume, const Point3& scaled) {
   switch (volume.type) {
     case mjGEOM_CYLINDER:
       return across <= 1;
-    case mjGEOM_CAPSULE: {  // scaled by its radius, and by half its length with the ends
+    case mjGEOM_CAPSULE: {  // scaled by its radius, and by half its length with the caps
       const double radius = volume.size[0], half = volume.size[1];
       const double beyond = std::max(0.0, std::abs(scaled[2]) * (half + radius) - half) / radius;
       return across + beyond * beyond <= 1;
@@ -62,7 +62,7 @@ bool is_inside(const Volume& volume, const Point3& scaled) {
   }
 }
 
-/// Half the sides of the box around it.
+/// Half the side lengths of its bounding box.
 Point3 half_sides(const Volume& volume) {
   const Point3& size = volume.size;
   switch (volume.type) {
@@ -128,7 +128,7 @@ bool is_free(const Point3& point, const std::vector<Point3>& taken, double apart
       taken, [&](const Point3& other) { return mju_dist3(point.data(), other.data()) < apart_m; });
 }
 
-/// Draws as long as there may be room.
+/// Draws positions as long as one may fit.
 std::vector<Point3> draw_apart(const Volume& volume, std::size_t count, double apart_m, std::uint64_t seed) {
   constexpr int most_tries = 20'000;
   std::mt19937_64 random(seed);

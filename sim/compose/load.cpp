@@ -11,7 +11,7 @@
 namespace tessera::sim {
 namespace {
 
-/// Names that composing made end in "(12)", as those of a model file, or of an instance, never do by chance.
+/// Names that the composer made end in "(12)". Names of a model file or of an instance never do.
 bool is_generated(std::string_view name) {
   const auto slash = name.rfind('/');
   const std::string_view last = slash == std::string_view::npos ? name : name.substr(slash + 1);

@@ -62,7 +62,7 @@ void Naming::rename_attributes(pugi::xml_node element) const {
     } else if (among(asset_references, key)) {
       prepend(attribute, asset_);
     } else if (value == "world") {
-      continue;  // the one body that all share
+      continue;  // the one body that all instances share
     } else if (key == "objname" || key == "refname") {
       prepend(attribute, names_an_asset(element, key) ? asset_ : instance_);
     } else if (among(instance_references, key)) {

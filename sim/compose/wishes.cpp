@@ -20,7 +20,7 @@ class Wishes {
     if (wanted != given)
       warn(option, words[static_cast<std::size_t>(wanted)], words[static_cast<std::size_t>(given)]);
   }
-  /// Only what a file says is a wish of it.
+  /// Only an option that the file sets counts.
   [[nodiscard]] bool says(const char* option) const {
     for (const pugi::xml_node options : file_.root().children("option")) {
       if (options.attribute(option)) return true;

@@ -7,7 +7,7 @@
 
 namespace tessera::sim {
 
-/// Adds a warning for each option that a model file sets and the world, whose options hold, has otherwise,
+/// Adds a warning for each option that a model file sets and that differs in the world, whose options apply,
 /// if it changes how the model moves.
 void add_wishes(const ModelFile& file, const ModelFile& world, std::vector<std::string>& warnings);
 

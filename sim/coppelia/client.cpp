@@ -17,12 +17,13 @@ using nlohmann::json;
 using SteadyClock = std::chrono::steady_clock;
 
 constexpr int protocol_version = 2;
-/// After so long without a request, CoppeliaSim forgets a client, and its simulation goes on by itself.
-/// So long may a run be paused; so long a simulation stands still whose controller was killed.
+/// CoppeliaSim forgets a client after this time without a request, and its simulation then goes on by itself.
+/// So a run can be paused for this long, and the simulation of a killed controller stands still for this
+/// long.
 constexpr int forgotten_after_s = 60;
 constexpr auto pause_before_repeating = std::chrono::milliseconds(1);
 
-/// Reads a reply whose nesting is bounded: the library calls itself once for each level, on the stack.
+/// Reads a reply of limited nesting: the library recurses once per level, on the stack.
 class BoundedReader : public nlohmann::detail::json_sax_dom_parser<json> {
  public:
   explicit BoundedReader(json& value) : json_sax_dom_parser(value, /*allow_exceptions_=*/false) {}
@@ -57,8 +58,8 @@ std::string random_uuid() {
   return uuid;
 }
 
-/// The message of an error, without the traceback that the server appends: in it, line feeds and tabs are
-/// replaced by words.
+/// The message of an error, without the traceback that the server appends: in it, words replace line feeds
+/// and tabs.
 std::string first_line(std::string text) {
   for (const char* mark : {"_=NL=_", "\n", "stack traceback"})
     if (const std::size_t at = text.find(mark); at != std::string::npos && at > 0) text.resize(at);
@@ -70,7 +71,7 @@ std::string text_or_nothing(const json& map, const char* key) {
   return found != map.end() && found->is_string() ? found->get<std::string>() : std::string();
 }
 
-/// A void return is an empty map.
+/// A function without a result returns an empty map.
 json returned(const json& values) { return values.is_array() ? values : json::array(); }
 
 }  // namespace
@@ -84,7 +85,7 @@ Client::~Client() {
   if (lost_ || !introduced_) return;
   try {
     static_cast<void>(exchange({{"func", "_*end*_"}, {"args", json::array()}}, std::chrono::seconds(1)));
-  } catch (const LinkError&) {  // it leaves in any case
+  } catch (const LinkError&) {  // the client leaves in any case
   }
 }
 
@@ -125,10 +126,10 @@ json Client::call(const std::string& function, json arguments, Duration patience
     if (again) std::this_thread::sleep_for(pause_before_repeating);
     const Duration left = end - SteadyClock::now();
     if (left <= Duration::zero()) throw unfinished();
-    // There are no callbacks of ours, so the name of one is answered like a wish to wait.
+    // We have no callbacks, so a request for one is answered like a request to wait.
     try {
       reply = exchange(again ? request : executed, left);
-    } catch (const NoReply&) {  // it has answered before, however little was left for this reply
+    } catch (const NoReply&) {  // it has answered before, even if little time was left for this reply
       throw unfinished();
     }
   }

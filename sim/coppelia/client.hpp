@@ -10,24 +10,24 @@ namespace tessera::coppelia {
 
 /// Calls functions of CoppeliaSim over its ZeroMQ remote API, protocol version 2.
 ///
-/// Each request and each reply is one map in CBOR. While the simulator is busy with a call it may ask the
-/// client to wait, or to ask again; both are answered here. A call takes at most the timeout of the server's
+/// Each request and each reply is one map in CBOR. While the simulator is busy with a call, it may ask the
+/// client to wait or to ask again; this class answers both. A call takes at most the timeout of the server's
 /// settings, however often that happens.
 ///
 /// Threads: one at a time.
 class Client {
  public:
-  /// Errors: LinkError, as RequestSocket.
+  /// Errors: LinkError, see RequestSocket.
   explicit Client(const WorldServer& server);
   Client(const Client&) = delete;
   Client& operator=(const Client&) = delete;
-  /// Takes leave of the server, unless the connection is lost.
+  /// Signs off from the server, unless the connection is lost.
   ~Client();
 
   [[nodiscard]] bool is_lost() const { return lost_; }
-  /// What the function returns, as an array. arguments: an array.
+  /// The results of the function, as an array. arguments: an array.
   ///
-  /// Errors: RefusedCall: the simulator says why not. LinkError: after it, every call is one.
+  /// Errors: RefusedCall: the simulator gives the reason. LinkError: after it, every call fails so.
   [[nodiscard]] nlohmann::json call(const std::string& function, nlohmann::json arguments, Duration patience);
 
  private:

@@ -11,7 +11,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 using Type = Object::Type;
 
-/// Adds an entry for every object of a type; `describe` adds to it, or returns false to leave it out.
+/// Adds an entry for every object of a type; `describe` completes it, or returns false to leave it out.
 template <class Describe>
 void add(Simulator& simulator, Json& entries, Type type, Describe&& describe) {
   for (const std::string& path : simulator.paths(type)) {

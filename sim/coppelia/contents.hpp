@@ -6,8 +6,8 @@
 
 namespace tessera::coppelia {
 
-/// What the scene of a server offers, as `tessera world` reads it. Loads the scene if it is named, and closes
-/// it again. Errors: as LockStep.
+/// The elements of the server's scene, for `tessera world`. Loads the scene if the server names one, and
+/// closes it again. Errors: as LockStep.
 [[nodiscard]] std::string contents_as_json(const WorldServer& server);
 
 }  // namespace tessera::coppelia

@@ -8,9 +8,9 @@
 
 namespace tessera::coppelia {
 
-/// What devices share.
+/// The state that devices share.
 struct DeviceContext {
-  std::shared_ptr<LockStep> scene;  ///< nullptr: devices are only judged, by what is known without a server
+  std::shared_ptr<LockStep> scene;  ///< nullptr: devices are only judged, without a server
   std::uint64_t seed = 1;
 };
 

@@ -18,12 +18,12 @@ LockStep::LockStep(const WorldServer& server) : simulator_(server) {
   step_ = simulator_.time_step();
 }
 
-/// Stops the simulation if it was left by a run that was killed. Errors: LinkError if somebody may need it.
+/// Stops a simulation that a killed run has left. Errors: LinkError if another program may need it.
 void LockStep::end_abandoned(const std::string& place) {
   std::optional<RunMark> mark;
   try {
     mark = mark_of(simulator_.mark());
-  } catch (const RefusedCall&) {  // nothing can be told from it
+  } catch (const RefusedCall&) {  // the mark is unreadable
   }
   if (!mark)
     throw LinkError("a simulation runs already in CoppeliaSim at " + place + "; stop it there first");
@@ -60,7 +60,7 @@ void LockStep::advance_to(Time time) {
   }
 }
 
-/// A step that is asked for before the simulation has really begun does nothing.
+/// A step that is requested before the simulation has really begun has no effect.
 void LockStep::start() {
   constexpr int most_tries = 10;
   simulator_.start_stepping();
@@ -73,7 +73,7 @@ void LockStep::start() {
   if (start_s_ == 0) throw LinkError("the simulation does not begin in CoppeliaSim");
   try {
     simulator_.set_mark(text_of(mark_of_this_process(is_loaded_)));
-  } catch (const RefusedCall&) {  // whoever kills the run must stop the simulation, too
+  } catch (const RefusedCall&) {  // without a mark, a killed run leaves the simulation to the user
   }
 }
 
@@ -84,7 +84,7 @@ void LockStep::step() {
   const double expected_s = start_s_ + seconds(step_) * static_cast<double>(steps_);
   const double time_s = simulator_.time_s();
   if (std::abs(time_s - expected_s) < seconds(step_) / 2) return;
-  // A simulation that somebody stops still makes some steps, without waiting for its clients.
+  // A simulation that another program stops still makes some steps, without waiting for its clients.
   const bool is_ended = time_s < expected_s || !simulator_.goes_on();
   throw LinkError(is_ended
                       ? "the simulation has been paused or stopped in CoppeliaSim"
@@ -102,7 +102,7 @@ Duration LockStep::time() const {
   return time_;
 }
 
-/// After a failure it still tries to stop the simulation: CoppeliaSim may only have been busy for too long.
+/// Tries to stop the simulation even after a failure: CoppeliaSim may only have been busy for too long.
 void LockStep::end() {
   constexpr Duration patience = std::chrono::seconds(2);
   if (simulator_.is_lost()) simulator_.connect_again(patience);

@@ -15,33 +15,33 @@
 
 namespace tessera::coppelia {
 
-/// A scene of CoppeliaSim that moves in lock-step with the clock of the run. It is what a world and its
-/// devices share.
+/// A scene of CoppeliaSim that moves in lock-step with the clock of the run. A world and its devices share
+/// it.
 ///
 /// * The simulation starts with the first advance, and makes one step before the run's time zero, with the
-///   safe commands. So every sensor of the scene has a value from the beginning.
+///  safe commands. So every sensor of the scene has a value from the beginning.
 /// * Commands are sent before the next step. So a reading is the state of its instant, whoever reads first.
-/// * Once something has failed, nothing is asked or sent any more.
+/// * After a failure, no further request is sent.
 ///
 /// Threads: all members lock.
 class LockStep {
  public:
-  /// Connects and loads the scene. A simulation that a killed run has left is stopped before. Errors:
-  /// LinkError; RefusedCall; also LinkError if another simulation runs already.
+  /// Connects and loads the scene. It first stops a simulation that a killed run has left. Errors: LinkError;
+  /// RefusedCall; also LinkError if another simulation is running.
   explicit LockStep(const WorldServer& server);
   LockStep(const LockStep&) = delete;
   LockStep& operator=(const LockStep&) = delete;
-  /// As finish.
+  /// See finish.
   ~LockStep();
 
   void advance_to(Time time);
   [[nodiscard]] Duration time() const;
-  /// Sends the last commands, stops the simulation, and closes the scene if it was loaded. Problem: it has
-  /// failed, now or before.
+  /// Sends the last commands, stops the simulation, and closes the scene if it was loaded. Problem: the
+  /// simulation has failed, now or before.
   [[nodiscard]] std::optional<Problem> finish();
 
-  /// Calls `use(simulator)` while nobody else does, and returns what it returns. Throws std::runtime_error
-  /// once the simulation has failed.
+  /// Calls `use(simulator)` with exclusive access, and returns its result. Throws std::runtime_error once the
+  /// simulation has failed.
   template <class Use>
   auto use(Use&& use) {
     const std::scoped_lock lock(mutex_);
@@ -54,11 +54,11 @@ class LockStep {
     }
   }
 
-  /// The object at `path` with the agent's name before it ("/robot[3]/eye"), otherwise at `path` itself.
-  /// A path that begins with `/` is never the agent's. As `use` otherwise.
+  /// The object at `path` with the agent's name before it ("/robot[3]/eye"), otherwise at `path` itself. A
+  /// path that begins with `/` never gets the agent's name. Errors: see `use`.
   [[nodiscard]] std::optional<Object> find(const std::string& agent, const std::string& path);
 
-  /// Is done before the next step.
+  /// The command is sent before the next step.
   void command(const Object& joint, JointCommand how, double value);
 
  private:
@@ -80,7 +80,7 @@ class LockStep {
   bool is_running_ = false;
   bool is_finished_ = false;
   Duration step_{};
-  Duration time_{};         // of the run
+  Duration time_{};         // time of the run
   std::int64_t steps_ = 0;  // since the run's time zero
   double start_s_ = 0;      // the time of the simulation at the run's time zero
   std::vector<Command> commands_;

@@ -21,11 +21,11 @@ using sim::Options;
 
 constexpr int longest_side = 4096;
 
-/// What the buffer of a picture is made of.
+/// The form of a pixel in the buffer of a picture.
 struct Pixel {
   std::size_t numbers;
   const char* type;
-  std::size_t bytes;  ///< of all its numbers
+  std::size_t bytes;  ///< size of all its numbers
   Picture (Simulator::*read)(const Object&);
 };
 constexpr Pixel colour_pixel{3, "uint8", 3, &Simulator::colours},
@@ -40,7 +40,7 @@ constexpr Pixel colour_pixel{3, "uint8", 3, &Simulator::colours},
                     "make the buffer " + wanted);
 }
 
-/// Throws DeviceError unless the buffer has room for so many pixels, and for nothing else.
+/// Throws DeviceError unless the buffer holds exactly so many pixels.
 void require_room(const DriverRequest& request, const Pixel& pixel, std::size_t width, std::size_t height) {
   const auto layout = ValueLayout::parse(request.type);
   const bool right_type = layout && std::ranges::all_of(layout->types(), [&](const std::string& one) {

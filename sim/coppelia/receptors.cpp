@@ -23,7 +23,7 @@ using sim::DeviceError;
 using sim::Options;
 using Type = Object::Type;
 
-/// Reads a row of numbers while nobody else uses the simulator. false: there is no value yet.
+/// Reads a row of numbers with exclusive access to the simulator. false: there is no value yet.
 using Look = std::function<bool(Simulator& simulator, std::span<double> numbers)>;
 using Distort = std::function<void(std::span<double> numbers)>;
 
@@ -95,7 +95,7 @@ std::unique_ptr<RealReceptor> joint_velocity(const DeviceContext& context, const
   return joints(context, request, &Simulator::joint_velocity);
 }
 
-/// How many numbers a sensor gives.
+/// The number of values that a sensor gives.
 std::size_t size_of(const Object& sensor) { return sensor.type == Type::force_sensor ? 6 : 1; }
 
 bool read_sensor(Simulator& simulator, const Object& sensor, std::span<double> numbers) {
@@ -132,7 +132,7 @@ std::unique_ptr<RealReceptor> sensor(const DeviceContext& context, const DriverR
       std::move(noise));
 }
 
-/// The mean brightness of a vision sensor, so that the light sensor sees as far as its picture does.
+/// The mean brightness of a vision sensor. So the light sensor sees the same area as its picture.
 std::unique_ptr<RealReceptor> reflectance(const DeviceContext& context, const DriverRequest& request) {
   Buffer buffer(request);
   buffer.require_reals(1, "a light sensor gives");

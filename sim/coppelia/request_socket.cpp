@@ -66,7 +66,7 @@ void RequestSocket::set(int option, int value) {
   zmq_setsockopt(socket_.get(), option, &value, sizeof value);
 }
 
-/// ZeroMQ connects again by itself when a server comes back, which would know nothing of this run.
+/// ZeroMQ reconnects when a server comes back, but that server would not know this run.
 void RequestSocket::watch_connection() {
   constexpr int lost = ZMQ_EVENT_DISCONNECTED | ZMQ_EVENT_HANDSHAKE_FAILED_NO_DETAIL |
                        ZMQ_EVENT_HANDSHAKE_FAILED_PROTOCOL | ZMQ_EVENT_HANDSHAKE_FAILED_AUTH;
@@ -84,7 +84,7 @@ void RequestSocket::throw_if_lost() {
   throw LinkError("the program at " + name_ + " speaks no ZeroMQ; is it CoppeliaSim's remote API?");
 }
 
-/// Another program may listen there.
+/// Another program may listen at that port.
 std::string RequestSocket::doubt() const { return has_answered_ ? "" : "; is it CoppeliaSim's remote API?"; }
 
 std::vector<std::uint8_t> RequestSocket::receive() {

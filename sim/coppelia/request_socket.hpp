@@ -11,10 +11,10 @@
 
 namespace tessera::coppelia {
 
-/// A ZeroMQ socket that asks a server and gets one reply for each request.
+/// A ZeroMQ socket that sends requests to a server and gets one reply for each.
 class RequestSocket {
  public:
-  /// Errors: LinkError, as listening_address.
+  /// Errors: LinkError, see listening_address.
   RequestSocket(const std::string& host, std::uint16_t port, Duration patience);
 
   /// Errors: NoReply; LinkError: the server has closed the connection. The socket cannot be

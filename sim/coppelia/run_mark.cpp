@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Empty: the kernel does not tell.
+/// Empty: the kernel does not say.
 std::string this_machine() {
   std::string boot;
   std::ifstream("/proc/sys/kernel/random/boot_id") >> boot;
@@ -28,8 +28,8 @@ std::string host_name() {
   return gethostname(name.data(), name.size() - 1) == 0 ? name.data() : "";
 }
 
-/// When a process began, in ticks since the machine was switched on. Empty: there is no such process, or it
-/// has ended and only waits to be collected.
+/// The start of a process, in ticks since boot. Empty: there is no such process, or it has ended and only
+/// waits to be collected.
 std::string beginning_of(std::int64_t process) {
   std::ifstream file("/proc/" + std::to_string(process) + "/stat");
   std::string text;

@@ -6,13 +6,13 @@
 
 namespace tessera::coppelia {
 
-/// Says which process simulates. A run leaves it in CoppeliaSim, so that the next run can tell a simulation
-/// that nobody ends any more from one that somebody needs.
+/// Identifies the process that simulates. A run leaves it in CoppeliaSim, so that the next run can tell an
+/// abandoned simulation from one that is in use.
 struct RunMark {
-  std::string machine;  ///< until it is switched off; processes of a container are a machine of their own
+  std::string machine;  ///< identifies the machine since its boot; a container is a machine of its own
   std::string host;
   std::int64_t process = 0;
-  std::string began;        ///< process numbers are used again
+  std::string began;        ///< because process numbers are reused
   bool has_loaded = false;  ///< the run has loaded the scene that is open
 };
 

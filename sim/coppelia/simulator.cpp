@@ -39,7 +39,7 @@ double number(const json& values, std::size_t index, const std::string& function
 std::int64_t whole(const json& values, std::size_t index, const std::string& function) {
   return static_cast<std::int64_t>(number(values, index, function));
 }
-/// So many numbers, or more.
+/// The array at `index` with at least `count` numbers.
 const json& row(const json& values, std::size_t index, std::size_t count, const std::string& function) {
   const json& numbers = at(values, index, function);
   const bool is_row = numbers.is_array() && numbers.size() >= count &&
@@ -96,9 +96,9 @@ void Simulator::require_version() {
 }
 
 void Simulator::load(const std::string& scene) {
-  // Longer ones would be taken for the content of a file.
+  // Longer names would be taken for the content of a file.
   if (scene.size() > longest_scene_name) throw RefusedCall("the name of the scene is too long: " + scene);
-  // Other scenes stay open, so nobody loses what is not saved.
+  // Other scenes stay open, so no unsaved work is lost.
   const json values = client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
                                     std::max(server_.timeout, least_patience_for_scene));
   if (whole(values, 0, "sim.loadScene") < 0) throw RefusedCall("CoppeliaSim cannot load the scene " + scene);
@@ -143,7 +143,7 @@ void Simulator::stop() {
   }
 }
 
-/// A signal of the main script goes with the main script, whoever stops the simulation.
+/// A signal of the main script ends with the main script, whoever stops the simulation.
 void Simulator::set_mark(const std::string& text) {
   const std::int64_t script =
       whole(call("sim.getScript", constant("scripttype_mainscript")), 0, "sim.getScript");

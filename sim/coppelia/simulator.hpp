@@ -14,7 +14,7 @@
 
 namespace tessera::coppelia {
 
-/// An object of the scene, as CoppeliaSim numbers it.
+/// An object of the scene, by its CoppeliaSim handle.
 struct Object {
   enum class Type : std::uint8_t {
     joint,
@@ -29,13 +29,13 @@ struct Object {
   Type type = Type::other;
 };
 
-/// What the command of a joint means. Depends on the mode of the joint in the scene.
+/// The meaning of a joint's command. It depends on the mode of the joint in the scene.
 enum class JointCommand : std::uint8_t {
   velocity,  ///< target velocity of its motor, rad/s or m/s
   position,  ///< target position of its controller, rad or m
   force,     ///< target force or torque, N or N m
-  place,     ///< a kinematic joint is put there
-  none       ///< nothing drives it
+  place,     ///< a kinematic joint is set to this position
+  none       ///< no command has an effect
 };
 
 struct Picture {
@@ -45,30 +45,30 @@ struct Picture {
 
 /// The functions of CoppeliaSim that a world needs, typed.
 ///
-/// Errors:  of all members: LinkError; RefusedCall, as Client.
+/// Errors: all members: LinkError; RefusedCall, see Client.
 /// Threads: one at a time.
 class Simulator {
  public:
-  /// Connects, and asks for version and constants. Errors: also LinkError if the version is too old.
+  /// Connects, and reads version and constants. Errors: also LinkError if the version is too old.
   explicit Simulator(const WorldServer& server);
 
   [[nodiscard]] bool is_lost() const { return client_->is_lost(); }
-  /// After the connection was lost. patience: for each answer from now on. Errors: LinkError.
+  /// Reconnects after a lost connection. patience: for each answer from now on. Errors: LinkError.
   void connect_again(Duration patience);
 
-  // The simulation as a whole. scene: a file name as the server sees it.
+  // The following functions concern the simulation as a whole. scene: a file name on the server.
   void load(const std::string& scene);
   void close_scene();
   [[nodiscard]] Duration time_step();
   [[nodiscard]] bool is_stopped();
-  /// It runs, and nobody has paused it or asked it to stop.
+  /// Whether it runs, and was neither paused nor asked to stop.
   [[nodiscard]] bool goes_on();
   void start_stepping();
   void step();
   [[nodiscard]] double time_s();
-  /// Waits until the simulation has stopped.
+  /// Stops the simulation, and waits until it has stopped.
   void stop();
-  /// Leaves a text in the simulation, which goes when the simulation ends. It must have made a step.
+  /// Stores a text in the simulation that ends with it. Precondition: the simulation has made a step.
   void set_mark(const std::string& text);
   /// Empty: the simulation has none.
   [[nodiscard]] std::string mark();
@@ -81,15 +81,15 @@ class Simulator {
   // Readings. nullopt: there is no value yet.
   [[nodiscard]] double joint_position(const Object& joint);
   [[nodiscard]] double joint_velocity(const Object& joint);
-  /// x, y, z in m and a quaternion w, x, y, z, in the coordinates of the world.
+  /// Pose in world coordinates: x, y, z in m and a quaternion w, x, y, z.
   [[nodiscard]] std::array<double, 7> pose(const Object& object);
   /// The mean brightness of the picture of a vision sensor, from 0 to 1.
   [[nodiscard]] std::optional<double> brightness(const Object& vision_sensor);
   [[nodiscard]] std::array<int, 2> resolution(const Object& vision_sensor);
   [[nodiscard]] Picture colours(const Object& vision_sensor);
-  /// Each pixel is a float32, in m.
+  /// Depth picture. Each pixel is a float32, in m.
   [[nodiscard]] Picture depths(const Object& vision_sensor);
-  /// In m to the nearest point that a proximity sensor detects; -1: it detects nothing.
+  /// Distance in m to the nearest point that a proximity sensor detects; -1: it detects none.
   [[nodiscard]] std::optional<double> distance(const Object& proximity_sensor);
   /// Force in N and torque in N m, in the axes of the sensor.
   [[nodiscard]] std::optional<std::array<double, 6>> force(const Object& force_sensor);

@@ -10,7 +10,7 @@ namespace {
 
 class ViewOfScene final : public WorldState {
  private:
-  /// What `act` returns. Whatever it throws becomes a WorldError.
+  /// The result of `act`. Any exception becomes a WorldError.
   template <class Act>
   static auto guarded(Act&& act) try {
     return act();

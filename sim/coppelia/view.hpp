@@ -8,7 +8,7 @@
 
 namespace tessera::coppelia {
 
-/// The scene as C++ drivers of `agent` see it. Sites are objects like all others.
+/// The scene for C++ drivers of `agent`. Sites are objects like all others.
 [[nodiscard]] std::shared_ptr<WorldState> view_of(std::shared_ptr<LockStep> scene, std::string agent);
 
 }  // namespace tessera::coppelia

@@ -86,7 +86,7 @@ extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World
       tessera::sim::without_exceptions([&] { return tessera::coppelia::open(options); }), error);
 }
 
-/// Lists what a scene of CoppeliaSim has; throws nothing. See tessera::ListWorld.
+/// Lists the contents of a CoppeliaSim scene; throws nothing. See tessera::ListWorld.
 extern "C" __attribute__((visibility("default"))) bool tessera_list_world_3(
     const tessera::WorldOptions& options, std::string& json, std::string& error) {
   auto listed = tessera::sim::without_exceptions([&] { return tessera::coppelia::list(options); });

@@ -13,8 +13,8 @@
 
 namespace tessera::sim {
 
-/// A real buffer as a device sees it: a row of scalars, whatever the structures and arrays are that hold
-/// them. Values are converted one by one; nothing is cut off.
+/// A real buffer as a device sees it: a row of scalars, whatever structures and arrays hold them. Values are
+/// converted one by one; no scalar is left out.
 class Buffer {
  public:
   /// Throws DeviceError if the type has no description.
@@ -28,8 +28,8 @@ class Buffer {
   /// Whether all scalars are float32 or float64.
   [[nodiscard]] bool is_real() const;
 
-  /// Throws DeviceError unless it has so many numbers, all of them float32 or float64.
-  /// what: "sensor 'gyro' gives".
+  /// Throws DeviceError unless it has so many numbers, all of them float32 or float64. what: "sensor 'gyro'
+  /// gives".
   void require_reals(std::size_t count, const std::string& what) const;
   /// Throws DeviceError unless it is one bool.
   void require_flag(const std::string& what) const;

@@ -18,8 +18,8 @@ struct Drive {
   bool limited = false;
   double least = 0, most = 0;
 
-  /// The command within the limits; nullopt: it is beyond them. A float32 that is the limit itself, rounded,
-  /// is not beyond it.
+  /// The command within the limits; nullopt: it is beyond them. A float32 that is the rounded limit itself is
+  /// not beyond it.
   [[nodiscard]] std::optional<double> within(double command, bool clamp) const {
     if (!limited) return command;
     const double inside = std::clamp(command, least, most);
@@ -36,13 +36,13 @@ Drive drive_of(const mjModel& model, int id, const std::string& name) {
           model.actuator_ctrlrange[2 * id + 1]};
 }
 
-/// A joint whose position goes back by a length: a belt.
+/// A joint whose position moves back by a length: a belt.
 struct Wrap {
   int joint = 0;
   double length = 0;
 };
 
-/// nullopt: there is no option `wrap`. Throws DeviceError if the target cannot go on for ever.
+/// nullopt: there is no option `wrap`. Throws DeviceError if the target cannot move without end.
 std::optional<Wrap> wrap_of(const Physics& physics, const DriverRequest& request, Options& options) {
   const auto length = options.number("wrap");
   if (!length) return std::nullopt;

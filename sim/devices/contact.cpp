@@ -6,7 +6,7 @@
 namespace tessera::sim {
 namespace {
 
-/// One side of a contact, as geoms that count.
+/// One side of a contact: for each geom whether it counts.
 using Geoms = std::vector<bool>;
 
 void add_body(const mjModel& model, int body, Geoms& geoms) {
@@ -14,7 +14,7 @@ void add_body(const mjModel& model, int body, Geoms& geoms) {
     if (is_part_of(model, model.geom_bodyid[geom], body)) geoms[static_cast<std::size_t>(geom)] = true;
 }
 
-/// Bodies with all that hangs on them, or geoms; of no names, every geom.
+/// The geoms of these bodies with everything attached to them, or these geoms; without names, every geom.
 Geoms geoms_named(const Physics& physics, const DriverRequest& request,
                   const std::vector<std::string>& names) {
   const mjModel& model = physics.model();

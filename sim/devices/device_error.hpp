@@ -9,7 +9,7 @@
 
 namespace tessera::sim {
 
-/// A device cannot be made as it is asked for. It is thrown while a device is made, and caught by the world.
+/// A requested device cannot be made. The maker of the device throws it, and the world catches it.
 class DeviceError : public std::runtime_error {
  public:
   explicit DeviceError(DriverProblem problem)

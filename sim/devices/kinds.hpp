@@ -13,29 +13,29 @@
 
 /// The devices of simulated worlds (docs/worlds.md describes the kinds).
 ///
-/// A new kind is one function that makes it, and a row in kinds.cpp. The specification knows its name, too
+/// A new kind is one function that makes it, and a row in kinds.cpp. The specification also needs its name
 /// (src/spec/devices/world_kinds.cpp).
 namespace tessera::sim {
 
-/// What devices share.
+/// The state that devices share.
 struct DeviceContext {
   std::shared_ptr<Simulation> simulation;
   double footprint_m = 0.008;
   std::uint64_t seed = 1;
-  std::shared_ptr<Renderer> renderer{};  ///< of the cameras
+  std::shared_ptr<Renderer> renderer{};  ///< for the cameras
 };
 
-/// Make the device that the request asks for. Throw DeviceError if the world has no such thing or it does
+/// Make the device that the request asks for. Throw DeviceError if the world has no such element or it does
 /// not fit the buffer.
 [[nodiscard]] std::unique_ptr<RealReceptor> make_receptor(const DeviceContext& context,
                                                           const DriverRequest& request);
 [[nodiscard]] std::unique_ptr<RealEffector> make_effector(const DeviceContext& context,
                                                           const DriverRequest& request);
 
-// The makers of the kinds, by file. Errors: DeviceError.
+// The makers of the kinds, by source file. Errors: DeviceError.
 
 // reflectance.cpp
-/// 0 dark .. 1 bright, of the floor under a site.
+/// Brightness of the floor under a site: 0 dark .. 1 bright.
 [[nodiscard]] std::unique_ptr<RealReceptor> reflectance(const DeviceContext& context,
                                                         const DriverRequest& request);
 // readings.cpp

@@ -9,10 +9,10 @@
 #include "tessera/device.hpp"
 #include "tessera/result.hpp"
 
-/// What every library of worlds does alike: exceptions become what the interface of worlds says instead.
+/// Adapters that all world libraries share: they turn exceptions into the results of the world interface.
 namespace tessera::sim {
 
-/// What `make` returns, or the problem that it throws.
+/// The result of `make`, or the problem that it throws.
 template <class Make>
 auto without_exceptions(Make&& make) -> decltype(make()) try {
   return make();
@@ -22,7 +22,7 @@ auto without_exceptions(Make&& make) -> decltype(make()) try {
   return Problem{"the simulated world failed without saying why"};
 }
 
-/// As the interface of worlds has it: nullptr and `error`.
+/// The form of the world interface: nullptr and `error`.
 template <class T>
 std::unique_ptr<T> value_or_null(Result<std::unique_ptr<T>> made, std::string& error) {
   if (made) return std::move(*made);
@@ -34,7 +34,7 @@ inline std::string sentence(const DriverProblem& problem) {
   return problem.text + (problem.hint.empty() ? "" : "; " + problem.hint);
 }
 
-/// What `make` returns. nullptr and the problem if it throws.
+/// The result of `make`. nullptr and the problem if it throws.
 template <class Make>
 auto device_or_problem(Make&& make, DriverProblem& problem) -> decltype(make()) try {
   return make();
@@ -49,7 +49,7 @@ auto device_or_problem(Make&& make, DriverProblem& problem) -> decltype(make()) 
   return nullptr;
 }
 
-/// As the interface of worlds has it: nullptr, and in `error` the path and the reason.
+/// The form of the world interface: nullptr, and in `error` the path and the reason.
 template <class Make>
 auto device_or_error(Make&& make, const DriverRequest& request, std::string& error) {
   DriverProblem problem;

@@ -9,7 +9,7 @@ namespace {
 
 using PoseNumbers = std::array<double, 7>;  // x y z, quaternion w x y z
 
-/// Seven zeros, as in a buffer that nobody has written to: nothing is to move.
+/// Seven zeros, as in a buffer that was never written: no movement.
 bool is_no_pose(std::span<const double> numbers) {
   return std::ranges::all_of(numbers, [](double number) { return number == 0; });
 }
@@ -24,9 +24,9 @@ std::optional<PoseNumbers> pose_of(std::span<const double> numbers) {
   return pose;
 }
 
-/// Makes the two bodies keep the pose that they have to each other. The engine has in `data` for a weld: a
-/// point of body 2, the same point in body 1, the quaternion of body 2 in body 1; for a connection the point
-/// in body 1, then in body 2.
+/// Makes the two bodies keep their present relative pose. For a weld, `data` of the engine has a point of
+/// body 2, the same point in body 1, and the quaternion of body 2 in body 1; for a connection, the point in
+/// body 1, then in body 2.
 void take_pose_of_the_moment(mjModel& model, int equality, const mjData& now) {
   const int one = model.eq_obj1id[equality], two = model.eq_obj2id[equality];
   mjtNum* const data = model.eq_data + mjNEQDATA * equality;

@@ -8,7 +8,7 @@
 
 namespace tessera::sim {
 
-/// Normally distributed numbers that come from the seed and the path of the device alone.
+/// Normally distributed numbers that depend only on the seed and the path of the device.
 class Noise {
  public:
   Noise(std::uint64_t seed, const std::string& path) : random_(seed_of(path, seed)) {}

@@ -11,7 +11,7 @@
 namespace tessera::sim {
 
 /// Reads the options of a request. The accessors throw DeviceError for a value of another form. At the end,
-/// `refuse_others` refuses options that nobody has asked for.
+/// `refuse_others` refuses the options that no accessor has read.
 class Options {
  public:
   explicit Options(const DriverRequest& request) : request_(request) {}

@@ -11,11 +11,11 @@
 namespace tessera::sim {
 namespace {
 
-/// How many numbers a pixel has, and of which type.
+/// The number of values of a pixel, and their type.
 struct Pixel {
   std::size_t numbers;
   const char* type;
-  const char* words;  ///< after the size of the picture
+  const char* words;  ///< follow the size of the picture in messages
 };
 constexpr Pixel colour_pixel{3, "uint8", " in colour"}, depth_pixel{1, "float32", " in depth"},
     label_pixel{1, "uint16", " in labels"};
@@ -32,7 +32,7 @@ std::string example(const Pixel& pixel, PictureSize size) {
   return array_of(pixel, pixel.numbers * size.pixels()) + " is " + shown(size) + pixel.words;
 }
 
-/// Of the usual shapes, the first that has so many pixels.
+/// The first of the usual sizes that has so many pixels.
 std::optional<PictureSize> usual_size(std::size_t pixels) {
   constexpr std::array shapes = std::to_array<PictureSize>({{4, 3}, {16, 9}, {1, 1}, {3, 2}, {2, 1}, {5, 4}});
   for (const PictureSize shape : shapes)
@@ -44,7 +44,7 @@ std::optional<PictureSize> usual_size(std::size_t pixels) {
   return std::nullopt;
 }
 
-/// The size that the options give, which the buffer must have room for. Throws DeviceError.
+/// The picture size from the options, which the buffer must fit. Throws DeviceError.
 PictureSize picture_size(const DriverRequest& request, Options& options, const Pixel& pixel) {
   const auto layout = ValueLayout::parse(request.type);
   const std::size_t count = layout ? layout->scalars() : 0;
@@ -67,8 +67,8 @@ PictureSize picture_size(const DriverRequest& request, Options& options, const P
                         (right_type && divides ? "; " + example(pixel, *usual) : ""));
 }
 
-/// Gives the pictures of one camera. The scene is taken in while nobody else uses the physics, and
-/// drawn after that.
+/// Gives the pictures of one camera. The scene is copied with exclusive access to the physics, and drawn
+/// after that.
 class Camera : public RealReceptor {
  public:
   Camera(const DeviceContext& context, const DriverRequest& request, PictureSize size, PictureKind kind)
@@ -86,7 +86,7 @@ class Camera : public RealReceptor {
   [[nodiscard]] bool read(std::span<std::byte> value) override {
     if (encoding_ == nullptr) throw std::logic_error("a device that was only judged is used");
     simulation_->use([this](const Physics& physics) {
-      renderer_->prepare(physics.model());  // does nothing if it was opened
+      renderer_->prepare(physics.model());  // no effect if it was prepared by `open`
       view_.look(physics);
     });
     if (!encoding_->take(value.data(), draw(*renderer_, view_)))

@@ -12,7 +12,7 @@ namespace tessera::sim {
 /// A pose in a plane: x and y in metres, heading in radians from the x axis.
 using PlanarPose = std::array<double, 3>;
 
-/// Where a structure with the fields x, y and heading holds each of them.
+/// The positions of the fields x, y and heading in a structure.
 class PlanarFields {
  public:
   /// Throws DeviceError if the buffer has other fields.
@@ -22,10 +22,10 @@ class PlanarFields {
   }
 
  private:
-  std::vector<std::size_t> order_;  // per field of the buffer: into PlanarPose
+  std::vector<std::size_t> order_;  // per field of the buffer: index into PlanarPose
 };
 
-/// Whether the buffer takes a whole pose: x, y, z and a quaternion w, x, y, z.
+/// Whether the buffer holds a whole pose: x, y, z and a quaternion w, x, y, z.
 [[nodiscard]] inline bool takes_whole_pose(const Buffer& buffer) {
   return buffer.is_real() && buffer.size() == 7;
 }

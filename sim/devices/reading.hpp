@@ -22,22 +22,22 @@ namespace tessera::sim {
                              const std::string& name);
 /// The one target. Throws DeviceError if there are several.
 [[nodiscard]] const std::string& only_target(const DriverRequest& request);
-/// A target that is a body or a site, in this order.
+/// A target that is a body or a site; bodies are looked up first.
 struct Frame {
   mjtObj type = mjOBJ_BODY;
   int id = 0;
 };
 [[nodiscard]] Frame frame_of(const Physics& physics, const DriverRequest& request, const std::string& name);
 
-/// A receptor that reads a row of numbers. `look` sees the physics while nobody else does; `distort` adds
-/// noise. Reading throws std::runtime_error once the physics has failed.
+/// A receptor that reads a row of numbers. `look` has exclusive access to the physics; `distort` adds noise.
+/// Reading throws std::runtime_error once the physics has failed.
 using Look = std::function<void(const Physics& physics, std::span<double> numbers)>;
 using Distort = std::function<void(std::span<double> numbers)>;
 [[nodiscard]] std::unique_ptr<RealReceptor> reading(std::shared_ptr<Simulation> simulation, Buffer buffer,
                                                     Look look, Distort distort = {});
 
 /// An effector that takes a row of numbers. `act` returns false to refuse them. Writing throws
-/// std::runtime_error once the physics has failed. Numbers that are not finite are refused before.
+/// std::runtime_error once the physics has failed. Numbers that are not finite never reach `act`.
 using Act = std::function<bool(Physics& physics, std::span<const double> numbers)>;
 [[nodiscard]] std::unique_ptr<RealEffector> commanding(std::shared_ptr<Simulation> simulation, Buffer buffer,
                                                        Act act);

@@ -12,7 +12,7 @@ struct Run {
   int at = 0, count = 0;
 };
 
-/// velocity: of the joints, not their position.
+/// velocity: velocities of the joints, not positions.
 std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverRequest& request,
                                      bool velocity) {
   Buffer buffer(request);
@@ -70,8 +70,8 @@ double heading_now(const Physics& physics, const Frame& frame) {
   return std::atan2(axes[3], axes[0]);
 }
 
-/// A placed model stands in a body of its own name that never moves. Its pose would be a constant, where the
-/// pose of the robot was meant.
+/// The body with the name of a placed model never moves. Its pose would be a constant, where the user meant
+/// the pose of the robot.
 void refuse_place_of_model(const mjModel& model, const Frame& frame) {
   if (frame.type != mjOBJ_BODY || model.body_dofnum[frame.id] > 0) return;
   const std::string name = name_of(model, mjOBJ_BODY, frame.id);

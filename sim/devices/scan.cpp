@@ -45,7 +45,7 @@ std::unique_ptr<RealReceptor> scan(const DeviceContext& context, const DriverReq
   Distort distort;
   if (noise_m > 0)
     distort = [=, random = Noise(context.seed, request.path)](std::span<double> distances) mutable {
-      for (double& distance : distances)  // nothing was hit at `reach`
+      for (double& distance : distances)  // no hit up to `reach`
         if (distance < reach_m) distance = std::clamp(distance + random.draw(noise_m), 0.0, reach_m);
     };
   return reading(

@@ -7,7 +7,7 @@ namespace tessera::sim {
 namespace {
 
 struct Channel {
-  int at = 0, size = 0;  ///< in sensordata
+  int at = 0, size = 0;  ///< position and number of its values in sensordata
   int datatype = mjDATATYPE_REAL;
   int type = mjSENS_CLOCK;
   double cutoff = 0, deviation = 0;
@@ -30,10 +30,10 @@ void turn(std::span<double> quaternion, double deviation, Noise& random) {
   std::copy_n(turned, 4, quaternion.begin());
 }
 
-/// Noise of the form that the engine gives each type of data, then the model's cutoff.
+/// The noise that the engine adds to each type of data, then the model's cutoff.
 void distort(const Channel& channel, std::span<double> numbers, Noise& random) {
   if (channel.deviation <= 0) return;
-  // Nothing was hit: there is no distance to distort.
+  // No hit: there is no distance to distort.
   if (channel.type == mjSENS_RANGEFINDER && numbers[0] < 0) return;
   if (channel.datatype == mjDATATYPE_QUATERNION) return turn(numbers, channel.deviation, random);
   for (double& number : numbers) number += random.draw(channel.deviation);

@@ -7,10 +7,11 @@
 /// Errors and warnings of MuJoCo, which would end the process or go to a file otherwise.
 namespace tessera::sim {
 
-/// Directs errors and warnings of the engine to `complaint_of`, for the whole process. May be called often.
+/// Directs errors and warnings of the engine to `complaint_of`, for the whole process. Repeated calls are
+/// allowed.
 void catch_complaints();
 
-/// Collects the first warning that the engine gives in this thread while it exists.
+/// Collects the first warning of the engine in this thread during its lifetime.
 class WarningScope {
  public:
   explicit WarningScope(std::string& text);
@@ -24,7 +25,7 @@ class WarningScope {
 
 /// Calls the engine. Returns its error or its first warning; empty: none.
 ///
-/// Threads: any; each sees its own complaints.
+/// Threads: any; each gets its own complaints.
 template <class Call>
 [[nodiscard]] std::string complaint_of(Call&& call) {
   std::string text;
@@ -33,7 +34,7 @@ template <class Call>
     std::forward<Call>(call)();
   } catch (const std::exception& e) {
     text = e.what();
-  } catch (...) {  // the engine's own exception type, which is in none of its headers
+  } catch (...) {  // the engine's own exception type, which no header declares
     text = "the engine gave up without saying why";
   }
   return text;

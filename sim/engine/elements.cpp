@@ -62,7 +62,7 @@ bool moves_joint(const mjModel& model, int actuator, int joint) {
   return (how == mjTRN_JOINT || how == mjTRN_JOINTINPARENT) && model.actuator_trnid[2 * actuator] == joint;
 }
 
-/// Empty if another actuator could be meant as well.
+/// Empty if the name could also mean another actuator.
 std::string name_by_joint(const mjModel& model, int actuator) {
   const int joint = model.actuator_trnid[2 * actuator];
   if (!moves_joint(model, actuator, joint)) return {};
@@ -74,7 +74,7 @@ std::string name_by_joint(const mjModel& model, int actuator) {
   return name;
 }
 
-/// By its whole name.
+/// Looks up the full name.
 std::optional<int> find_exactly(const mjModel& model, mjtObj type, const std::string& name) {
   if (const int id = mj_name2id(&model, type, name.c_str()); id >= 0) return id;
   if (type != mjOBJ_ACTUATOR || name.empty()) return std::nullopt;

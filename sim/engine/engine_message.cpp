@@ -154,7 +154,7 @@ std::string on_one_line(const std::string& text) {
   return line;
 }
 
-/// What the engine says of its place: "Element 'position', line 2, column 5".
+/// The position that the engine reports: "Element 'position', line 2, column 5".
 struct Where {
   std::string element, line;
 };
@@ -163,7 +163,7 @@ Where where_in(const std::string& message) {
   static const std::regex place("Element '([^']*)', line ([0-9]+)");
   std::smatch found;
   if (!std::regex_search(message, found, place)) return {};
-  // Inside an included file the engine does not know the line.
+  // The engine does not know the line inside an included file.
   return {found[1], found[2] == "0" ? "" : " (line " + found[2].str() + ")"};
 }
 
@@ -197,7 +197,7 @@ std::string explained(const std::string& engine_message) {
   if (std::regex_search(engine_message, found, attribute))
     return unknown("`" + found[1].str() + "` of `" + where.element + "`", where,
                    is_newer_attribute(where.element, found[1].str()));
-  // It looks for the attribute before it looks at the class.
+  // The engine checks the attribute before the class.
   if (where.element == "adhesion" && std::regex_search(engine_message, found, missing) &&
       found[1] == "ctrlrange")
     return "MuJoCo 2.2.2 wants `ctrlrange` at `adhesion` itself" + where.line +

@@ -11,7 +11,7 @@
 namespace tessera::sim {
 namespace {
 
-/// Empty: a run can make such steps.
+/// Empty: a run can use this time step.
 std::string problem_with_time_step(double step_s) {
   constexpr double shortest_s = 1e-6, longest_s = 0.1;
   if (step_s > longest_s) return "the time step is longer than 0.1 s";

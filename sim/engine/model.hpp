@@ -18,11 +18,11 @@ struct ReleaseData {
 using ModelPtr = std::unique_ptr<mjModel, ReleaseModel>;
 using DataPtr = std::unique_ptr<mjData, ReleaseData>;
 
-/// Compiles a model. files: what the engine should find in memory; nullptr: all is on disk.
+/// Compiles a model. files: files that the engine finds in memory; nullptr: all are on disk.
 ///
 /// Errors: the file is missing or no valid MJCF, or its time step is not between 1 us and 100 ms.
 ///         The text begins with the name of the file.
-/// Threads: any; the engine's parser has global state, so that one call waits for another.
+/// Threads: any; calls run one after the other, because the engine's parser has global state.
 [[nodiscard]] Result<ModelPtr> load_model(const std::string& mjcf, const mjVFS* files = nullptr);
 
 }  // namespace tessera::sim

@@ -21,7 +21,7 @@ int first_free_joint(const mjModel& model) {
 
 void copy(const std::vector<mjtNum>& from, mjtNum* to) { std::copy(from.begin(), from.end(), to); }
 
-/// The inputs and the state; nothing that is computed from them.
+/// Copies the inputs and the state, and none of the computed values.
 void copy_state(const mjModel& model, const mjData& from, mjData& to) {
   to.time = from.time;
   std::copy_n(from.qpos, model.nq, to.qpos);
@@ -36,8 +36,8 @@ void copy_state(const mjModel& model, const mjData& from, mjData& to) {
   std::copy_n(from.userdata, model.nuserdata, to.userdata);
 }
 
-/// Whether the engine has noted that contacts or constraints are missing. If so, its other complaints are
-/// about what follows from that.
+/// Whether the engine has noted that contacts or constraints are missing. Its other complaints then are
+/// consequences.
 bool lacks_room(const mjData& data) {
   return data.warning[mjWARN_CONTACTFULL].number > 0 || data.warning[mjWARN_CNSTRFULL].number > 0;
 }
@@ -66,7 +66,7 @@ Result<std::unique_ptr<Physics>> Physics::of(ModelPtr model, const std::string& 
   return Problem{name + ": " + (complaint.empty() ? "there is no memory for its state" : complaint)};
 }
 
-/// Sensors are computed for readers only. Their noise would come from a generator that the whole process
+/// Sensors are computed only for readers. Their noise would come from a generator that the whole process
 /// shares; devices add their own.
 Physics::Physics(ModelPtr model, DataPtr data, DataPtr view)
     : model_(std::move(model)),
@@ -148,7 +148,7 @@ std::string Physics::in_buffers_that_suffice(const std::function<void()>& comput
 }
 
 std::string Physics::grow(const mjData& full, bool stack) const {
-  // The constraints need memory as the square of their number: 0.84 GB for 8000.
+  // The memory of constraints grows with the square of their number: 0.84 GB for 8000.
   constexpr int most_contacts = 20'000, most_constraints = 8'000, most_stack = 200'000'000;
   const bool contacts = full.warning[mjWARN_CONTACTFULL].number > 0;
   const bool constraints = full.warning[mjWARN_CNSTRFULL].number > 0;
@@ -163,7 +163,7 @@ std::string Physics::grow(const mjData& full, bool stack) const {
   if (contacts && !doubled(model_->nconmax, most_contacts)) return too_many("contacts", most_contacts);
   if (constraints) {
     if (!doubled(model_->njmax, most_constraints)) return too_many("rows of constraints", most_constraints);
-    // As the engine's compiler chooses it.
+    // The same choice as the engine's compiler.
     const double rows = model_->njmax + model_->neq + model_->nv;
     model_->nstack =
         std::max(model_->nstack, static_cast<int>(std::min<double>(most_stack, 5 * rows * rows)));
@@ -192,7 +192,7 @@ void Physics::fail(const std::string& complaint) const {
 
 void Physics::copy_state_to_view() const { copy_state(*model_, *data_, *view_); }
 
-/// A warning of the engine here comes again at the next step, which stops the run.
+/// A warning of the engine here appears again at the next step, which stops the run.
 const mjData& Physics::positions() const {
   if (known_ != View::old || !failure_.empty()) return *view_;
   copy_state_to_view();
@@ -201,7 +201,7 @@ const mjData& Physics::positions() const {
   return *view_;
 }
 
-/// The state is copied again, so that the result does not depend on whether positions were asked for first.
+/// The state is copied again, so that the result does not depend on an earlier call of positions().
 const mjData& Physics::state() const {
   if (known_ == View::all || !failure_.empty()) return *view_;
   const std::string complaint = in_buffers_that_suffice([this] {

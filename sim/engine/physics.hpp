@@ -16,14 +16,14 @@
 
 namespace tessera::sim {
 
-/// A MuJoCo model with its state. Any complaint of the engine, error or warning (an unstable simulation is
-/// only a warning to it), stops this physics for good and is in failure(). It never ends the process.
+/// A MuJoCo model with its state. Any complaint of the engine, error or warning (it only warns of an unstable
+/// simulation), stops this physics for good and is in failure(). It never ends the process.
 ///
 /// *Reading does not disturb.* Queries, however many, do not change a bit of the next steps. They are
 /// computed on a copy of the state, because the engine rounds the state when it computes them.
 ///
-/// *Readings are those of the instant.* Commands and changes are kept back until the next step, so it does
-/// not matter who reads or commands first.
+/// *Readings are those of the instant.* Commands and changes wait for the next step, so the order of readers
+/// and writers does not matter.
 ///
 /// *Buffers grow.* If a step needs more contacts, constraints or stack than there are, it is repeated in
 /// larger buffers, with the same result as if they had been large from the start.
@@ -45,37 +45,36 @@ class Physics {
   [[nodiscard]] const std::string& failure() const { return failure_; }
 
   [[nodiscard]] const mjModel& model() const { return *model_; }
-  /// Where bodies, geoms, sites and cameras are now. All else in it may be old.
+  /// The poses of bodies, geoms, sites and cameras now. All else in it may be old.
   [[nodiscard]] const mjData& positions() const;
   /// The state of this instant with velocities, forces, contacts and sensors (without noise). It is computed
   /// once an instant. After a failure its content means nothing.
   [[nodiscard]] const mjData& state() const;
 
-  /// Calls `use(geom, other geom)` for those that touched when the last step began.
+  /// Calls `use(geom, other geom)` for each pair that touched when the last step began.
   template <class Use>
   void for_contacts_of_last_step(Use&& use) const {
     for (int index = 0; index < data_->ncon; ++index)
       if (data_->contact[index].dist <= 0) use(data_->contact[index].geom1, data_->contact[index].geom2);
   }
 
-  /// For an actuator, from the next step on.
+  /// Commands an actuator from the next step on.
   void command(int actuator, double value) { commands_[static_cast<std::size_t>(actuator)] = value; }
-  /// From now on, the position of a slide or hinge joint goes back by `length` at the end of a step that
-  /// leaves it further than that from 0. So a belt runs for ever.
+  /// From now on, the position of a slide or hinge joint moves back by `length` at the end of a step that
+  /// leaves it further than that from 0. So a belt runs without end.
   void wrap(int joint, double length) { wraps_[model_->jnt_qposadr[joint]] = length; }
-  /// Any other change. It is made at the beginning of the next step, in the order of the calls. `state` is
-  /// the state to change, `positions` that of positions().
+  /// Any other change. It takes effect at the beginning of the next step, in the order of the calls. `state`
+  /// is the state to change, `positions` that of positions().
   using Change = std::function<void(mjModel& model, mjData& state, const mjData& positions)>;
   void before_next_step(Change change) { changes_.push_back(std::move(change)); }
 
-  /// The pose of the body on the first free joint, the robot. nullopt: nothing in
-  /// the world is free to move.
+  /// The pose of the body on the first free joint, the robot. nullopt: the world has no free joint.
   [[nodiscard]] std::optional<Pose> robot() const;
   /// Puts the robot there, at rest, at the height that the world file gives. Needs robot().
   void place_robot(const Pose& pose);
 
-  /// A body that is attached to the world itself, fixed or free to move, with all that hangs on it: a robot,
-  /// an arm, a ball.
+  /// A body that is attached to the world itself, fixed or free to move, with everything attached to it: a
+  /// robot, an arm, a ball.
   struct RootBody {
     int body = 0;
     friend auto operator<=>(const RootBody&, const RootBody&) = default;
@@ -99,8 +98,8 @@ class Physics {
   void wrap_positions();
   void keep_state();
   void restore_state();
-  /// Runs `compute`, again in larger buffers as long as they are too small. Returns what the engine
-  /// complains of; empty: nothing.
+  /// Runs `compute`, again in larger buffers as long as they are too small. Returns the complaint of the
+  /// engine; empty: none.
   [[nodiscard]] std::string in_buffers_that_suffice(const std::function<void()>& compute) const;
   /// Makes the buffers larger. Empty, or why not.
   [[nodiscard]] std::string grow(const mjData& full, bool stack) const;
@@ -112,7 +111,7 @@ class Physics {
   mutable DataPtr view_;  // read by the queries
   std::vector<mjtNum> commands_;
   std::vector<Change> changes_;
-  std::map<int, double> wraps_;  // by the place in qpos
+  std::map<int, double> wraps_;  // by the index in qpos
   Kept kept_;
   mutable std::string failure_;
   Duration step_{0};

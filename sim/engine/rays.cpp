@@ -6,7 +6,7 @@
 namespace tessera::sim {
 namespace {
 
-/// As the engine's own rays have it.
+/// The same rule as in the engine's own rays.
 bool is_invisible(const mjModel& model, int geom) {
   const int material = model.geom_matid[geom];
   return model.geom_rgba[4 * geom + 3] == 0 && (material < 0 || model.mat_rgba[4 * material + 3] == 0);
@@ -25,11 +25,11 @@ mjtNum distance_along(const mjModel& model, const mjData& data, int geom, const 
   }
 }
 
-/// A geom that may be in the way, by the sphere around it.
+/// A geom that a ray may hit, by the sphere around it.
 struct Candidate {
   int geom;
   mjtNum centre[3];  ///< seen from the site, in the axes of the world
-  mjtNum radius;     ///< 0: it has no end, as a plane
+  mjtNum radius;     ///< 0: it is infinite, like a plane
 };
 
 }  // namespace

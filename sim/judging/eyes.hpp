@@ -28,10 +28,10 @@ class Eyes {
   /// 0 dark .. 1 bright, without noise.
   [[nodiscard]] double light_under(const Physics& physics, std::size_t eye) const;
 
-  /// What the eyes of one robot see together.
+  /// The combined readings of one robot's eyes.
   struct Look {
     Point middle;          ///< of the middle eye
-    bool on_line = false;  ///< any of them is over the line
+    bool on_line = false;  ///< whether any of them is over the line
   };
   /// robot: nullopt means all eyes. nullopt: there are none.
   [[nodiscard]] std::optional<Look> look(const Physics& physics,

@@ -110,7 +110,7 @@ void Judging::after_step() {
 
 void Judging::finish() {
   if (!judge_ || std::exchange(finished_, true)) return;
-  static_cast<void>(physics_.state());  // it may fail only now
+  static_cast<void>(physics_.state());  // it may fail only at this call
   if (physics_.failure().empty())
     judge_->finish(seconds(physics_.time()));
   else

@@ -10,7 +10,7 @@ void LineFollower::look(const Physics& physics, const Eyes& eyes) {
   if (!look)
     throw std::runtime_error("'" + name_ + "' has no light sensor (`reflectance`), so it follows no line");
   const double now_s = seconds(physics.time());
-  // As the figures of the whole run count it: a look stands for the time up to the next one.
+  // The same rule as for the figures of the whole run: a look stands for the time up to the next one.
   if (!was_on_line_) seen_.lost_s += now_s - looked_at_s_;
   if (look->on_line) seen_.lost_s = 0;
   was_on_line_ = look->on_line;

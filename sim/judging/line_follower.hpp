@@ -10,13 +10,13 @@
 
 namespace tessera::sim {
 
-/// How a robot with light sensors keeps to the line of the track.
+/// Measures how well a robot with light sensors follows the line of the track.
 class LineFollower {
  public:
   LineFollower(std::string name, Physics::RootBody robot, std::shared_ptr<const Skeleton> line)
       : name_(std::move(name)), robot_(robot), line_(std::move(line)), way_(*line_) {}
 
-  /// Takes this instant into account. Throws std::runtime_error if the robot has no light sensor.
+  /// Adds the present instant. Throws std::runtime_error if the robot has no light sensor.
   void look(const Physics& physics, const Eyes& eyes);
   [[nodiscard]] const checks::OnLine& seen() const { return seen_; }
 

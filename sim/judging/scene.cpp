@@ -15,10 +15,10 @@
 namespace tessera::sim {
 namespace {
 
-/// A name as checks write it: "/cart" is of the world itself.
+/// A name as checks write it: "/cart" names a part of the world itself.
 std::string plain(const std::string& name) { return name.starts_with('/') ? name.substr(1) : name; }
 
-/// 3 of "robot[3]/chassis" for "robot"; nullopt: it is no part of such a model.
+/// 3 for "robot[3]/chassis" and "robot"; nullopt: it is no part of such a model.
 std::optional<std::int64_t> index_in(std::string_view element, std::string_view name) {
   if (!element.starts_with(name) || element.substr(name.size()).find('[') != 0) return std::nullopt;
   const std::string_view rest = element.substr(name.size() + 1);
@@ -29,12 +29,12 @@ std::optional<std::int64_t> index_in(std::string_view element, std::string_view 
   return error == std::errc() && whole ? std::optional(index) : std::nullopt;
 }
 
-/// Whether the body moves against its parent.
+/// Whether the body can move relative to its parent.
 bool moves(const mjModel& model, int body) {
   return model.body_dofnum[body] > 0 || model.body_mocapid[body] >= 0;
 }
 
-/// The bodies of a planar base may carry each other: one slides in x, one in y, one turns. The last of them.
+/// The last body of a planar base, whose bodies carry each other: one slides in x, one in y, one turns.
 int carried_by(const mjModel& model, int body) {
   while (model.body_geomnum[body] == 0) {
     std::vector<int> children;
@@ -77,7 +77,7 @@ std::vector<int> Scene::bodies_of_model(const std::string& name) const {
   return bodies;
 }
 
-/// The body at the origin of a placed model: the one that drives about, or else its frame.
+/// The body at the origin of a placed model: the one that drives, or else its frame.
 Result<int> Scene::root_of_model(const std::string& name, const std::vector<int>& bodies) const {
   const mjModel& model = physics_.model();
   const auto is_frame = [&](int body) { return name_of(model, mjOBJ_BODY, body) == name; };

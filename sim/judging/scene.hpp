@@ -17,8 +17,9 @@ namespace tessera::sim {
 
 /// A world as its checks and measures see it.
 ///
-/// A model that is placed as `robot[3]` is all of its bodies for contacts; its origin is that of the first
-/// body of its file. A body is all that hangs on it. Without placed models, the names of the world file are used alone.
+/// A model that is placed as `robot[3]` stands for all of its bodies in contacts; its origin is that of the
+/// first body of its file. A body stands for everything attached to it. Without placed models, the names of
+/// the world file are used as they are.
 ///
 /// Contacts are noted after every step, so none between two observations is missed.
 class Scene final : public checks::Scene {
@@ -39,7 +40,7 @@ class Scene final : public checks::Scene {
 
   [[nodiscard]] checks::OnLine on_line(std::size_t follower) override { return followers_[follower].seen(); }
 
-  /// Notes how the robots keep to the line, before each look at them.
+  /// Updates the line followers of the robots, before each look at them.
   void follow_lines();
   /// Notes the contacts of the last step.
   void note_contacts();
@@ -59,14 +60,14 @@ class Scene final : public checks::Scene {
   [[nodiscard]] Problem unknown(const char* what, const std::string& name,
                                 std::initializer_list<mjtObj> types) const;
   void note_contact(int geom, int other);
-  /// With velocities and sensors. Throws std::runtime_error if the physics fails.
+  /// The state with velocities and sensors. Throws std::runtime_error if the physics fails.
   [[nodiscard]] const mjData& state() const;
 
   [[nodiscard]] Result<std::size_t> find_follower(const std::string& name);
 
   const Physics& physics_;
   const Eyes& eyes_;
-  std::shared_ptr<const Skeleton> line_;  ///< of the track; nullptr: it was not needed yet
+  std::shared_ptr<const Skeleton> line_;  ///< of the track; nullptr: not needed yet
   std::vector<LineFollower> followers_;
   std::vector<Element> elements_;  ///< points, zones and sensors
   std::map<std::string, std::size_t> solids_;

@@ -7,7 +7,7 @@
 namespace tessera::sim {
 namespace {
 
-/// Farther away than this, the robot has left this part of the line and may come back anywhere.
+/// Farther away than this, the robot has left this part of the line and may return to any part.
 constexpr double off_the_line_m = 0.1;
 
 }  // namespace

@@ -13,7 +13,7 @@ struct LineFoot {
   double left_m = 0;  ///< signed distance, left of the line's direction positive
 };
 
-/// Follows a path along a line, so that the right branch counts at crossings.
+/// Follows a path along a line. At crossings, it stays on the branch that the path takes.
 class WayAlongLine {
  public:
   /// line: has at least two points, and must outlive this object.
@@ -31,7 +31,7 @@ class WayAlongLine {
   [[nodiscard]] LineFoot foot_on(const Point& p, std::size_t i) const;
 
   const Skeleton& line_;
-  std::vector<double> starts_;  ///< of each segment, along the line
+  std::vector<double> starts_;  ///< start of each segment, along the line
   double length_ = 0;
   double progress_ = 0;
   LineFoot foot_;

@@ -31,7 +31,8 @@ void remove_orientation(pugi::xml_node element) {
     element.remove_attribute(attribute);
 }
 
-/// Many settings change masses, and the engine takes what is written for what it would derive.
+/// Many settings change masses, so the masses are written out; the engine prefers written ones to derived
+/// ones.
 void write_inertia(pugi::xml_node body, const mjModel& alone) {
   const int id = id_of(alone, mjOBJ_BODY, body);
   if (id < 0) return;
@@ -44,7 +45,8 @@ void write_inertia(pugi::xml_node body, const mjModel& alone) {
   set_attribute(inertial, "diaginertia", numbers_text(alone.body_inertia + 3 * id, 3));
 }
 
-/// A box or a capsule that was fitted to a mesh (in one of two ways, `fitaabb`) is written as what it became.
+/// A box or a capsule that was fitted to a mesh (in one of two ways, `fitaabb`) is written with its final
+/// shape.
 void write_fitted_geom(pugi::xml_node geom, const mjModel& alone, int id) {
   if (!geom.attribute("mesh") || alone.geom_type[id] == mjGEOM_MESH) return;
   for (const char* attribute : {"mesh", "fitscale", "fromto"}) geom.remove_attribute(attribute);
@@ -54,7 +56,7 @@ void write_fitted_geom(pugi::xml_node geom, const mjModel& alone, int id) {
   set_attribute(geom, "quat", numbers_text(alone.geom_quat + 4 * id, 4));
 }
 
-/// `discardvisual` leaves geoms out while the engine reads; they are left out for good.
+/// `discardvisual` makes the engine drop geoms while it reads; they are removed from the document as well.
 void write_geoms(pugi::xml_node body, const mjModel& alone) {
   for (pugi::xml_node geom = body.child("geom"); geom;) {
     const pugi::xml_node next = geom.next_sibling("geom");
@@ -68,7 +70,7 @@ void write_geoms(pugi::xml_node body, const mjModel& alone) {
   }
 }
 
-/// Joints of a rope or a cloth turn, those of the other composites slide.
+/// Joints of a rope or a cloth turn; those of the other composites slide.
 void write_composite(pugi::xml_node composite, const CompilerSettings& settings) {
   const std::string_view type = composite.attribute("type").value();
   const bool turns = type == "rope" || type == "loop" || type == "cloth";
@@ -98,7 +100,7 @@ void write_actuator(pugi::xml_node actuator, const mjModel& alone) {
     set_attribute(actuator, "ctrllimited", truth(alone.actuator_ctrllimited[id] != 0));
   set_attribute(actuator, "forcelimited", truth(alone.actuator_forcelimited[id] != 0));
   if (kind == "general") set_attribute(actuator, "actlimited", truth(alone.actuator_actlimited[id] != 0));
-  // The engine finds the range of a muscle by moving the whole world, unless it is said.
+  // Without a written range, the engine finds the range of a muscle by moving the whole world.
   const mjtNum* range = alone.actuator_lengthrange + 2 * id;
   if (range[0] < range[1]) set_attribute(actuator, "lengthrange", numbers_text(range, 2));
 }
@@ -115,7 +117,7 @@ void write_bone(const mjModel& alone, int skin, int bone_of_skin, pugi::xml_node
                 numbers_text(alone.skin_bonevertweight + alone.skin_bonevertadr[bone], count));
 }
 
-/// The file of a skin names bodies, which get other names; so its content is written out.
+/// The file of a skin contains names of bodies, which change; so its content is written out.
 void write_skin(pugi::xml_node skin, const mjModel& alone) {
   const int id = id_of(alone, mjOBJ_SKIN, skin);
   if (id < 0 || !skin.attribute("file")) return;

@@ -59,7 +59,7 @@ class Includer {
       return Problem{file_.string() + ": elements stand in one another more than " +
                      std::to_string(deepest_element) + " deep"};
     for (pugi::xml_node child = parent.first_child(); child;) {
-      // The engine reads this one name without regard to case.
+      // The engine ignores the case of this one name.
       if (strcasecmp(child.name(), "include") == 0) {
         const pugi::xml_node first = replace(child);
         if (!problem_.text.empty()) return problem_;
@@ -73,7 +73,7 @@ class Includer {
   }
 
  private:
-  /// Returns the first element that now stands in the place of the include.
+  /// Returns the first element that replaces the include.
   pugi::xml_node replace(pugi::xml_node include) {
     const std::string name = include.attribute("file").value();
     if (name.empty()) return fail("an <include> names no file");

@@ -28,7 +28,7 @@ constexpr std::array<Limit, 22> limits{{
     {"size", "nuser_sensor", 10'000},
 }};
 
-/// Empty: the numbers are within the limit. -1 stands for "as many as needed".
+/// Empty: the numbers are within the limit. -1 means "as many as needed".
 std::string_view trouble(std::string_view text, double most) {
   double product = 1;
   for (const double value : numbers_in(text)) {
@@ -43,10 +43,10 @@ std::string_view trouble(std::string_view text, double most) {
 constexpr auto texts = std::to_array<std::string_view>(
     {"name", "class", "childclass", "model", "file", "prefix", "data", "objname", "refname"});
 
-/// The engine may compute for ever with a number that is none, or beyond all measure.
+/// The engine may compute without end with a value that is not a number, or that is too large.
 bool is_beyond_measure(pugi::xml_attribute attribute) {
   if (std::ranges::find(texts, std::string_view(attribute.name())) != texts.end()) return false;
-  // With negative damping the engine may look for the length range of a muscle for ever.
+  // With negative damping, the engine may search the length range of a muscle without end.
   const double least = std::string_view(attribute.name()) == "damping" ? 0 : -1e30;
   return std::ranges::any_of(numbers_in(attribute.value()),
                              [&](double value) { return !(value >= least && value <= 1e30); });

@@ -7,9 +7,9 @@
 
 namespace tessera::sim {
 
-/// The first number in the document that the engine cannot stand: a count that is negative, or so large that
-/// it would need more memory or time than a machine has (it allocates what it is told to); not a number, or
-/// beyond 1e30.
+/// The first number in the document that the engine cannot handle: a count that is negative, or so large that
+/// it would need more memory or time than a machine has (the engine allocates without a check); not a number;
+/// or beyond 1e30.
 [[nodiscard]] std::optional<Problem> unusable_number(pugi::xml_node root);
 
 }  // namespace tessera::sim

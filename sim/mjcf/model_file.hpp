@@ -21,23 +21,23 @@ struct CompilerSettings {
   std::string mesh_folder, texture_folder;
 };
 
-/// An MJCF file, made ready to be put into another, and the same file compiled alone.
+/// An MJCF file, prepared to be inserted into another, and the same file compiled alone.
 ///
-/// In the document every body, geom, joint and so on has a name, all numbers mean what they mean without a
+/// In the document every body, geom, joint and so on has a name, all numbers have their meaning without a
 /// <compiler>, and file names are absolute. References are as in the file; `Naming` renames them.
 struct ModelFile {
   std::string path;
   DocumentPtr document;
   CompilerSettings settings;
   std::shared_ptr<const mjModel> alone;
-  /// What elements without a name of their own were called.
+  /// The names given to elements that had none.
   std::set<std::string> generated_names;
 
   [[nodiscard]] pugi::xml_node root() const { return document->document_element(); }
 };
 
-/// Errors: as read_document; the engine refuses the file, global coordinates. The text begins with the name
-///         of the file.
+/// Errors: as read_document; the engine refuses the file; global coordinates. The text begins with the name
+/// of the file.
 [[nodiscard]] Result<std::shared_ptr<const ModelFile>> read_model_file(const std::string& path);
 
 }  // namespace tessera::sim

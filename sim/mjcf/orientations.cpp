@@ -11,7 +11,7 @@ namespace {
 
 using Quaternion = std::array<mjtNum, 4>;
 
-/// The engine's own rule: lower case turns about the moved axes, upper case about the fixed ones.
+/// The rule of the engine: lower case turns about the moved axes, upper case about the fixed ones.
 Quaternion rotation(const std::vector<double>& angles, const std::string& sequence) {
   Quaternion all{1, 0, 0, 0};
   for (std::size_t i = 0; i < 3; ++i) {

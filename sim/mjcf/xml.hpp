@@ -22,10 +22,10 @@ void set_attribute(pugi::xml_node element, const char* name, std::string_view va
 [[nodiscard]] std::vector<double> numbers_in(std::string_view text);
 
 [[nodiscard]] inline bool is_element(pugi::xml_node node) { return node.type() == pugi::node_element; }
-/// A joint, geom or site of a body, not the mention of one in a tendon.
+/// Whether it is a joint, geom or site of a body, not a reference to one in a tendon.
 [[nodiscard]] bool stands_in_body(pugi::xml_node element);
 
-/// Calls `visit` for the element and all below it, parents first. `visit` may change attributes.
+/// Calls `visit` for the element and all elements below it, parents first. `visit` may change attributes.
 template <class Visit>
 void for_each_element(pugi::xml_node element, const Visit& visit) {
   if (!is_element(element)) return;

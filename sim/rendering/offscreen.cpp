@@ -11,7 +11,8 @@
 namespace tessera::sim {
 namespace {
 
-// What is used of EGL, as its specification defines it. Its headers would be one more package to build with.
+// The part of EGL that is used, as its specification defines it. Its headers would be one more build
+// dependency.
 using Handle = void*;
 using Whole = std::int32_t;
 using Truth = unsigned int;
@@ -48,7 +49,7 @@ struct OffscreenContext::Egl {
   Egl() = default;
   Egl(const Egl&) = delete;
   Egl& operator=(const Egl&) = delete;
-  /// The display is that of all who use EGL in this process, so it is not terminated. The library stays
+  /// All users of EGL in this process share the display, so it is not terminated. The library stays loaded
   /// because Mesa has threads of its own.
   ~Egl() {
     if (context != nullptr) destroy_context(display, context);
@@ -74,7 +75,7 @@ struct OffscreenContext::Egl {
     return platform_display != nullptr;
   }
 
-  /// nullptr: EGL has none, or does not tell.
+  /// nullptr: EGL has none, or does not say.
   [[nodiscard]] Handle software_device() const {
     if (query_devices == nullptr || device_text == nullptr) return nullptr;
     std::array<Handle, 64> devices{};
@@ -132,7 +133,7 @@ Result<std::unique_ptr<OffscreenContext>> OffscreenContext::open(const char* lib
   return std::unique_ptr<OffscreenContext>(new OffscreenContext(std::move(egl)));
 }
 
-/// It is never destroyed: at the end of the process, Mesa may be gone already.
+/// It is never destroyed: at the end of the process, Mesa may be unloaded already.
 const Result<std::unique_ptr<OffscreenContext>>& OffscreenContext::of_process() {
   static const auto& context = *new Result<std::unique_ptr<OffscreenContext>>(open("libEGL.so.1"));
   return context;
@@ -140,7 +141,7 @@ const Result<std::unique_ptr<OffscreenContext>>& OffscreenContext::of_process() 
 
 OffscreenContext::Current::Current(OffscreenContext& context) : context_(context), lock_(context.mutex_) {
   const Egl& egl = *context_.egl_;
-  egl.bind_api(opengl_api);  // which each thread has to say
+  egl.bind_api(opengl_api);  // each thread has to call this
   if (egl.make_current(egl.display, nullptr, nullptr, egl.context) == 0)
     throw std::runtime_error("the OpenGL context cannot be used" + egl.code());
 }

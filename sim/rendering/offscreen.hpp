@@ -8,18 +8,16 @@
 
 namespace tessera::sim {
 
-/// An OpenGL context without a window. It needs no X server and no graphics card: among the devices
-/// that EGL finds, the one that renders in software comes first, so that machines of one kind give
-/// equal pictures.
+/// An OpenGL context without a window. It needs no X server and no graphics card. Among the devices that EGL
+/// finds, it prefers the one that renders in software, so that machines of one kind give equal pictures.
 ///
 /// libEGL is opened when it is needed. Without it everything else works.
 ///
 /// Threads: any. It is current in one thread at a time.
 class OffscreenContext {
  public:
-  /// The context of the process, made at the first call. It stays until the process ends, so that
-  /// shaders are compiled once. Problem: why nothing can be rendered here, with the packages that are
-  /// missing.
+  /// The context of the process, made at the first call. It stays until the process ends, so that shaders are
+  /// compiled once. Problem: why this machine cannot render, with the missing packages.
   [[nodiscard]] static const Result<std::unique_ptr<OffscreenContext>>& of_process();
   /// library: the file name of libEGL.
   [[nodiscard]] static Result<std::unique_ptr<OffscreenContext>> open(const char* library);

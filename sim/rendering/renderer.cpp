@@ -9,10 +9,10 @@
 namespace tessera::sim {
 namespace {
 
-/// Shadows as sharp as MuJoCo makes them by default (4096) would take eight times as long as the picture.
+/// Shadows as sharp as MuJoCo's default (4096) would take eight times as long as the picture.
 constexpr int most_shadow_pixels = 1024;
 
-/// Throws what the engine complains of.
+/// Throws the complaint of the engine.
 template <class Call>
 void call_engine(const char* what, Call&& call) {
   const std::string complaint = complaint_of(std::forward<Call>(call));
@@ -72,7 +72,7 @@ void CameraView::look(const mjModel& model, mjData& state, mjvCamera& camera) {
   constexpr int seen = mjCAT_STATIC | mjCAT_DYNAMIC;
   if (scene_.maxgeom == 0) make_scene(model, model.ngeom + 2 * model.nwrap + model.nskin + 100);
   for (;;) {
-    // A full scene is a warning, and is made larger here.
+    // A full scene is a warning, and is enlarged here.
     static_cast<void>(
         complaint_of([&] { mjv_updateScene(&model, &state, &options_, nullptr, &camera, seen, &scene_); }));
     if (scene_.ngeom < scene_.maxgeom) break;
@@ -89,7 +89,9 @@ void CameraView::look(const mjModel& model, mjData& state, mjvCamera& camera) {
 }
 
 void CameraView::add(const mjvGeom& thing) {
-  if (scene_.ngeom < scene_.maxgeom) scene_.geoms[scene_.ngeom++] = thing;  // a look leaves room for one
+  if (scene_.ngeom < scene_.maxgeom)
+    scene_.geoms[scene_.ngeom++] = thing;  // look() leaves space for one
+                                           // more
 }
 
 std::uint16_t CameraView::body_of(std::uint8_t red, std::uint8_t green, std::uint8_t blue) const {
@@ -100,7 +102,7 @@ std::uint16_t CameraView::body_of(std::uint8_t red, std::uint8_t green, std::uin
 Renderer::~Renderer() {
   try {
     release();
-  } catch (const std::exception&) {  // EGL is gone, and all of its resources with it
+  } catch (const std::exception&) {  // EGL is gone, and its resources with it
   }
 }
 
@@ -132,7 +134,7 @@ void Renderer::prepare(const mjModel& model) {
 
 void Renderer::make_resources(const mjModel& model) {
   catch_complaints();
-  mjModel sized = model;  // its numbers; its arrays are those of the model
+  mjModel sized = model;  // copies the numbers; the arrays stay those of the model
   sized.vis.global.offwidth = room_.width;
   sized.vis.global.offheight = room_.height;
   sized.vis.quality.offsamples = 0;  // depths and labels of two bodies cannot be mixed

@@ -30,8 +30,8 @@ enum class PictureKind : std::uint8_t {
   labels  ///< every body in a colour of its own, without light
 };
 
-/// What one camera of a world sees, to be drawn by a Renderer. Sites, range finders and geoms of the
-/// groups 3 to 5 are not seen.
+/// The view of one camera of a world, drawn by a Renderer. It leaves out sites, range finders and geoms of
+/// the groups 3 to 5.
 class CameraView {
  public:
   CameraView(int camera, PictureSize size, PictureKind kind);
@@ -39,11 +39,11 @@ class CameraView {
   CameraView& operator=(const CameraView&) = delete;
   ~CameraView();
 
-  /// Takes in where everything is. Does not change the physics.
+  /// Copies the poses of all bodies. Does not change the physics.
   void look(const Physics& physics);
-  /// From any camera. state: the engine only reads it.
+  /// The same for any camera. state: the engine only reads it.
   void look(const mjModel& model, mjData& state, mjvCamera& camera);
-  /// One thing more, until the view looks again.
+  /// Adds one more object, until the view looks again.
   void add(const mjvGeom& thing);
 
   [[nodiscard]] PictureSize size() const { return size_; }
@@ -61,7 +61,7 @@ class CameraView {
   PictureKind kind_;
   mjvScene scene_{};
   mjvOption options_{};
-  std::vector<std::uint16_t> bodies_;  // by the number that the engine gives what it draws
+  std::vector<std::uint16_t> bodies_;  // by the number that the engine gives each drawn object
 };
 
 /// Draws the pictures of all cameras of one world.
@@ -75,16 +75,17 @@ class Renderer {
   Renderer& operator=(const Renderer&) = delete;
   ~Renderer();
 
-  /// Pictures of this size will be drawn.
+  /// Announces a picture size that will be drawn.
   void make_room_for(PictureSize size);
-  /// Hands meshes and textures over. Called before `draw`, while nobody changes the model. Throws
+  /// Uploads meshes and textures. Call it before `draw`, without concurrent changes of the model. Throws
   /// std::runtime_error if this machine cannot render, or the picture of the track cannot be read.
   void prepare(const mjModel& model);
 
-  /// The view as it was when it last looked, rows from the top. Three numbers a pixel. Draws once a look.
+  /// Draws the view as it was at its last look, rows from the top. Three numbers a pixel. Draws once per
+  /// look.
   void draw_colours(CameraView& view, std::span<std::uint8_t> rgb);
-  /// In metres along the direction of the camera. What is farther than the far clipping plane, or
-  /// nothing at all, has the distance of that plane.
+  /// Depths in metres along the direction of the camera. Objects beyond the far clipping plane, and empty
+  /// pixels, have the distance of that plane.
   void draw_depths(CameraView& view, std::span<float> metres);
 
  private:
@@ -96,7 +97,7 @@ class Renderer {
   std::mutex mutex_;
   PictureSize room_;
   TrackFile track_file_;
-  std::optional<TrackPicture> track_;  // as soon as it is needed
+  std::optional<TrackPicture> track_;  // loaded at its first use
   int track_texture_ = -1;
   OffscreenContext* context_ = nullptr;
   std::unique_ptr<mjrContext> resources_;  // nullptr: not prepared

@@ -36,12 +36,12 @@ Result<Pixels> read_png(const std::string& png) {
   return pixels;
 }
 
-/// Where part `n` of `parts` begins.
+/// The begin of part `n` of `parts`.
 std::uint32_t begin_of(std::uint32_t n, std::uint32_t parts, std::uint32_t length) {
   return static_cast<std::uint32_t>(std::uint64_t{n} * length / parts);
 }
 
-/// Each new pixel is the mean of those that it stands for.
+/// Each new pixel is the mean of the pixels that it replaces.
 Pixels made_smaller(const Pixels& from) {
   Pixels to{std::min(from.width, most_texels), std::min(from.height, most_texels), {}};
   to.rgb.reserve(std::size_t{3} * to.width * to.height);
@@ -79,7 +79,7 @@ Result<TrackPicture> TrackPicture::load(const TrackFile& file) {
 }
 
 mjvGeom TrackPicture::geom(int texture) const {
-  // A hair above the floor, so that the floor does not shine through.
+  // Slightly above the floor, so that the floor does not show through.
   constexpr double half_thickness_m = 0.0002;
   const std::array<mjtNum, 3> half_size{width_m_ / 2, height_m_ / 2, half_thickness_m}, middle = half_size;
   constexpr std::array<float, 4> as_the_picture{1, 1, 1, 1};

@@ -10,20 +10,20 @@
 
 namespace tessera::sim {
 
-/// Where the picture of the track is; no png: there is none.
+/// The file of the track's picture; no png: there is none.
 struct TrackFile {
   std::string png;
   double metres_per_pixel = 1;
 };
 
 /// The picture of the track as cameras see it: in colour, its lower left corner at the origin, as light
-/// sensors read it (Track). It belongs to pictures, not to the physics: nothing touches it, and no ray hits it.
+/// sensors read it (Track). Only pictures show it; it is no part of the physics, and no ray hits it.
 class TrackPicture {
  public:
   /// Transparency becomes white. A picture of more than 4096 pixels a side is made smaller.
   [[nodiscard]] static Result<TrackPicture> load(const TrackFile& file);
 
-  /// What lies on the floor. texture: its number among the textures of the renderer.
+  /// The object that lies on the floor. texture: its number among the textures of the renderer.
   [[nodiscard]] mjvGeom geom(int texture) const;
 
   [[nodiscard]] int columns() const { return columns_; }
@@ -41,7 +41,7 @@ class TrackPicture {
 class TexturesWithTrack {
  public:
   TexturesWithTrack(const mjModel& model, const TrackPicture& floor);
-  /// The model then uses the arrays of this object.
+  /// Makes the model use the arrays of this object.
   void lend_to(mjModel& model);
 
  private:

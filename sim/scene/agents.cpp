@@ -50,7 +50,7 @@ namespace {
   }
 }
 
-/// The body at which the first target of a device is. A robot's own things are looked up first.
+/// The body of a device's first target. Elements of the robot itself are looked up first.
 [[nodiscard]] std::optional<int> body_of_device(const mjModel& model, const DriverRequest& device) {
   constexpr std::array types{mjOBJ_SITE,   mjOBJ_ACTUATOR, mjOBJ_SENSOR, mjOBJ_JOINT,
                              mjOBJ_CAMERA, mjOBJ_BODY,     mjOBJ_GEOM};
@@ -86,7 +86,7 @@ std::vector<std::string> agents_of_bodies(const mjModel& model, std::span<const 
       owners.push_back(prefix);
       continue;
     }
-    // The nearest device on the way to the world counts, then any of the same robot.
+    // The nearest device on the way to the world counts first, then any device of the same robot.
     std::string owner;
     for (int above = body; above != 0 && owner.empty(); above = model.body_parentid[above])
       if (const auto found = at_body.find(above); found != at_body.end()) owner = only_one(found->second);

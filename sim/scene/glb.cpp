@@ -27,7 +27,7 @@ ordered_json list_of(const std::vector<Number>& numbers) {
   return ordered_json(numbers);
 }
 
-/// glTF has linear light.
+/// glTF uses linear light.
 double linear_light(float screen) {
   const double s = std::clamp(static_cast<double>(screen), 0.0, 1.0);
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);

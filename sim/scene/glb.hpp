@@ -37,7 +37,7 @@ class GlbFile {
   GlbFile();
   /// png: the bytes of a file. Returns a texture.
   [[nodiscard]] int add_picture(const std::string& png);
-  /// Equal keys share the triangles. make: called only for a key that is new.
+  /// Equal keys share the triangles. make: called only for a new key.
   template <class Make>
   [[nodiscard]] int mesh(const std::string& key, const Surface& surface, Make&& make) {
     const auto known = meshes_.find({key, surface});

@@ -31,7 +31,7 @@ template <std::size_t N, class Number>
   return ordered_json(numbers).dump();
 }
 
-/// The colour of a geom, of its material unless it has one of its own, as the engine decides it.
+/// The colour of a geom: that of its material, unless it has its own. The engine uses the same rule.
 [[nodiscard]] std::array<float, 4> rgba_of(const mjModel& model, int geom) {
   const float* const own = model.geom_rgba + 4 * geom;
   const int material = model.geom_matid[geom];
@@ -179,7 +179,7 @@ class SceneWriter {
 
   [[nodiscard]] int plane(int geom, std::array<double, 3> size) {
     const bool endless = size[0] <= 0 || size[1] <= 0;
-    // The engine draws an endless plane up to the horizon.
+    // The engine draws an infinite plane up to the horizon.
     const double far = std::max({5.0, 3 * model_.stat.extent, 2 * floor_.width_m, 2 * floor_.height_m});
     for (std::size_t axis = 0; axis < 2; ++axis)
       if (size[axis] <= 0) size[axis] = far;
@@ -214,7 +214,7 @@ class SceneWriter {
     });
   }
 
-  /// glTF wants normals of length 1.
+  /// glTF requires normals of length 1.
   static void make_unit(std::vector<float>& normals) {
     for (std::size_t first = 0; first + 2 < normals.size(); first += 3) {
       const double length = std::hypot(normals[first], normals[first + 1], normals[first + 2]);

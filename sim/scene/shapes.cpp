@@ -9,7 +9,7 @@ namespace {
 
 using Vector = std::array<double, 3>;
 
-// Few triangles: a page without a graphics card draws them one by one.
+// Few triangles, because a page without a graphics card draws them one by one.
 constexpr int around = 20, rings = 10;
 
 struct Ring {
@@ -35,7 +35,7 @@ void add_rings(Shape& shape, const std::vector<Ring>& all) {
     }
 }
 
-/// From one latitude to another, on a sphere about (0, 0, z).
+/// The rings from one latitude to another, on a sphere about (0, 0, z).
 std::vector<Ring> sphere_rings(double radius, double z, int from, int to) {
   std::vector<Ring> all;
   for (int ring = from; ring <= to; ++ring) {
@@ -61,7 +61,7 @@ void add_disc(Shape& shape, double z, double up) {
   }
 }
 
-/// A quadrilateral; the corners are seen against the clock from the side of the normal.
+/// A quadrilateral; its corners are counterclockwise, seen from the side of the normal.
 void add_side(Shape& shape, const std::array<Vector, 4>& corners, const Vector& normal) {
   const std::uint32_t first = shape.add(corners[0], normal);
   for (std::size_t at = 1; at < corners.size(); ++at) shape.add(corners[at], normal);

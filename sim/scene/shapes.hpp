@@ -6,7 +6,7 @@
 
 namespace tessera::sim {
 
-/// Triangles, seen from outside against the clock. The arrays are as glTF has them.
+/// Triangles, counterclockwise seen from outside. The arrays are in the form of glTF.
 struct Shape {
   std::vector<float> positions, normals;  ///< three numbers per vertex
   std::vector<float> texture;             ///< two numbers per vertex; empty: none
@@ -25,7 +25,7 @@ struct Shape {
 [[nodiscard]] Shape unit_cylinder();
 /// Along z; half_length: of the cylinder between the half spheres.
 [[nodiscard]] Shape capsule(double radius, double half_length);
-/// In the plane z = 0, seen from above. Texture coordinates go from 0 to `repeat` along x and y, and the
+/// In the plane z = 0, visible from above. Texture coordinates go from 0 to `repeat` along x and y, and the
 /// upper edge of the picture is at the largest y.
 [[nodiscard]] Shape rectangle(double half_x, double half_y, const std::array<double, 2>& repeat);
 /// heights: of `rows` times `columns` points over a rectangle, row by row from the smallest y; the lowest

@@ -50,8 +50,8 @@ struct BoundFormulas {
 
 [[nodiscard]] double value_of(const BoundNumber& number, Scene& scene);
 [[nodiscard]] bool holds(const BoundFormula& formula, Scene& scene);
-/// What a check is about, for a plot: of a comparison with a constant the other side (the worst of all i), of
-/// everything else 1 if it holds and 0 if not. forbids: the check demands that the formula never holds.
+/// The quantity of a check, for a plot: for a comparison with a constant the other side (the worst of all i),
+/// for any other check 1 if it holds and 0 if not. forbids: the check demands that the formula never holds.
 struct Shown {
   double value = 0;
   std::optional<double> limit;  ///< of a comparison

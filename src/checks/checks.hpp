@@ -25,7 +25,7 @@ struct Check {
 };
 [[nodiscard]] std::string_view name_of(Check::When when);
 
-/// A number to be told at the end: `{ nearest: "distance(robot[*], robot[*])" }`.
+/// A number to report at the end: `{ nearest: "distance(robot[*], robot[*])" }`.
 struct Measure {
   std::string name;
   Number number;
@@ -64,7 +64,7 @@ class Judge {
   void observe(double time_s);
   /// Judges what holds at the end. Call it once, after the last observe.
   void finish(double time_s);
-  /// In place of finish, if the world has failed: what is not decided yet stays open.
+  /// Replaces finish if the world has failed: undecided checks stay open.
   void cut_short();
 
   /// Checks that have failed since the last call.

@@ -6,8 +6,8 @@
 
 namespace tessera::checks {
 
-/// What a number measures, as powers of m, rad and s. A number whose unit is not known, such as that of a sensor,
-/// is compared with everything.
+/// The dimension of a number, as powers of m, rad and s. A number of unknown unit, such as that of a sensor,
+/// can be compared with every number.
 struct Dimension {
   enum class Known : std::uint8_t {
     bare,    ///< a number without a unit: it takes that of its surroundings
@@ -27,7 +27,7 @@ struct Dimension {
 
 /// Whether both may be compared and added.
 [[nodiscard]] bool fits(const Dimension& one, const Dimension& other);
-/// Of a sum or difference of numbers that fit.
+/// The dimension of a sum or difference of numbers that fit.
 [[nodiscard]] Dimension of_sum(const Dimension& one, const Dimension& other);
 /// power: 1 of a product, -1 of a quotient.
 [[nodiscard]] Dimension of_product(const Dimension& one, const Dimension& other, int power);

@@ -63,7 +63,7 @@ class Facts {
     if (formula.kind == Formula::Kind::inside)
       add(fmt::format("inside({}) is {}", formula.pairs.front().names, holds(formula, scene_)));
     for (const BoundFormula& part : formula.parts) {
-      // Of many alike, those that decide are told.
+      // Among many equal ones, only the decisive ones are reported.
       if (formula.kind == Formula::Kind::every && holds(part, scene_)) continue;
       if (formula.kind == Formula::Kind::some && !holds(part, scene_)) continue;
       collect(part);

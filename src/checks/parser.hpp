@@ -9,20 +9,20 @@
 
 namespace tessera::checks {
 
-/// What is wrong with a text, and where.
+/// The mistake in a text, and its position.
 struct Mistake {
   Place place;
   std::string text, hint;
 };
 
-/// What was read, or the first mistake.
+/// The parsed text, or the first mistake.
 template <class T>
 struct Parsed {
   std::optional<T> value;
   Mistake mistake;  ///< if there is no value
 };
 
-/// What a unit is in SI units; nullopt: there is no such unit.
+/// The value of a unit in SI units; nullopt: there is no such unit.
 struct Unit {
   double factor = 1;
   std::string in_si;  ///< "m/s" for "cm/min"

@@ -29,7 +29,7 @@ class Scene {
   /// "robot[*]" for each NAME of that kind.
   [[nodiscard]] virtual std::vector<std::string> groups() const = 0;
 
-  /// What an element is asked for.
+  /// The quantity that an element is asked for.
   enum class As : std::uint8_t {
     point,    ///< a model, body, geom or site, whose origin is somewhere
     solid,    ///< a model, body or geom, which may touch others
@@ -37,7 +37,7 @@ class Scene {
     sensor,   ///< a sensor
     follower  ///< a model or body that has light sensors over a track
   };
-  /// Problem: there is no such element; with what there is instead.
+  /// Problem: there is no such element; with a list of existing ones.
   [[nodiscard]] virtual Result<std::size_t> find(As as, const std::string& name) = 0;
   /// How many numbers a sensor gives.
   [[nodiscard]] virtual std::size_t dimension_of(std::size_t sensor) const = 0;

@@ -22,7 +22,7 @@ class TextReader {
  protected:
   [[nodiscard]] static bool is_digit(char letter);
   [[nodiscard]] static bool is_letter(char letter);
-  /// What is left, without leading blanks, which count as read.
+  /// The rest of the text without leading blanks, which count as read.
   [[nodiscard]] std::string_view rest();
   /// The next letters, digits and underscores, which stay there.
   [[nodiscard]] std::string_view word();

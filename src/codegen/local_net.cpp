@@ -30,7 +30,7 @@ struct Parts {
   std::vector<std::vector<TransitionId>> transitions;
 };
 
-/// Of a transition that a subsystem executes.
+/// The local name of a transition that a subsystem executes.
 Step step_of(const net::Transition& transition) {
   using Role = net::TransitionRole;
   switch (transition.condition.kind) {

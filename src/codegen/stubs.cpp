@@ -11,7 +11,7 @@ void add_names(const std::vector<spec::Field>& fields, std::string_view owner, s
     out += fmt::format("{}{}.{}", out.empty() ? "" : ", ", owner, field.name);
 }
 
-/// What the function is about: its behaviour, and what it reads and writes.
+/// The subject of the function: its behaviour, and the buffers that it reads and writes.
 std::string description(const Unit& unit, const spec::Behaviour& behaviour) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   std::string reads, writes;

@@ -147,7 +147,7 @@ std::string process_members(const spec::Model& model) {
       model.deployment->domain, duration(model.deployment->liveliness));
 }
 
-/// What stands in the namespace of the system.
+/// The contents of the namespace of the system.
 std::set<std::string> names_in_system(const spec::Model& model) {
   std::set<std::string> names;
   for (const spec::Structure& structure : model.structures) names.insert(structure.name);
@@ -176,7 +176,7 @@ namespace {0} {{
 #include <memory>
 #include <tessera/tables.hpp>
 
-// What each subsystem executes, and how to make one: {}.cpp.
+// The nets of the subsystems, and the functions that make them: {}.cpp.
 {})",
                                         project.banner(), unit_path(project.units.front()), parts)};
 }

@@ -132,7 +132,7 @@ class Folding {
     }
   }
 
-  /// Whether both are written as the same shape. What the flat net has follows from the pages.
+  /// Whether both are written as the same shape. The elements of the flat net follow from the pages.
   [[nodiscard]] bool are_alike(const Part& one, const Part& other) const {
     if (one.use != other.use || one.memory.size() != other.memory.size() ||
         one.channels.size() != other.channels.size())

@@ -8,7 +8,7 @@ namespace tessera::drawing {
 /// Sizes of the symbols and of the texts to their right, in pixels.
 struct Sizes {
   static constexpr double circle_radius = 12, page_radius = 15, bar_width = 32, bar_height = 5;
-  static constexpr double cell = 34;  ///< room for a symbol
+  static constexpr double cell = 34;  ///< width of a symbol's cell
   static constexpr double gap = 4;    ///< between symbol and text
   static constexpr double name_font = 12, detail_font = 10, frame_font = 12, line = 13;
 };

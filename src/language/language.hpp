@@ -38,7 +38,7 @@ struct Proposal {
   std::string insert;
 };
 
-/// What a page of the net is called, and the line that describes it, counted from 1.
+/// The name of a page of the net, and the line that describes it, counted from 1.
 struct PageName {
   std::string path;
   std::uint32_t line = 0;
@@ -102,13 +102,14 @@ class Document {
   Index index_;
 };
 
-/// What may stand at the cursor, most likely first. At most 1000.
+/// The possible texts at the cursor, most likely first. At most 1000.
 [[nodiscard]] std::vector<Proposal> complete(const Document& document, Position position);
 
-/// What the word under the cursor means. nullopt: nothing is known of it.
+/// The meaning of the word under the cursor. nullopt: it is unknown.
 [[nodiscard]] std::optional<Explanation> explain(const Document& document, Position position);
 
-/// Where the name at the cursor is defined. At its definition itself: the transition function of a behaviour.
+/// The definition of the name at the cursor. At its definition itself: the transition function of a
+/// behaviour.
 [[nodiscard]] std::vector<Location> definition(const Document& document, Position position,
                                                std::span<const Source> sources);
 /// The same for a cursor in a C++ source of the project.

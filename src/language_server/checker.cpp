@@ -65,7 +65,7 @@ void Checker::work() {
     lock.unlock();
     const Checked found = check(text.uri, text.text);
     lock.lock();
-    // A newer text follows, or nobody looks at it any more.
+    // A newer text follows, or the text was closed.
     if (!forgotten_ && !waiting_.contains(text.uri) && !ends_) told_(text, found);
     checked_now_.clear();
   }

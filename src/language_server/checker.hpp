@@ -16,7 +16,7 @@
 
 namespace tessera::language_server {
 
-/// What is known of a text that was checked.
+/// The results for a text that was checked.
 struct Checked {
   std::vector<diagnostics::Diagnostic>
       found;  ///< those of project::draft_of, which `tessera check` finds too

@@ -23,7 +23,7 @@ bool has(const json& object, std::initializer_list<const char*> keys) {
   return !at->is_boolean() || at->get<bool>();
 }
 
-/// Of the options that an editor may give: {"pictures": "embedded"}.
+/// A value of the options that an editor may give: {"pictures": "embedded"}.
 PictureForm picture_form(const json& options) {
   const json form = options.is_object() ? options.value("pictures", json()) : json();
   return form == "embedded" ? PictureForm::embedded : form == "none" ? PictureForm::none : PictureForm::file;

@@ -57,7 +57,7 @@ class Session {
   json code_actions(const json& parameters);
   json symbols(const json& parameters);
 
-  /// What a request about a position is about.
+  /// The subject of a request about a position.
   struct Asked {
     Specification specification;
     language::Position position;

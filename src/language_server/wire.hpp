@@ -4,7 +4,7 @@
 
 #include "language/language.hpp"
 
-/// What the Language Server Protocol calls what src/language answers.
+/// The names of the Language Server Protocol for the answers of src/language.
 namespace tessera::language_server {
 
 [[nodiscard]] nlohmann::json to_json(const language::Range& range);
@@ -18,7 +18,7 @@ namespace tessera::language_server {
 [[nodiscard]] nlohmann::json to_json(const diagnostics::Diagnostic& diagnostic,
                                      const language::Document& document);
 
-/// What the client can do with a set of edits.
+/// The capabilities of the client for a set of edits.
 struct EditAbilities {
   bool document_changes = false;
   bool annotations = false;  ///< asks the user about edits that are not sure

@@ -179,8 +179,8 @@ class Subsystems {
   std::vector<Invariant> branches_;  // second and later branches
 };
 
-/// What holds of the memory of each channel by its model, summed over all behaviours that use it. First
-/// those that say that one of several places is marked, then those that say how much places of both
+/// The invariants of the memory of each channel by its model, summed over all behaviours that use it. The
+/// first ones state that one of several places is marked; the others state how many tokens places of both
 /// sides hold together.
 class Channels {
  public:

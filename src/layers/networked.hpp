@@ -4,7 +4,7 @@
 
 namespace tessera::layers {
 
-/// What a side of a channel does.
+/// The actions of one side of a channel.
 struct SideMode {
   bool blocks = false, timeout = false;
 };

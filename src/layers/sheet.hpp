@@ -41,7 +41,7 @@ class Sheet {
   net::PageTransition& transition(std::string_view name, std::vector<std::uint32_t> inputs,
                                   std::vector<std::uint32_t> outputs, net::Condition condition = {});
 
-  /// What is drawn from here on belongs to this block.
+  /// Elements drawn from here on belong to this block.
   void in_block(net::BlockId block) { block_ = block; }
 
   [[nodiscard]] net::PageId id() const { return id_; }

@@ -35,7 +35,7 @@ std::string text_of(const spec::When& when, const spec::Behaviour& behaviour) {
   return {};
 }
 
-/// What is known of an entry of `next` over the endings that are possible.
+/// The truth of an entry of `next` over the possible endings.
 Known known(const spec::Endings& endings, spec::Index entry, bool with_failures) {
   std::optional<Truth> all;
   bool exhaustive = true;

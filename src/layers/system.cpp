@@ -9,8 +9,8 @@ namespace tessera::layers {
 
 namespace {
 
-/// What carries the values of a channel between processes. It is drawn where both agents are seen, and
-/// belongs to neither.
+/// The transitions that carry the values of a channel between processes. They are drawn on the page with both
+/// agents, and belong to neither.
 void draw_medium_of(const Draft& draft, Sheet& sheet, spec::Index channel) {
   const spec::CommunicationModel& model = model_of(draft.model, draft.model.channels[channel]);
   if (draft.memory[channel].empty() || model.medium.empty()) return;

@@ -45,7 +45,7 @@ struct Condition {
     next,      ///< `entry` of `next` of the behaviour that is left is the first whose condition holds
     elapsed    ///< the timeout of `channel` has passed since the token's arrival
   } kind = Kind::none;
-  /// What is known before run time: `always` and `never` for constants, `free` for the rest.
+  /// The truth known before run time: `always` and `never` for constants, `free` for the rest.
   enum class Truth : std::uint8_t { free, always, never } truth = Truth::always;
   std::optional<std::uint32_t> entry{};  ///< next; nullopt: that no entry holds
   ChannelId channel{};                   ///< elapsed
@@ -57,8 +57,8 @@ struct Condition {
     bool exhaustive;
     bool operator==(const Known&) const = default;
   };
-  /// What is known if any iteration may end with a failure: user code throws, a device fails, a call takes
-  /// longer than the watchdog allows. nullopt: the same as without failures.
+  /// The truth if any iteration may end with a failure: user code throws, a device fails, a call takes longer
+  /// than the watchdog allows. nullopt: the same as without failures.
   std::optional<Known> with_failures{};
   struct After {
     bool terminal, error;  ///< t5; t6, by a condition or a failure
@@ -115,9 +115,9 @@ enum class TransitionRole : std::uint8_t {
   end_sending,      ///< t2
   begin_receiving,  ///< t3; its other transitions have conditions of their own kinds
   overwrite,        ///< of a block: replaces a value that has not been read
-  skip,             ///< of a block: there is nothing to read
+  skip,             ///< on a block: no value to read
   no_successor,     ///< a behaviour is left and no initial condition holds
-  // Of the medium of a channel between processes; they belong to no subsystem:
+  // The medium of a channel between processes; these belong to no subsystem:
   deliver,        ///< the newest value arrives
   replace,        ///< it arrives and overwrites one that has not been read
   deliver_older,  ///< an older value arrives

@@ -14,7 +14,7 @@
 /// Runs of a deployed system: which of its processes this machine starts, with which commands and files.
 namespace tessera::project {
 
-/// What differs from the deployment of the specification in one run; empty: nothing.
+/// The differences of one run from the deployment of the specification; empty: none.
 struct NetworkOptions {
   std::string domain, interface, peers;
 };
@@ -50,7 +50,7 @@ void add_process(Command& command, const std::string& process, const NetworkOpti
 /// The command that starts these processes on their own machine, for a person to type there.
 [[nodiscard]] std::string command_elsewhere(const LaunchOptions& options, const std::string& host);
 
-/// deployment.json in the folder of a run: who ran where, with which recordings, and how each start ended.
+/// deployment.json in the folder of a run: times, recordings and ends of all starts of the processes.
 class DeploymentFile {
  public:
   DeploymentFile(std::filesystem::path file, const Controller& controller);

@@ -29,7 +29,7 @@ struct LaunchOptions {
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error
   VerificationGate gate;
-  // Of the simulated world.
+  // The options of the simulated world.
   std::string world, track, start;                ///< empty: as in the specification
   double metres_per_pixel = 0, footprint_mm = 0;  ///< 0: as in the specification
   std::uint64_t seed = 1;
@@ -41,7 +41,7 @@ struct RunFiles {
 };
 [[nodiscard]] RunFiles run_files(const LaunchOptions& options);
 
-/// The floor picture that a run uses: the one on the command line, or else the one in the specification.
+/// The floor picture of a run: the one on the command line, or else the one in the specification.
 struct Floor {
   std::filesystem::path image;
   double metres_per_pixel = 0.005;

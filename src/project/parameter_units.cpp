@@ -65,7 +65,7 @@ std::string trimmed(std::string_view text) {
   return std::string(text.substr(first, text.find_last_not_of(" \t") - first + 1));
 }
 
-/// Of each element of "[5 cm, 3 cm]".
+/// Converts each element of "[5 cm, 3 cm]".
 std::string elements_without_unit(const spec::Model& model, std::string_view path, std::string_view inside) {
   std::string text;
   for (std::size_t end = 0; end != std::string_view::npos;) {

@@ -7,8 +7,9 @@
 
 namespace tessera::project {
 
-/// The value of a parameter as the controller takes it, without a unit: "5 cm" of a parameter in m is "0.05".
-/// The same for each element of "[5 cm, 3 cm]" of an array. What is no quantity, or of a parameter that is no number, stays as it is.
+/// The value of a parameter in the form of the controller, without a unit: "5 cm" for a parameter in m is
+/// "0.05". The same holds for each element of an array "[5 cm, 3 cm]". Other texts, and values of parameters
+/// that are no numbers, stay as they are.
 ///
 /// path: "v", "robot.control.v", "robot[1].control.v".
 /// Throws std::runtime_error, with the number to write, if the unit is not of the parameter's quantity.

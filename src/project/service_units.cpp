@@ -57,7 +57,7 @@ std::string user_name(const std::string& system) {
   return name.substr(0, longest);
 }
 
-/// The user who runs the unit, if it is not root.
+/// The user of the unit, if it is not root.
 std::string user_lines(const std::string& system, const ServiceOptions& options) {
   if (!options.own_user) return "";
   std::string lines =

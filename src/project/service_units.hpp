@@ -14,7 +14,7 @@ struct ServiceUnit {
   std::string text;
 };
 
-/// What differs from unit to unit of one kind.
+/// The differences between units of one kind.
 struct ServiceOptions {
   /// systemd makes a user for the units of the system while they run, in these groups besides. Their control
   /// sockets

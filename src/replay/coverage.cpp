@@ -107,7 +107,7 @@ struct Reachable {
   }
 };
 
-/// Of transitions whose name says little.
+/// Texts for transitions whose names are not clear.
 const char* meaning_of(net::TransitionRole role) {
   switch (role) {
     case net::TransitionRole::overwrite:

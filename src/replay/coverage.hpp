@@ -43,7 +43,7 @@ class FiringCounts {
   bool lacks_events_ = false;
 };
 
-/// What runs have reached of a net.
+/// The parts of a net that runs have reached.
 ///
 /// Elements that no run can reach are left out: what only a condition leads to that is the constant false.
 /// A condition has two outcomes, each of which counts: it held, and its transition fired; it did not hold, and

@@ -35,7 +35,7 @@ class DeployedNet {
 
   static constexpr std::uint32_t none = UINT32_MAX;
 
-  /// What a firing takes from the shared places of a channel and gives to them: one bit per place.
+  /// The tokens that a firing takes from and gives to the shared places of a channel: one bit per place.
   struct Move {
     std::uint32_t takes = 0, gives = 0;
     bool operator==(const Move&) const = default;
@@ -45,7 +45,7 @@ class DeployedNet {
     net::SubsystemId sender{}, receiver{};
     std::uint32_t sending = none, receiving = none;  ///< processes
     std::vector<net::PlaceId> places;                ///< networked: its shared places, a bit each
-    std::vector<Move> medium;                        ///< what nobody records
+    std::vector<Move> medium;                        ///< the moves that are not recorded
     bool exchange = false;                           ///< both sides are non-blocking
   };
   struct Transition {
@@ -53,8 +53,8 @@ class DeployedNet {
     ChannelStep step = ChannelStep::none;
     bool carries_number = false;   ///< its firing carries the number of a value, not the version of a word
     std::uint32_t process = none;  ///< none: of the whole system, or of a medium
-    /// Of a channel between processes: its own move, and those of the transitions with the same effect on its
-    /// subsystem, which cannot know what of them happened.
+    /// For a channel between processes: its own move, and those of the transitions with the same effect on
+    /// its subsystem, which cannot know which of them happened.
     std::vector<Move> moves;
   };
 

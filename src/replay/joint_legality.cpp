@@ -65,7 +65,8 @@ class JointOrder {
   static JointJudgement illegal(std::string why) { return {JointVerdict::illegal, std::move(why)}; }
   static JointJudgement incomplete(std::string why) { return {JointVerdict::incomplete, std::move(why)}; }
 
-  /// Of a run of one process: the start with the number of its recording; of a simulated run: one per process.
+  /// For a run of one process: the start with the number of its recording; for a simulated run: one per
+  /// process.
   std::vector<JointPlay::Start> starts() {
     std::vector<JointPlay::Start> all;
     if (one_run_)
@@ -275,7 +276,7 @@ class JointOrder {
     begin(next);
   }
 
-  /// As far as it goes. Who waits for a channel that it touches is ready again.
+  /// Plays as far as possible. A process that waits for a channel of the firing is ready again.
   JointOutcome play_lane(std::size_t number) {
     JointLane& lane = lanes_[number];
     Part& part = parts_[lane.recording];
@@ -315,7 +316,8 @@ class JointOrder {
     if (channel.valid()) waiting_[channel.value].push_back(number);
   }
 
-  /// What nothing can make legal any more. of_whole: also what waits for a recording that is whole.
+  /// The events that no further event can make legal. of_whole: also those that wait for a complete
+  /// recording.
   JointOutcome judge_rest(bool of_whole) {
     const JointLane* wrong = nullptr;
     bool certain = false;

@@ -273,7 +273,7 @@ void JointPlay::stop_tracking(const Firing& firing) {
   if (peer < unknown && assumed_[peer]) links_[channel.value].tracked = false;
 }
 
-/// nullptr: whom it reads is not given.
+/// nullptr: the sender is not given.
 JointPlay::Read* JointPlay::read_by(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
   const std::uint32_t sender = receiving(channel, firing.start).peer;

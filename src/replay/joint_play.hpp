@@ -51,7 +51,7 @@ class JointPlay {
       no_number,      ///< it carries one, or none, and should not
       read_already,   ///< the value `due`, or a newer one, was read before
       taken_already,  ///< the value was acknowledged to its sender by an earlier start of the reader
-      no_peer,        ///< the recording does not say whom it hears
+      no_peer,        ///< the recording does not name its sender
       unwritten,      ///< the value has not been written
       untaken         ///< the value has not been taken
     } reason = Reason::token;
@@ -76,12 +76,12 @@ class JointPlay {
 
   [[nodiscard]] const net::Marking& marking() const { return marking_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
-  /// Of a start that was heard and whose recording is not given; empty: none.
+  /// For a start that was heard and whose recording is not given; empty: none.
   [[nodiscard]] const std::string& unknown_peer() const { return unknown_peer_; }
 
  private:
   static constexpr std::uint32_t unknown = none - 1;  ///< a start whose recording is not given
-  /// What one start of the receiver has read of one start of the sender: numbers.
+  /// The numbers that one start of the receiver has read from one start of the sender.
   struct Read {
     std::uint32_t start = none, first = 0, ended = 0;
   };

@@ -13,7 +13,7 @@
 
 namespace tessera::replay {
 
-/// What one recording says, in numbers of the net.
+/// The content of one recording, in numbers of the net.
 class JointSource {
  public:
   explicit JointSource(const Recording& recording) : recording_(recording) {}
@@ -21,13 +21,13 @@ class JointSource {
   /// Why the recording does not belong to this net; empty: it does.
   [[nodiscard]] std::string match(const std::unordered_map<std::string_view, std::uint32_t>& transitions);
   [[nodiscard]] net::TransitionId transition(const Event& event) const { return transitions_[event.subject]; }
-  /// Of the subsystem.
+  /// The index of the subsystem.
   [[nodiscard]] std::string path_of(const Event& event) const;
   [[nodiscard]] const Recording& recording() const { return recording_; }
 
   /// "office: 2.500000 s: "
   [[nodiscard]] std::string place_of(const Event& event) const;
-  /// What is wrong with the sequence of its events: one is there again, or some are not there.
+  /// The mistake in the sequence of its events: one is repeated, or some are missing.
   [[nodiscard]] std::string twice(const Event& event) const;
   [[nodiscard]] std::string missing(const Event& event) const;
   /// A firing that is recorded as one of another subsystem, or of another process; empty: it is not.

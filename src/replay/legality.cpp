@@ -32,7 +32,7 @@ struct Player {
   bool gap = false;   ///< events are missing behind `firings`
 };
 
-/// What both kinds of recordings have in common. Methods that return a judgement return nullopt to go on.
+/// The common part of both kinds of recordings. Methods that return a judgement return nullopt to go on.
 class Play {
  public:
   Play(const Recording& recording, NetPlay& net)
@@ -156,9 +156,9 @@ class WrittenOrder : Play {
 
 // ------------------------------------------------------------------------------------------------- threads
 
-/// Any order that keeps those of each subsystem and of each channel. Where a segment begins, all firings
-/// before it have happened and none of those behind it: it is played part by part, and a part that is not
-/// whole does not hinder the next.
+/// Any order is allowed that keeps those of each subsystem and of each channel. At the start of a segment,
+/// all firings before it have happened and none of those after it: so it is played part by part, and an
+/// incomplete part does not affect the next.
 class AnyOrder : Play {
  public:
   using Play::Play;
@@ -226,7 +226,7 @@ class AnyOrder : Play {
     return judge_rest(is_cut);
   }
 
-  /// As far as it goes. Whoever waits for a channel that it touches is ready again.
+  /// Plays as far as possible. A subsystem that waits for a channel of the firing is ready again.
   Outcome play_lane(Player& lane, bool& moved, std::vector<std::vector<std::size_t>>& waiting,
                     std::deque<std::size_t>& ready) {
     while (!lane.firings.empty() && net_.obstacle(*lane.firings.front()).kind == Obstacle::Kind::no) {

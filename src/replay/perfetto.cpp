@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::json;
 
-/// Where a subsystem is drawn: agents are processes, numbered from 1.
+/// The row of a subsystem: agents are processes, numbered from 1.
 struct TraceRow {
   std::uint32_t process = 0, thread = 0;
 };
@@ -138,7 +138,7 @@ class Writing {
           }));
     }
   }
-  static constexpr std::size_t most_counters = 16;  // per buffer: nobody looks at the curves of an image
+  static constexpr std::size_t most_counters = 16;  // per buffer: the curves of an image are not useful
 
   const Recording& recording_;
   std::ostream& to_;

@@ -11,7 +11,7 @@
 #include "tessera/poses.hpp"
 #include "tessera/recording.hpp"
 
-/// Where the robots of a recording were.
+/// The positions of the robots in a recording.
 namespace tessera::replay {
 
 /// A body that stands on the world itself and belongs to an agent. If no body has an agent, all of them count.
@@ -64,7 +64,7 @@ class PoseReader {
   explicit PoseReader(const std::string& recording);
   /// The next entry; nullptr: there is no more. Valid until the next call.
   [[nodiscard]] const Recording::Entry* next();
-  /// Of the run; nullptr before the first entry.
+  /// The data of the run; nullptr before the first entry.
   [[nodiscard]] const Recording* header() const { return reader_ ? &reader_->recording() : nullptr; }
   /// The poses after the last entry. Empty: they are not known now.
   [[nodiscard]] const std::vector<BodyPose>& poses() const { return poses_; }

@@ -13,7 +13,7 @@ struct Frame {
   std::vector<std::uint8_t> rgb;  ///< rows from the top
 };
 
-/// What a frame of a film says.
+/// The text of a frame of a film.
 struct Caption {
   std::string title;                ///< top left
   std::string time;                 ///< bottom left

@@ -10,13 +10,13 @@
 
 namespace tessera::report {
 
-/// Where a robot was, in at most 2,000 points.
+/// The path of a robot, in at most 2,000 points.
 struct RobotPath {
   std::string name;
   std::vector<replay::RobotPoint> points;
 };
 
-/// What the poses in a recording say of the robots.
+/// The paths of the robots, from the poses in the recording.
 struct RunPaths {
   bool has_poses = false;
   std::vector<RobotPath> robots;

@@ -16,7 +16,7 @@ namespace {
 constexpr double plot_width = 480, plot_height = 116, plot_left = 54, plot_right = 10, plot_top = 8,
                  plot_bottom = 94;
 
-/// Sixteen colours that are told apart on light and on dark ground; then they begin again, dashed.
+/// Sixteen colours that differ clearly on light and on dark backgrounds; then they repeat, dashed.
 constexpr std::array<const char*, 16> robot_colours{
     "#1f6fb4", "#d1495b", "#2a9d5c", "#e08b1a", "#7b4fb5", "#0f9aa7", "#b5651d", "#c2418f",
     "#5c7a29", "#4a5fd0", "#9c2f2f", "#2f7f6f", "#8a8f1c", "#a0509f", "#3f8fd0", "#776655"};
@@ -74,7 +74,7 @@ class PlotScale {
   [[nodiscard]] double y(double value) const {
     return plot_bottom - (value - range_.least) / (range_.greatest - range_.least) * (plot_bottom - plot_top);
   }
-  /// What is drawn, without the room around it.
+  /// The drawn content, without the margin around it.
   [[nodiscard]] const ValueRange& values() const { return values_; }
   [[nodiscard]] double end_s() const { return end_s_; }
 
@@ -124,7 +124,7 @@ void draw_axes(std::string& svg, const JudgedCurve& curve, const PlotScale& scal
     label(value, axis_number(value, scale.values()));
 }
 
-/// What is drawn from above: the floor, or the box around all paths.
+/// The area drawn from above: the floor, or the box around all paths.
 struct GroundBox {
   double left = 0, bottom = 0, width = 1, height = 1;
 };

@@ -15,7 +15,7 @@
 
 namespace tessera::report {
 
-/// What a robot did on a floor.
+/// The drive of a robot over a floor.
 struct DrivenPath {
   sim::Track floor;
   sim::Skeleton line;  ///< may be empty; the report then shows no error
@@ -44,7 +44,7 @@ struct Verdict {
 struct ReportInput {
   Recording recording;
   std::optional<DrivenPath> drive;
-  /// Of a simulated world: where the robots were. Without poses in the recording, the page says so.
+  /// For a simulated world: the positions of the robots. Without poses in the recording, the page says so.
   std::optional<RunPaths> paths;
   std::optional<sim::Track> floor;  ///< under the paths of several robots
   std::optional<Poster> poster;
@@ -57,7 +57,7 @@ struct ReportInput {
   std::vector<Verdict> verdicts;
 };
 
-/// Near the beginning of every page, so that a page of somebody else's is told from one.
+/// It is near the beginning of every page and distinguishes it from pages of other programs.
 inline constexpr std::string_view generator_tag = R"(<meta name="generator" content="Tessera">)";
 
 struct File {

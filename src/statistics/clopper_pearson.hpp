@@ -11,9 +11,9 @@ struct Interval {
 
 inline constexpr double usual_confidence = 0.95;
 
-/// Where the probability of an event lies that happened in `events` of `runs` independent runs. Whatever the
-/// probability is, the interval holds it with at least this confidence, which is two-sided: without any event
-/// the upper bound alone has (1 + confidence) / 2. Without runs it is 0 to 1.
+/// The interval of the probability of an event that happened in `events` of `runs` independent runs. Whatever
+/// the probability is, the interval holds it with at least this confidence, which is two-sided: without any
+/// event the upper bound alone has (1 + confidence) / 2. Without runs it is 0 to 1.
 ///
 /// Preconditions: events <= runs, 0 < confidence < 1.
 /// Source: Clopper and Pearson, Biometrika 26 (1934). Good to nine digits up to a million runs, and to five

@@ -15,7 +15,7 @@ using Setting = std::pair<std::string, std::string>;
 
 std::string shown(const std::string& value) { return value.empty() ? "nothing" : "'" + value + "'"; }
 
-/// What makes two identities different; empty: nothing.
+/// The difference between two identities; empty: there is none.
 std::string difference(const Identity& one, const Identity& other, bool other_builds) {
   const auto differ = [](const char* what, const std::string& a, const std::string& b) {
     return a == b ? std::string() : fmt::format("the {} {} and {}", what, shown(a), shown(b));

@@ -20,7 +20,7 @@ struct NamedResults {
 /// net whose programs differ are taken as the same. Precondition: there is at least one.
 [[nodiscard]] Result<Results> merge(const std::vector<NamedResults>& all, bool other_builds = false);
 
-/// What is missing of the whole, a line each: "part 3/20: seeds 101 to 150". Empty: nothing.
+/// The missing parts of the whole, a line each: "part 3/20: seeds 101 to 150". Empty: none.
 [[nodiscard]] std::vector<std::string> missing_parts(const Results& results);
 
 }  // namespace tessera::statistics

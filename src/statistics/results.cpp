@@ -111,7 +111,7 @@ void read_counts(const json& from, Results& results) {
       results.transitions[name] = count_in(firings);
 }
 
-/// What `read` fills, or why the text cannot be read. what: "is no result of schedules".
+/// The result that `read` fills, or why the text cannot be read. what: "is no result of schedules".
 template <class Read>
 Result<Results> read_with(std::string_view text, const char* what, Read&& read) {
   try {

@@ -13,7 +13,7 @@
 /// The results of many runs with different seeds, of one controller.
 namespace tessera::statistics {
 
-/// How often something went wrong: a class of faults, a broken check, a way in which runs fail.
+/// The frequency of a kind of failure: a class of faults, a broken check, a way in which runs fail.
 struct Outcome {
   std::string kind;              ///< "assertion", "deadlock"
   std::string name;              ///< the subsystem or the check; empty: all of this kind
@@ -24,7 +24,7 @@ struct Outcome {
   std::string text;
 };
 
-/// What was run. Only results of the same can be counted together.
+/// The identity of the runs. Only results with the same identity can be counted together.
 struct Identity {
   std::string system;
   std::string specification, net, controller;   ///< hashes

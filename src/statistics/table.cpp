@@ -12,7 +12,7 @@
 namespace tessera::statistics {
 namespace {
 
-/// Of a fleet, the rows of its first members are shown; the JSON has all.
+/// In a fleet, the rows of its first members are shown; the JSON has all.
 constexpr std::size_t most_rows_of_a_kind = 12, most_commands = 12, longest_text = 160, label_width = 32;
 
 std::string interval_text(std::uint64_t events, std::uint64_t runs) {
@@ -44,7 +44,7 @@ std::string first_of(const Outcome& outcome) {
   return fmt::format("    {}{}\n", time, cut(outcome.text));
 }
 
-/// What has happened, or could have and never did.
+/// Kinds of failures that happened, or could have and never did.
 bool has_rows(const Outcome& kind, const Results& results) {
   return kind.runs > 0 || std::ranges::any_of(results.outcomes, [&](const Outcome& outcome) {
            return outcome.kind == kind.kind && !outcome.name.empty();
@@ -74,7 +74,7 @@ std::string rows_of(const Outcome& kind, const Results& results) {
   return text;
 }
 
-/// What never happened and has no row, in one sentence.
+/// The kinds that never happened and have no row, in one sentence.
 std::string rest_of(const Results& results) {
   std::string names;
   const auto add = [&](const std::string& name) { names += (names.empty() ? "" : ", ") + name; };

@@ -15,8 +15,8 @@ enum class Sort : std::uint8_t {
   existential    ///< something is true in some marking
 };
 
-/// What a verdict on the abstract net, whose conditions are free choices, says about the executed net, whose
-/// conditions choose. Empty for unknown.
+/// The consequence of a verdict on the abstract net, whose conditions are free choices, for the executed net,
+/// whose conditions choose. Empty for unknown.
 [[nodiscard]] std::string meaning_of(Verdict verdict, Sort sort);
 
 }  // namespace tessera::verify

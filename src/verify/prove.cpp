@@ -74,7 +74,7 @@ Property of_author(const net::Property& property) {
 
 constexpr const char* none_applies = "the methods that were allowed do not apply";
 
-/// What the methods asked so far have made of one question.
+/// The answers of the methods asked so far to one question.
 class Answering {
  public:
   explicit Answering(Question question) : question_(std::move(question)) {

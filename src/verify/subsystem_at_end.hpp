@@ -6,7 +6,8 @@
 
 namespace tessera::verify {
 
-/// What one subsystem does at the end of a run that shows a violation, as far as the violation is about it.
+/// The state of one subsystem at the end of a run that shows a violation, as far as it concerns the
+/// violation.
 struct SubsystemAtEnd {
   enum class State : std::uint8_t {
     waits,         ///< for what `awaited` says, at `channel`, from one of `from`

@@ -29,13 +29,13 @@ struct PropertyResult {
   std::string asks = {};         ///< a property of the author: "always_reachable robot.motor.drive"
   std::string method = {};       ///< "place invariants"
   std::string why = {};          ///< violated, unknown: the reason, in one line
-  std::string meaning = {};      ///< what the verdict means for the net with conditions
+  std::string meaning = {};      ///< the consequence of the verdict for the net with conditions
   std::string explanation = {};  ///< what the method did: sizes before and after reductions
   /// violated: a run that shows it, if one was found: transitions of abstract_net()
   /// (verify/communication/abstraction.hpp).
   std::vector<net::TransitionId> trace = {};
   bool has_trace = false;  ///< a trace may be empty: the initial marking is a violation
-  /// violated: who waits for whom at the end of the run, or of one that there is but was not found.
+  /// violated: the waits at the end of the run, or of one that exists but was not found
   std::vector<SubsystemAtEnd> waits = {};
   struct Behaviour {
     std::string path;        ///< "robot.control.stop"

@@ -299,7 +299,7 @@ void Api::get_poses(const Request& request, Response& response) {
   answer(response, std::move(*poses));
 }
 
-/// The name of a scene says what it holds, so a browser need not ask again.
+/// The name of a scene is a hash of its content, so a browser need not ask again.
 void Api::get_scene(const Request& request, Response& response) {
   const std::string hash = request.matches[1];
   std::optional<std::string> glb = parts_.recordings.scene(hash);

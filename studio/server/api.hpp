@@ -54,10 +54,10 @@ class Api {
   /// nullopt: the response says what is wrong.
   [[nodiscard]] std::optional<RunRequest> run_request(const Request& request, Response& response) const;
   void serve_files(HttpServer& server);
-  /// The specification, and what its text means.
+  /// The specification and its analysis.
   void serve_spec(HttpServer& server);
   void serve_work(HttpServer& server);
-  /// The C++ beside the specification, and examples to begin with.
+  /// The C++ beside the specification, and examples to start from.
   void serve_sources(HttpServer& server);
   void stream_events(HttpServer& server, Response& response);
 

@@ -93,7 +93,7 @@ struct Studio::Parts {
     http.Get("/.*", [this](const Request& request, Response& response) { serve_page(request, response); });
   }
 
-  /// Publishes only changes: writing the same text again is none.
+  /// Publishes only changes: the same text written again is none.
   void look_at_file() {
     std::string revision = file.read().revision;
     if (revision == seen_revision) return;
@@ -125,12 +125,12 @@ Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   parts.declare();
   parts.watch.emplace(parts.file.path(), [&parts] { parts.look_at_file(); });
   parts.serving = std::thread([&parts] { parts.http.serve(); });
-  // What every page asks for first is ready when it asks.
+  // The first requests of every page are answered without a wait.
   parts.looking_ahead = std::thread([&parts] {
     try {
       (void)parts.analyses.of(parts.file.read().text);
     } catch (const std::exception&) {
-      // The request that asks for it fails, too, and tells why.
+      // The request for it fails, too, and says why.
     }
   });
   while (!parts.http.is_running()) std::this_thread::yield();

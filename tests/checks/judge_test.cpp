@@ -77,7 +77,7 @@ TEST_F(JudgeOfChecks, AllAndAnyRangeOverAGroup) {
   const CheckResult all = judged(check(Check::When::at_end, "all(inside(robot[*], bin))"));
   EXPECT_EQ(all.verdict, CheckResult::Verdict::failed);
   EXPECT_EQ(all.detail, "inside(robot[0], bin) is false; inside(robot[2], bin) is false");
-  // Of a pair, the [*] keeps its meaning: the nearest two.
+  // In a pair, the [*] keeps its meaning: the nearest two.
   EXPECT_EQ(judged(check(Check::When::always, "all(distance(robot[*], bin) < 11)")).verdict,
             CheckResult::Verdict::held);
 }

@@ -40,7 +40,7 @@ class Command : public testing::Test {
   }
   ~Command() override { fs::remove_all(folder_); }
 
-  /// What it printed, on both streams, and its exit code.
+  /// The output of the command, on both streams, and its exit code.
   project::Exit tessera(const std::string& arguments) const {
     return shell(std::string(TESSERA_BINARY_DIR) + "/tessera " + arguments);
   }

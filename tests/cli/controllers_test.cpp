@@ -1,6 +1,6 @@
-// Controllers generated from random specifications: whatever they do, on either clock and in any
-// interleaving, is a firing sequence of the verified net, and does not contradict what was proved.
-// TESSERA_CONTROLLERS=50 is the long form.
+// Controllers generated from random specifications: on either clock and in any interleaving, their firings
+// are a firing sequence of the verified net, and do not contradict the verdicts. TESSERA_CONTROLLERS=50 is
+// the long form.
 
 #include <fmt/format.h>
 
@@ -97,7 +97,7 @@ class Controllers : public Command {
     static_cast<void>(tessera("verify --json verdicts.json"));
     verdicts_ = nlohmann::json::parse(content_of(folder_ / "verdicts.json"));
   }
-  /// After a run: what it did is legal, and what was proved never to happen did not.
+  /// After a run: its firings are legal, and no event that was proved impossible has happened.
   void expect_sound(const std::string& how, const project::Exit& ran) {
     const std::string what = how + "\n" + content_of(folder_ / "spec.yaml") + ran.text;
     const project::Exit checked = tessera("replay .tessera/last/recording.tsr --check");

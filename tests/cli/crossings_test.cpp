@@ -53,7 +53,7 @@ class Crossings : public Machines {
             "Memory& memory, Outputs& out) {\n  say(\"out\", context);\n}\n");
   }
 
-  /// How often somebody crossed; no two were inside at once.
+  /// The number of crossings; no two rovers were inside at once.
   static std::size_t judge(const std::vector<fs::path>& logs) {
     std::vector<Visit> visits;
     for (const fs::path& log : logs) {

@@ -63,7 +63,7 @@ class Deploy : public Command {
     }
     return true;
   }
-  /// Runs it, and kills rover[0] when that has said something.
+  /// Runs it, and kills rover[0] after its first line.
   project::Exit run_and_kill(const std::string& options) const {
     bool killed = false;
     const std::string line = "cd '" + folder_.string() + "' && exec " + TESSERA_BINARY_DIR +
@@ -157,7 +157,7 @@ TEST_F(Deploy, WhatCannotRunIsRefusedBeforeAnythingStarts) {
       << cut.text;
 }
 
-/// What a robot gets, in a folder that has nothing else, without the environment of this machine.
+/// The files that a robot gets, in a folder without other files, without the environment of this machine.
 TEST_F(Deploy, PackagesRunWhereThereIsNothingElse) {
   for (const char* format : {"deb", "archive"})
     for (const char* folder : {"one", "two"}) {
@@ -183,7 +183,7 @@ TEST_F(Deploy, PackagesRunWhereThereIsNothingElse) {
               std::string::npos)
         << unpacked;
 
-  fs::rename(kept(), folder_ / "away");  // so that nothing of the project is found
+  fs::rename(kept(), folder_ / "away");  // so that no file of the project is found
   const std::string run =
       "for p in gate 'rover[0]' 'rover[1]'; do env -i LD_DEBUG=files LD_DEBUG_OUTPUT=\"$PWD/loaded\" "
       "robot/opt/crossroads/controller run --process $p --parameters robot/opt/crossroads/parameters --for "
@@ -216,7 +216,7 @@ TEST_F(Deploy, ASimulatedRunInWhichProcessesDieIsJudged) {
   EXPECT_NE(events.text.find("process rover[1] has died (start 1)"), std::string::npos)
       << events.text.substr(0, 500);
 
-  // The gate, begun again, reads a value that nobody has written.
+  // The restarted gate reads a value that no sender has written.
   std::string error;
   std::optional<Recording> recording = read_recording((folder_ / "once.tsr").string(), error);
   ASSERT_TRUE(recording) << error;

@@ -1,4 +1,4 @@
-// examples/04_arm: `tessera run` opens its real drivers, and nothing else does; drivers get their options.
+// examples/04_arm: only `tessera run` opens its real drivers; drivers get their options.
 
 #include <algorithm>
 #include <set>
@@ -56,7 +56,7 @@ class Drivers : public testing::Test {
 };
 
 TEST_F(Drivers, NoSimulatedRunTouchesAReal) {
-  // Nothing leads on from the error of the refused command, so that run ends early and fails.
+  // The error of the refused command has no successor, so that run ends early and fails.
   for (const auto& [how, code] :
        {std::pair("simulate --for 1s", 0), std::pair("simulate --for 200ms --interleave", 0),
         std::pair("simulate --schedules 3 --for 100ms", 0),

@@ -1,4 +1,4 @@
-// What Tessera writes into, and removes from, the folders of its users: nothing that is not its own.
+// Files that Tessera writes into, and removes from, the folders of its users: only its own.
 
 #include <sys/wait.h>
 #include <unistd.h>
@@ -35,7 +35,7 @@ TEST_F(Files, GenerateElsewhereKeepsWhatIsThere) {
   write(folder_ / "out/b/notes.txt", "mine");
   write(folder_ / "out/a/control.hpp", content_of(folder_ / "out/a/control.hpp") + "// mine\n");
 
-  // Both agents go; of what was generated for them, that which somebody has changed stays under another name.
+  // Both agents are removed; a generated file of theirs that the user has changed stays under another name.
   std::string other = small;
   for (const std::string from : {"  a: ", "  b: ", "a.control", "b.control"})
     other.replace(other.find(from), from.size(), from.starts_with(" ") ? "  c" + from.substr(2) : "c" + from);
@@ -148,7 +148,7 @@ TEST_F(Files, NewTakesNobodysPlaceAndLeavesNothingBehind) {
   EXPECT_TRUE(fs::is_empty(folder_ / "rover"));
   fs::remove(folder_ / "rover");
 
-  // Of several at once, one makes it.
+  // If several start at once, one of them makes it.
   const project::Exit all = shell("for n in 1 2 3 4; do " TESSERA_BINARY_DIR
                                   "/tessera new rover & done; wait; ls -A | tr '\\n' ' '");
   EXPECT_NE(all.text.find("rover "), std::string::npos) << all.text;

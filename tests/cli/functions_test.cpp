@@ -1,4 +1,4 @@
-// Where the user's functions stand, and what is said when they do not.
+// The positions of the user's functions, and the messages about missing ones.
 
 #include "command.hpp"
 
@@ -26,7 +26,7 @@ TEST_F(Functions, MayStandInAnySourceAndNothingIsWrittenForThem) {
   EXPECT_EQ(twice.text.find("multiple definition"), std::string::npos) << twice.text;
   fs::remove(src / "motor.cpp");
 
-  // In a namespace that is nobody's.
+  // In a namespace that belongs to no subsystem.
   replace(src / "wheels.cc", "namespace rover::robot::motor {", "namespace rover::car::motor {");
   const project::Exit moved = tessera("simulate rover --for 1s");
   EXPECT_EQ(moved.code, 1);

@@ -108,7 +108,7 @@ TEST_F(VerificationGate, KeptVerdictsThatAreDamagedAreMadeAgain) {
   EXPECT_NE(tessera("generate p").text.find("deadlock_free: violated"), std::string::npos);
 }
 
-/// What of the net is marked after the firings of a recording, as the trace of a viewer has it.
+/// The marked part of the net after the firings of a recording, in the form of a viewer's trace.
 std::vector<std::string> marked_after(const nlohmann::json& traces, const nlohmann::json& firings) {
   std::map<std::string, int> tokens;
   for (const auto& place : traces.at("initial")) ++tokens[place.get<std::string>()];

@@ -32,7 +32,7 @@ class Machines : public Command {
   }
   [[nodiscard]] fs::path project() const { return folder_ / "project"; }
 
-  /// What the environment says, for longer runs than those of every day.
+  /// A number from the environment, for runs longer than the usual ones.
   [[nodiscard]] static int given_or(const char* variable, int usual) {
     const char* const given = std::getenv(variable);
     return given == nullptr ? usual : std::atoi(given);

@@ -32,7 +32,7 @@ TEST_F(OwnCMake, AProjectLinksTheLibrariesThatItsFileNamesAndMistakesThereHaveAL
             std::string::npos)
       << typo.text;
 
-  // Without the file, the library is not there; nothing of the earlier configuration is left.
+  // Without the file, the library is missing; nothing of the earlier configuration is left.
   fs::remove(project / "project.cmake");
   const project::Exit none = tessera("simulate 12_own_cmake --for 1s");
   EXPECT_EQ(none.code, 1);

@@ -14,7 +14,7 @@ TEST_F(TeleoperationInATerminal, MovesTheRobotAndIsInTheRecording) {
   EXPECT_NE(simulated.text.find("nobody operates the panels robot.console.drive, crane.cabin.lever"),
             std::string::npos)
       << simulated.text;
-  // Until the controller listens, nothing is running.
+  // Until the controller listens, no run is found.
   const project::Exit done = shell(
       "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) +
       "/tessera; "

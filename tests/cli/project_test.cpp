@@ -160,7 +160,7 @@ TEST_F(Project, ChangedFunctionChangesTheRun) {
 TEST_F(Project, MissingFunctionIsNamedWithAStubAndAppendedOnRequest) {
   ASSERT_EQ(tessera("new rover").code, 0);
   replace(folder_ / "rover/spec.yaml", "follow: {}", "follow: {}\n        rest: {}");
-  // Nothing goes on to the new behaviour yet, which the proof would say.
+  // No behaviour leads to the new one yet, which the proof would report.
   const std::string generate = "generate rover --accept-violations";
   const project::Exit missing = tessera(generate);
   EXPECT_EQ(missing.code, 1);

@@ -23,7 +23,7 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   EXPECT_EQ(tessera("replay cut.tsr --check --spec 01_line_follower").code, 3);
   EXPECT_NE(tessera("replay cut.tsr").text.find("its end is missing"), std::string::npos);
 
-  // What cannot be read is not illegal, be it one recording or one of several.
+  // An unreadable recording is not illegal, alone or among several.
   write(folder_ / "header.tsr", bytes.substr(0, 40));
   for (const char* unreadable : {"missing.tsr", "01_line_follower/spec.yaml", "header.tsr"})
     for (const char* others : {"", " threads.tsr"}) {

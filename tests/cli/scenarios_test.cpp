@@ -12,13 +12,13 @@
 #include "machines.hpp"
 
 /// Three machines in network namespaces that lose packets, are cut off, are killed and come back
-/// (tests/namespaces/machines), and what is promised of them meanwhile.
+/// (tests/namespaces/machines), and the guarantees that hold meanwhile.
 namespace tessera::cli_test {
 namespace {
 
 constexpr std::size_t machines = 3;
 constexpr long liveliness_ms = 500;  // as tests/namespaces/ring/spec.yaml declares
-/// A machine that does other work runs a process late. Nothing is promised of that time.
+/// A machine with other work runs a process late. There is no guarantee for that time.
 constexpr long tolerance_ms = 500;
 
 /// A line that a process has written, or the script: "@ MS WHAT A B C", "MS WHAT A".
@@ -68,9 +68,9 @@ class Scenario {
     for (std::size_t machine = 0; machine < machines; ++machine)
       EXPECT_EQ(lamp(machine, 2).back().a, 0U) << "a lamp is on after the end: " << log(machine, 2);
   }
-  /// The longest time in ms after which somebody was told that another was gone.
+  /// The longest time in ms until a process was told that another was gone.
   [[nodiscard]] long longest_silence_ms() const { return longest_silence_ms_; }
-  /// The longest time in ms from the last start to the moment when somebody went on.
+  /// The longest time in ms from the last start to the time when some process went on.
   [[nodiscard]] long longest_pause_ms() const { return longest_pause_ms_; }
   [[nodiscard]] std::size_t confirmed_items() const { return confirmed_; }
 
@@ -85,7 +85,7 @@ class Scenario {
     return lines.empty() ? std::vector<Line>{{.what = "never", .a = 1}} : lines;
   }
 
-  /// Whether `observer` is told that `other` is gone, after `from` and in time.
+  /// Whether `observer` learns that `other` is gone, after `from` and in time.
   void expect_told(std::size_t observer, std::size_t other, long from) const {
     long told = -1;
     bool gone = true;

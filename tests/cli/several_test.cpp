@@ -16,7 +16,7 @@
 
 namespace tessera::cli_test {
 
-/// In a folder whose name has what CMake, ninja, a shell and C++ may take for something else.
+/// A folder whose name has characters that CMake, ninja, a shell or C++ may misread.
 class Several : public Command {
  protected:
   Several() : root_(folder_) {
@@ -29,7 +29,7 @@ class Several : public Command {
   fs::path root_;
 };
 
-/// What commands that run at the same time print, each with its exit code in front.
+/// The outputs of commands that run at the same time, each with its exit code in front.
 std::vector<std::string> at_once(const fs::path& folder, const std::vector<std::string>& arguments) {
   std::vector<std::string> printed(arguments.size());
   std::vector<std::thread> all;
@@ -54,7 +54,7 @@ nlohmann::json outcome(const fs::path& file) {
   return nlohmann::json::parse(content_of(file), nullptr, false);
 }
 
-/// Waits for something that another process does.
+/// Waits for an effect of another process.
 template <class Condition>
 bool await(Condition&& condition) {
   const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(2);
@@ -86,7 +86,7 @@ TEST_F(Several, CommandsAtOnceAreAllRight) {
     EXPECT_NEAR(third.at("simulated_s"), 10, 0.1);
     EXPECT_EQ(runs_in(folder_ / "rover"), 3U);
   }
-  // Tests, a simulation and two for the debugger, of which one builds what is not there yet.
+  // Tests, a simulation and two for the debugger, of which one builds the missing parts.
   const auto printed =
       at_once(folder_, {"test rover", "simulate rover --for 1s", "simulate rover --for 1s --debug",
                         "simulate rover --for 2s --debug"});
@@ -118,7 +118,7 @@ TEST_F(Several, CommandsAtOnceAreAllRight) {
       tessera("replay --check --spec rover '" + run.at("recording").get<std::string>() + "'");
   EXPECT_EQ(checked.code, 0) << checked.text;
 
-  // Who waits is told for whom.
+  // A waiting command names the one that it waits for.
   const int lock = open((folder_ / "rover/.tessera/build.lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
   ASSERT_EQ(flock(lock, LOCK_EX), 0);
   std::vector<std::string> waited;

@@ -91,7 +91,7 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   EXPECT_EQ(twice.code, 1);
   EXPECT_NE(twice.text.find("both have seeds 1 to 6"), std::string::npos) << twice.text;
 
-  // What the runs have reached is the same by counting and by recordings.
+  // The coverage of the runs is the same by counting and by recordings.
   const auto reached = [&](const std::string& arguments) {
     const project::Exit done =
         tessera("replay --spec 01_line_follower " + arguments + " --coverage=coverage.json");

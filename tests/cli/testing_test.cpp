@@ -1,4 +1,4 @@
-// `tessera test`, with what the tests of a project can use.
+// `tessera test`, with everything that the tests of a project can use.
 #include "command.hpp"
 
 namespace tessera::cli_test {
@@ -17,7 +17,7 @@ TEST_F(Testing, ShowsWhichLinesAndWhichPartsOfTheNetTheTestsOfAProjectHaveReache
       << done.text;
   EXPECT_NE(done.text.find("never true: t_avoid_1 [error]   spec.yaml:29"), std::string::npos) << done.text;
 
-  // A function that no test calls is told of by its lines.
+  // A function that no test calls is reported with its lines.
   std::ofstream(project / "src/robot/room.cpp") << "int unused(int x) {\n  return x + 1;\n}\n";
   const project::Exit more = tessera("test 08_rover --coverage");
   EXPECT_NE(more.text.find("src/robot/room.cpp                  0 of 2, not 1-2\n"), std::string::npos)

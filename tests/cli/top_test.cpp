@@ -12,7 +12,7 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   const std::string watch =
       "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) + "/tessera; ";
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);  // builds it
-  // Until it listens, `top` says that nothing is running.
+  // Until it listens, `top` reports that nothing is running.
   const project::Exit done =
       shell(watch +
             "$T top; $T run 01_line_follower --world --for 60s >run.txt 2>&1 & "
@@ -30,7 +30,7 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   EXPECT_EQ(line.at("channels").size(), 2U);
 
   // One of two controllers hangs: the other is stopped all the same, and the first as soon as it goes on.
-  // Nothing is waited for without end: `await` tries for 20 s.
+  // Every wait is limited: `await` tries for 20 s.
   const project::Exit stopped = shell(
       watch +
       "await() { for i in $(seq 400); do if \"$@\"; then return; fi; sleep 0.05; done; echo WAITED IN VAIN: "

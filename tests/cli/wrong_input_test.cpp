@@ -1,4 +1,4 @@
-// Mistakes of command lines and parameter files: what is said before anything is built.
+// Mistakes in command lines and parameter files: the messages before anything is built.
 
 #include <cstdlib>
 

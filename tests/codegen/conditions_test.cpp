@@ -35,7 +35,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
   return text.replace(at, from.size(), to);
 }
 
-/// What g++ says about the subsystems of a robot. stage: "-S -o /dev/null" also finds unused functions.
+/// The messages of g++ about the subsystems of a robot. stage: "-S -o /dev/null" also finds unused functions.
 Ran compile(const std::string& spec, const std::string& stage = "-fsyntax-only",
             const std::string& sources = "robot.control.cpp") {
   const Folder folder;
@@ -84,7 +84,7 @@ TEST(Conditions, OfABlockTextKeepTheirLines) {
   EXPECT_THAT(ran.output, HasSubstr("spec.yaml:13:22: error:"));
 }
 
-/// What `check` accepts, the compiler accepts: durations with a blank, elapsed, index.
+/// The compiler accepts everything that `check` accepts: durations with a blank, elapsed, index.
 TEST(Conditions, ThatAreLegalCompile) {
   std::string terminal = "{";
   for (std::size_t at = 0; at < legal_conditions.size(); ++at)

@@ -55,7 +55,7 @@ void add_words(const std::string& code, Words& words) {
   }
 }
 
-/// What generated files say, and what C, C++ and their libraries do.
+/// Words of generated files, and of C, C++ and their libraries.
 const Words& words() {
   static const Words all = [] {
     Words words{"main",    "errno",   "while",     "NULL",   "EOF",    "assert", "INT_MAX",   "linux",
@@ -72,7 +72,7 @@ const Words& words() {
   return all;
 }
 
-/// What a word can name in a specification.
+/// The things that a word can name in a specification.
 enum class Role : std::uint8_t {
   type,
   field,
@@ -95,7 +95,7 @@ std::string specification(Role role, const Words& words) {
     for (const std::string& word : words) out += text("'" + word + "'");
     return out;
   };
-  // Of its own name, so that all roles fit into one program.
+  // Each has a name of its own, so that all roles fit into one program.
   const std::string head = "tessera: 1\nsystem: zsystem" + std::to_string(static_cast<int>(role)) + '\n';
   const std::string control = "control: { rate: 9 Hz, behaviours: { zrun: {} } }";
   const std::string alone = "agents: { zagent: { " + control + " } }\n";
@@ -168,7 +168,7 @@ std::string specification(Role role, const Words& words) {
   return {};
 }
 
-/// One word is everything at once.
+/// One word in all roles at once.
 std::string everything(const std::string& word) {
   std::string text = R"(tessera: 1
 system: @
@@ -189,7 +189,7 @@ channels: [ @.control.@ -> @.@.@ ]
   return text;
 }
 
-/// Whether `check` accepts it; what it refuses a name for has one of the codes of names.
+/// Whether `check` accepts it; it refuses a name with one of the codes of names.
 bool accepted(const std::string& text, const std::string& word) {
   diagnostics::Diagnostics out("spec.yaml", text);
   if (spec::parse(out)) return true;
@@ -253,7 +253,7 @@ TEST(Names, WhatWeEmitMayBeANameOfTheUserOrIsRefused) {
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
 }
 
-/// What the headers of the runtime, which generated files include, bring along.
+/// The names that come with the headers of the runtime, which generated files include.
 std::string preprocessed(const std::string& option) {
   const Folder folder;
   std::string all;

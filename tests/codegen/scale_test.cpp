@@ -11,7 +11,7 @@
 namespace tessera::test {
 namespace {
 
-/// Of the controller; the header for tests is no part of it.
+/// Files of the controller; the header for tests is no part of it.
 std::size_t lines_of_cpp(const Generated& generated) {
   std::size_t lines = 0;
   for (const codegen::File& file : generated.files)

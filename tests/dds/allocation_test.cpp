@@ -16,7 +16,7 @@ thread_local std::size_t allocations = 0;
 
 // g++ inlines one of the two without the other, and then warns of the pair.
 #pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-// The middleware is C and does not come here: what is counted is ours.
+// The middleware is C and allocates elsewhere: only our allocations are counted.
 void* operator new(std::size_t size) {
   ++allocations;
   if (void* memory = std::malloc(size == 0 ? 1 : size)) return memory;

@@ -107,7 +107,7 @@ TEST(Carrier, ASenderThatStartsLateLearnsTheStateAtOnceButNoOldValue) {
   EXPECT_TRUE(office.heard.messages.empty());
 }
 
-/// Both are in one process: its clock is ahead of itself by nothing.
+/// Both are in one process, so the offset of its clock is zero.
 TEST(Carrier, SignsOfLifeTellTheClockOfTheOtherAndHowMuchOfItIsCertain) {
   Pair pair;
   const auto known = [](const Station& station, network::ProcessNumber peer) {

@@ -11,7 +11,7 @@
 #include "tests/dds/crossing.hpp"
 #include "tests/dds/heard.hpp"
 
-/// What a carrier makes of what it hears, without a network.
+/// The reactions of a carrier to messages, without a network.
 namespace tessera::test {
 namespace {
 

@@ -10,7 +10,7 @@
 
 namespace tessera::test {
 
-/// Keeps what a carrier has told.
+/// Keeps the reports of a carrier.
 struct Heard final : network::Carrier::Listener {
   struct Message {
     network::ChannelNumber channel = 0;
@@ -60,7 +60,7 @@ struct Heard final : network::Carrier::Listener {
   }
 };
 
-/// A carrier and what it has told.
+/// A carrier and its reports.
 struct Station {
   explicit Station(network::Carrier& its_carrier) : carrier(its_carrier) {}
   void receive(std::chrono::milliseconds longest = std::chrono::milliseconds(2)) {

@@ -81,7 +81,7 @@ class ReceivingSide final : public network::Carrier::Listener {
     }
     carrier_.receive(*this, 20ms);
   }
-  /// Takes what is in the slot.
+  /// Takes the value in the slot.
   [[nodiscard]] std::optional<std::uint64_t> read() {
     if (!receiver_.full()) return std::nullopt;
     receiver_.begin_read();

@@ -5,7 +5,7 @@
 
 #include "tests/dds/crossing.hpp"
 
-/// What signs of life tell of the way to another process, without a network: times and losses are given.
+/// The link to another process as measured by signs of life, without a network: times and losses are given.
 namespace tessera::test {
 namespace {
 

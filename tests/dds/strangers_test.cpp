@@ -21,7 +21,7 @@ namespace {
 
 using dds::DdsCarrier;
 
-/// What a program can write that is a participant of the same domain and means no good.
+/// The messages that a hostile program in the same domain can write.
 struct Stranger {
   explicit Stranger(const Crossing& crossing)
       : deployment(dds::deployment_of(crossing.setup(Crossing::office, 10))),
@@ -64,7 +64,7 @@ TEST(Strangers, MalformedMessagesAreDroppedAndCounted) {
       },
       cart));
   cart.heard.complaints.clear();
-  ASSERT_TRUE(receive_until(  // longer than the room of the reader
+  ASSERT_TRUE(receive_until(  // longer than the reader's buffer
       [&] {
         write_with(1, static_cast<std::uint32_t>(bytes.size()));
         return cart.heard.has_complaint("the value is longer");

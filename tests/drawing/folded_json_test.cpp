@@ -15,7 +15,7 @@ std::string joined(const std::string& path, const std::string& name) {
   return path.empty() || name.empty() ? path + name : path + "." + name;
 }
 
-/// What the page makes of a folded net: `pages`, `places` and `transitions` as to_json writes them, but for
+/// Unfolds a folded net like the page: `pages`, `places` and `transitions` as to_json writes them, except
 /// `fusion` of a node, which is the name of its place.
 class Unfolding {
  public:

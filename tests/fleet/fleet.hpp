@@ -58,7 +58,7 @@ inline std::string channel(const std::string& from, const std::string& to, Mix m
   return "  - { from: \"" + from + "\", to: \"" + to + "\"" + modes(mix) + " }\n";
 }
 
-/// used: what the second behaviour uses, if not all: ", receive: []".
+/// used: the channels of the second behaviour, if not all: ", receive: []".
 inline std::string behaviours(const std::string& pad, const std::string& value,
                               const std::string& used = {}) {
   return pad + "behaviours:\n" + pad + "  first:  { terminal: " + value + ".v > 1, next: second }\n" + pad +

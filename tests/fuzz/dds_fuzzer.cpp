@@ -61,7 +61,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// Fails at anything that is not for a terminal.
+/// Fails at any text that is not safe for a terminal.
 struct Reader final : network::Carrier::Listener {
   void heard(network::ChannelNumber, const network::Data&, const network::Value&) override {}
   void heard(network::ChannelNumber, const network::State&) override {}

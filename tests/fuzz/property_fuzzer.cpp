@@ -28,7 +28,7 @@ const char* const kinds[] = {"never", "always", "reachable", "always_reachable",
 
 }  // namespace
 
-/// Whatever the text of a property, it is looked up in the net or what is wrong is said, and can be shown.
+/// Any text of a property is either found in the net or reported as a mistake, and can be shown.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);

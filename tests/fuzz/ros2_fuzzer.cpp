@@ -16,7 +16,7 @@ namespace {
 
 using namespace tessera::ros2;
 
-/// Of everything that a definition can have.
+/// A definition with everything that definitions can have.
 constexpr const char* rich_message = R"(bool flag
 string<=8 word
 string[] name
@@ -96,7 +96,7 @@ void try_message(std::span<const std::byte> bytes) {
   if (back.decode(message, again) != Plan::Outcome::good || again != value) std::abort();
 }
 
-/// What a service gets: the header comes off and goes back, and the rest becomes a value with own fields.
+/// A message of a service: the header comes off and goes back, and the rest becomes a value with own fields.
 void try_service_message(std::span<const std::byte> bytes) {
   static const Plan plan = [] {
     std::vector<Mistake> mistakes;

@@ -5,7 +5,7 @@
 
 #include "spec/parser.hpp"
 
-/// Whatever the text, the parser gives a model or says what is wrong, and can show it.
+/// For any text, the parser gives a model or reports the mistakes, and can show them.
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   tessera::diagnostics::Diagnostics out("fuzz.yaml", std::string(reinterpret_cast<const char*>(data), size));
   const auto model = tessera::spec::parse(out);

@@ -20,7 +20,7 @@ using ::testing::HasSubstr;
 
 constexpr const char* bad = "delay=2ms,jitter=1ms,loss=0.1,duplicate=0.1,reorder=0.1";
 
-/// A sender that numbers its values from 1, and a receiver that keeps what it reads.
+/// A sender that numbers its values from 1, and a receiver that stores the values it reads.
 struct Crossing {
   TestSystem system;
   std::vector<double> read;        ///< fresh values
@@ -79,7 +79,7 @@ TEST(Crossing, ABlockingSendEndsWhenItsValueWasTakenWhateverTheNetworkLoses) {
         << "a send has ended that nobody has read";
 }
 
-/// A receiver that has heard nothing yet says again and again that it is there, as often as the sender repeats.
+/// A receiver without a sender announces itself repeatedly, as often as the sender repeats.
 TEST(Crossing, AValueThatIsFirstSentDuringACutArrivesWheneverTheCutEnds) {
   for (Duration end = 200ms; end < 2s; end += 50ms) {
     Crossing crossing(nets::far_b_sender, nets::far_b_receiver, networked_single, 1, 0s, 0s);
@@ -138,7 +138,8 @@ TEST(Crossing, TheSameSeedGivesTheSameBytes) {
   EXPECT_NE(once, recorded(8, "c.tsr"));
 }
 
-/// Numbers of values stand where versions do: taken are those that were written, and acknowledged what was taken.
+/// The version of an event is the number of a value: values taken were written, and acknowledged ones were
+/// taken.
 TEST(Crossing, ARecordingTellsWhichValueWasReadWhen) {
   Crossing crossing(nets::far_b_sender, nets::far_b_receiver, networked_single, 100, 0s, 0s);
   RunOptions options = over(bad);

@@ -76,7 +76,7 @@ void add_listener(TestSystem& system) {
   return WIFEXITED(status) ? WEXITSTATUS(status) : -1;
 }
 
-/// A port that nobody had a moment ago, for the first process; the second takes the next.
+/// A port that was free a moment ago, for the first process; the second takes the next.
 [[nodiscard]] std::string free_port() { return std::to_string(20'000 + getpid() % 20'000); }
 
 [[nodiscard]] std::vector<std::uint32_t> numbers_of(const std::string& file, const char* transition) {

@@ -34,7 +34,7 @@ struct Delivery {
     const std::uint32_t from =
         system.add("robot.talk", nets::far_b_sender, {.call = [this, most](ScriptState& state) {
                      if (state.context.iteration == 0)
-                       ++sender_starts;  // nobody knows what became of the value before
+                       ++sender_starts;  // the fate of the value before is unknown
                      else
                        confirm();
                      if (confirmed >= most || written > most) return state.context.stop("enough");
@@ -71,7 +71,7 @@ struct Delivery {
   [[nodiscard]] std::ptrdiff_t halts() const { return std::ranges::count(system.devices.commands, -1.0); }
 };
 
-/// The number of runs: some in every test, many if TESSERA_RESTARTS says so.
+/// The number of runs: some in every test, many if TESSERA_RESTARTS is set.
 [[nodiscard]] unsigned scenarios() {
   const char* const given = std::getenv("TESSERA_RESTARTS");
   return given == nullptr ? 60U : static_cast<unsigned>(std::strtoul(given, nullptr, 10));

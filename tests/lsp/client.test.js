@@ -42,7 +42,7 @@ after(async () => {
   assert.deepEqual(editor.registered.messages, [], "the client has complained");
 });
 
-/** Where `word` stands in a document, `behind` characters on. */
+/** The position of `word` in a document, `behind` characters on. */
 function position(document, word, behind = 0) {
   const at = document.text.indexOf(word);
   assert.notEqual(at, -1, word);
@@ -132,7 +132,7 @@ test("rename, in YAML and C++", async () => {
   assert.deepEqual(Object.keys(files).sort(), ["control.cpp", "control_test.cpp", "spec.yaml"]);
   assert.match(applied(specification, files["spec.yaml"]), /outputs: { speed: Velocity }/);
   assert.match(applied(code, files["control.cpp"]), /out\.speed = steer/);
-  // What only a compiler knows is left to the user.
+  // A field that only a compiler can find is left to the user.
   const field = await providers.rename.provideRenameEdits(specification, position(specification, "left: bool", 2), "port", token);
   assert.ok(field.asked > 0);
   await assert.rejects(

@@ -68,7 +68,7 @@ class Editor {
   }
 }
 
-/** Where `word` stands in `text`, `behind` characters on. */
+/** The position of `word` in `text`, `behind` characters on. */
 function position(text, word, behind = 0) {
   const at = text.indexOf(word);
   assert.notEqual(at, -1, word);

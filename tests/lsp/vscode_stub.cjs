@@ -170,7 +170,7 @@ class TextDocument {
 
 const events = {};
 const event = (name) => (events[name] ??= new EventEmitter()).event;
-/** Of the client: providers by kind, and collections of diagnostics. */
+/** The registrations of the client: providers by kind, and collections of diagnostics. */
 const registered = { providers: {}, diagnostics: new Map(), published: new EventEmitter(), messages: [] };
 
 /** Whatever else is asked of a part of `vscode`: events that never happen, registrations without effect. */

@@ -13,7 +13,7 @@ namespace tessera::testing {
 using oracle::Marking;
 using oracle::Random;
 
-/// The net itself, not what the executor makes of it. Conditions and operations are left out.
+/// The net itself, not the compiled form of the executor. Conditions and operations are left out.
 [[nodiscard]] oracle::PetriNet petri_net(const ExecutableNet& net);
 
 /// One run of a net as the textbook has it.
@@ -23,7 +23,7 @@ class NaiveRun {
 
   [[nodiscard]] const Marking& marking() const { return marking_; }
   [[nodiscard]] std::vector<std::uint32_t> enabled() const;
-  /// false: it is not enabled, and nothing changes.
+  /// false: it is not enabled, and the marking stays.
   [[nodiscard]] bool fire(std::uint32_t transition);
 
  private:

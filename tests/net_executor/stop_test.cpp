@@ -87,7 +87,7 @@ TEST(Stop, AtAnyMomentEndsARunThatFiresAndWorks) {
 }
 
 TEST(Stop, AtAnyMomentEndsARunThatSleepsBetweenOperations) {
-  // Nothing to fire while the workers work: the run sleeps most of the time.
+  // No transition can fire while the workers work: the run sleeps most of the time.
   std::atomic<std::uint64_t> work{0};
   ExecutableNet net{.places = {{.tokens = 4, .operation = [&] { ++work; }, .runs = Runs::on_worker}},
                     .transitions = {{.inputs = {{0}}, .outputs = {{0}}}}};

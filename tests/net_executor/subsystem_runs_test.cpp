@@ -8,7 +8,7 @@
 
 using namespace std::chrono_literals;
 
-// What the subsystem executors did must be something that the general executor does on the same net.
+// Every run of the subsystem executors must be possible for the general executor on the same net.
 
 namespace tessera::testing {
 namespace {

@@ -108,7 +108,7 @@ TEST(Workers, AReconsideredConditionWakesARunThatWaitsForAnOperation) {
   EXPECT_EQ(executor->run().end, End::dead);
 }
 
-/// Some places get operations, inline or on workers; each counts what has finished. A token may be taken only
+/// Some places get operations, inline or on workers; each counts the finished ones. A token may be taken only
 /// when an operation of its place has finished for it.
 TEST(Workers, RandomNetsFireLegallyAndWaitForTheirOperations) {
   const std::uint32_t nets = number_from("TESSERA_RANDOM_NETS", 3000) / 10;

@@ -5,7 +5,7 @@
 namespace tessera::net {
 namespace {
 
-/// A wrong document and everything that is said about it.
+/// A wrong document and all its messages.
 struct Wrong {
   const char* name;
   std::string text;

@@ -36,14 +36,14 @@ struct Bounds {
   std::size_t most = 3'000'000;      ///< states of the whole
 };
 
-/// Everything that two sides and a bad network can do, by the real code.
+/// All behaviour of two sides and a bad network, with the real code.
 template <class Sender, class Receiver>
 class Explorer {
  public:
   Explorer(Sides sides, Bounds bounds)
       : sides_(sides), bounds_(bounds), monitor_(as_seen(sides.send, bounds), sides.receive) {}
 
-  /// What is wrong; empty: nothing. Stops at the first run that shows something.
+  /// The mistake; empty: there is none. Stops at the first run with a mistake.
   std::string run() {
     Whole first{sender(1), receiver(1)};
     if (!sides_.latest_only) first.net = monitor_.initial();
@@ -66,7 +66,7 @@ class Explorer {
     Receiver receiver;
     std::vector<Data> data{};  // on the way, sorted
     std::vector<State> states{};
-    // What an observer has seen, by values numbered over all incarnations of the sender:
+    // The observations so far, by values numbered over all incarnations of the sender:
     std::uint64_t read = 0;  // one bit per value
     std::uint64_t last = 0, greatest = 0, acknowledged = 0;
     Monitor::Markings net = 1;
@@ -112,7 +112,7 @@ class Explorer {
   static std::uint64_t code(const State& one) {
     return (one.from.value * 3 + one.peer.value) * 5 + one.taken.value;
   }
-  /// Of messages of both kinds.
+  /// For messages of both kinds.
   static std::uint32_t message(const Data& one) { return static_cast<std::uint32_t>(code(one)); }
   static std::uint32_t message(const State& one) { return 256 + static_cast<std::uint32_t>(code(one)); }
 

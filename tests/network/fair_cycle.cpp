@@ -111,7 +111,7 @@ class Search {
     return more.size() == banned.size() || finds(component, more);
   }
 
-  /// Nothing is left to do but what users may or may not want.
+  /// Only optional actions of users are left.
   [[nodiscard]] bool rests(std::uint32_t node) const {
     return std::ranges::all_of(graph_.edges[node], [](const Edge& edge) {
       return edge.kind == Kind::user || edge.kind == Kind::time_up || edge.kind == Kind::restart ||

@@ -24,9 +24,9 @@ struct FairGraph {
   std::vector<Mark> marks;
 };
 
-/// Is there an endless run within these states, without restarts, and times that are up, in which every message that is
-/// sent again and again arrives again and again, and both sides do again and again what they have to? A state
-/// in which nothing is left to do counts.
+/// Whether there is an endless run within these states, without restarts and timeouts, in which every
+/// repeated message arrives again and again, and both sides carry out their duties again and again. A state
+/// without duties counts.
 [[nodiscard]] bool has_fair_cycle(const FairGraph& graph, const std::vector<std::uint32_t>& within);
 
 }  // namespace tessera::test

@@ -92,7 +92,7 @@ TEST(Repetition, SendsARecallThreeTimesInAll) {
   EXPECT_EQ(sent, 3);
 }
 
-// What is copied as bytes and has no pointer cannot allocate.
+// A type that is copied as bytes and has no pointer cannot allocate.
 static_assert(std::is_trivially_copyable_v<Sender> && std::is_trivially_copyable_v<Receiver>);
 static_assert(std::is_trivially_copyable_v<Sender::Effects> &&
               std::is_trivially_copyable_v<Receiver::Effects>);

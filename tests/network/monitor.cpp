@@ -126,7 +126,7 @@ Monitor::Markings Monitor::skip(Markings markings) const {
   }));
 }
 
-/// It forgets; what is on the way may arrive or not.
+/// It forgets its state; messages on the way may arrive or not.
 Monitor::Markings Monitor::sender_restarted(Markings markings) const {
   const Marking slots = 1U << place(words::empty) | 1U << place(words::full);
   return with_medium(each(markings, [&](Marking marking, Markings& all) {
@@ -135,7 +135,7 @@ Monitor::Markings Monitor::sender_restarted(Markings markings) const {
   }));
 }
 
-/// What it held is gone; a value that was not acknowledged is sent again.
+/// Its state is gone; a value that was not acknowledged is sent again.
 Monitor::Markings Monitor::receiver_restarted(Markings markings) const {
   const Marking slots = 1U << place(words::empty) | 1U << place(words::full);
   return with_medium(each(markings, [&](Marking marking, Markings& all) {

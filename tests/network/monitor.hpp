@@ -8,8 +8,9 @@
 
 namespace tessera::test {
 
-/// Follows the actions of the users of a channel on the net that the layers draw for it, and keeps all markings
-/// that the net may have, since nobody sees what the medium does. No marking: the actions are no run of the net.
+/// Follows the actions of the users of a channel on the net that the layers draw for it, and keeps all
+/// possible markings, because the actions of the medium are not visible. No marking: the actions are no run
+/// of the net.
 class Monitor {
  public:
   using Markings = std::uint64_t;  ///< a set: one bit per marking

@@ -35,8 +35,8 @@ class Protocol : public testing::TestWithParam<Mode> {
   }
 };
 
-// Every trace is one of the net that the layers draw; every value is read once, in order; what a blocking
-// sender was told is true; and nobody waits for ever if what is sent again and again arrives.
+// Every trace is one of the net that the layers draw; every value is read once, in order; the result of a
+// blocking send is true; and no side waits for ever if repeated messages arrive.
 TEST_P(Protocol, DoesWhatTheNetDoes) { expect_right({.writes = 3}); }
 TEST_P(Protocol, SurvivesARestartOfItsSender) { expect_right({.writes = 2, .sender_restarts = 1}); }
 TEST_P(Protocol, SurvivesARestartOfItsReceiver) { expect_right({.writes = 2, .receiver_restarts = 1}); }

@@ -81,7 +81,7 @@ int shrink_seed(const oracle::Command& command, std::uint64_t seed, const std::s
     try {
       for (const auto& one : oracle::compare(specification, command, limit).disagreements)
         if (one.kind.starts_with(kind)) return true;
-    } catch (const std::exception&) {  // what is left speaks of what is gone
+    } catch (const std::exception&) {  // the remaining comparison would use removed parts
     }
     return false;
   };

@@ -1,4 +1,4 @@
-// Mistakes in C++, compiled as a user's g++ does it, and what is said about them.
+// Mistakes in C++, compiled by a user's g++, and the messages about them.
 
 #include <algorithm>
 #include <array>
@@ -75,7 +75,7 @@ class Wheel final : public tessera::Effector<double> {
 };
 )";
 
-/// What stands in the function: each is a mistake of its own.
+/// The contents of the function: each is a separate mistake.
 constexpr auto statements = std::to_array<const char*>({
     "if (in.lin.left) return;",
     "if (in.line.lft) return;",
@@ -142,7 +142,7 @@ class CppErrors : public Folder {
   }
   static project::Exit shell(const std::string& line) { return project::capture({"sh", "-c", line}); }
 
-  /// What is said about that output, with this folder as FOLDER.
+  /// The messages about that output, with this folder as FOLDER.
   [[nodiscard]] std::string explained(const std::string& output) const {
     const project::TransitionFunctions functions(folder_ / "project", generated_.functions->wanted());
     std::string text = project::explain_build(output, {verified_->specification, functions, "compiler.log"});
@@ -248,7 +248,7 @@ TEST_F(CppErrors, OfCMake) {
   EXPECT_LE(std::count(text.begin(), text.end(), '\n'), 24) << text;
 }
 
-/// What CMake, the compiler and the linker refuse of a user's project.cmake.
+/// Mistakes in a user's project.cmake that CMake, the compiler and the linker refuse.
 TEST_F(CppErrors, OfTheUsersCMake) {
   prepare("in.line.left");
   const std::string user_file = (folder_ / "project/project.cmake").string();

@@ -29,7 +29,7 @@ using State = WatchedProcess::State;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-/// The control socket of a process, at which the test says what the process would say.
+/// The control socket of a process, at which the test sends in place of the process.
 class Speaker {
  public:
   Speaker(const fs::path& file, std::string name) : file_(file), name_(std::move(name)) {
@@ -49,7 +49,7 @@ class Speaker {
       if (*one >= 0) close(std::exchange(*one, -1));
     fs::remove(file_);
   }
-  /// Whether somebody has connected.
+  /// Whether a client has connected.
   [[nodiscard]] bool is_called() const {
     pollfd source{.fd = listening_, .events = POLLIN, .revents = 0};
     return client_ >= 0 || poll(&source, 1, 0) > 0;

@@ -16,7 +16,7 @@ namespace tessera::project_test {
 namespace fs = std::filesystem;
 using project::content_of;
 
-/// What was said.
+/// The messages.
 class Said final : public project::Listener {
  public:
   void say(std::string_view text) override { all += text; }

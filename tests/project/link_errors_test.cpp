@@ -108,7 +108,7 @@ TEST_F(LinkErrors, LinkersAreExplained) {
         << told;
     EXPECT_NE(told.find("#include \"robot/motor.hpp\""), std::string::npos) << told;
   }
-  // What else there is stays.
+  // Other lines stay.
   const std::string other = "undefined reference to `helper()'\n";
   EXPECT_NE(explain_build_errors("undefined reference to `rover::robot::motor::init(Context&)'\n" + other,
                                  functions)

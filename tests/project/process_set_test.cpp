@@ -16,7 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// What a set of processes does; `on_line` may act on it.
+/// The output and ends of a set of processes; `on_line` may act on it.
 struct Watched : ProcessSetListener {
   std::vector<std::size_t> order;
   std::vector<pid_t> pids;

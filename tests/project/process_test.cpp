@@ -37,7 +37,7 @@ class Starter : public testing::Test {
     fs::remove(ready());
     starter_ = fork();
     if (starter_ == 0) {
-      setpgid(0, 0);  // SIGTSTP stops nobody in a group that no shell looks after
+      setpgid(0, 0);  // SIGTSTP stops no process in a group without a shell
       first();
       _exit(run({"sh", "-c", script}).code);
     }
@@ -105,7 +105,7 @@ TEST_F(Starter, WaitsForAChildThatSomebodyElseStopsAndContinues) {
   while (child == 0 && std::chrono::steady_clock::now() < until) std::ifstream(ready()) >> child;
   ASSERT_GT(child, 0);
   kill(child, SIGSTOP);
-  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time to do the wrong thing
+  std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time for the mistake to happen
   kill(child, SIGCONT);
   kill(child, SIGTERM);
   EXPECT_EQ(wait(), 42);

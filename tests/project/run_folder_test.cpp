@@ -154,7 +154,7 @@ TEST_F(RunFolders, AProgramStaysWhatItIsWhileOthersAreBuilt) {
   EXPECT_EQ(content_of(own), "first");
   EXPECT_EQ(content_of(second), "second");
 
-  // Old and of no run: it goes. Of a run, or the newest: it stays.
+  // An old folder without a run is removed. A folder with a run, or the newest, stays.
   const auto long_ago = fs::file_time_type::clock::now() - std::chrono::hours(5);
   fs::last_write_time(first, long_ago);
   write("programs/controller-release-000000000000", "nobody's");

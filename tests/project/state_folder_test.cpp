@@ -9,7 +9,7 @@
 namespace tessera::project_test {
 namespace {
 
-/// Root can write everywhere; a path below a file cannot be made by anybody.
+/// Root can write everywhere, but no user can make a path below a file.
 class StateFolder : public Folder {
  protected:
   StateFolder() {

@@ -158,7 +158,7 @@ std::size_t compare_random_nets(const Rules& on, std::size_t Statistics::*count)
     const auto before = ReachabilityGraph::of(oracle::petri_net(given.net), most_markings);
     if (!before) continue;
     ++compared;
-    // What is true may be said or not.
+    // A true property may be reported or not.
     given.what.safe = before->safe() && seed % 3 != 0;
     const Statistics statistics = Comparison(given, *before, on).all();
     applied += statistics.*count;

@@ -9,7 +9,7 @@ namespace {
 using reduce::Preserve;
 using reduce::Reduced;
 
-/// What goes_on asks for.
+/// The properties that goes_on needs.
 Preserve every_subsystem(const net::Net& net) { return {.sets = per_subsystem(net), .safe = true}; }
 
 TEST(Reduce, AsynchronousSubsystemsFallApart) {

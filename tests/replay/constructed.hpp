@@ -27,7 +27,7 @@ class Constructed {
   Constructed& call(double at_s, std::uint32_t subsystem) {
     return add(at_s, subsystem, tessera::Event::Kind::call, 0, 0, {});
   }
-  /// Of the buffer with that number, in the header or not.
+  /// Adds a value of the buffer with that number, in the header or not.
   Constructed& value(double at_s, std::uint32_t subsystem, std::uint32_t buffer, std::uint32_t flags,
                      const std::string& bytes) {
     return add(at_s, subsystem, tessera::Event::Kind::value, static_cast<std::uint32_t>(bytes.size()),

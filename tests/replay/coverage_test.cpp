@@ -43,7 +43,7 @@ Recording run_of(const net::Net& net, const Names& names) {
   return recording;
 }
 
-// The token game of random_run says which places were marked; Coverage derives it from the firings.
+// The token game of random_run records the marked places; Coverage derives them from the firings.
 TEST(Coverage, OfRandomRunsIsWhatTheTokenGameReached) {
   Random random(7);
   for (std::uint32_t seed = 0; seed < 100; ++seed) {

@@ -29,7 +29,7 @@ struct Values {
   std::set<std::uint32_t> on_the_way;
 };
 
-/// What a firing carries as its version, and the text of a change of the peer before it.
+/// The version that a firing carries, and the text of a change of the peer before it.
 struct Noted {
   std::uint32_t version = 0;
   std::string peer;

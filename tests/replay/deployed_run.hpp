@@ -20,8 +20,8 @@ struct Deployed {
 /// Each agent of the model in a process of its own.
 [[nodiscard]] Deployed each_apart(spec::Model model);
 
-/// A random run of the net, with what the medium does, and with values that have numbers: one recording per
-/// process, as threads would leave them. Incarnations are 1 + the number of the process.
+/// A random run of the net, with the transitions of the medium, and with values that have numbers: one
+/// recording per process, as threads would leave them. Incarnations are 1 + the number of the process.
 [[nodiscard]] std::vector<Recording> deployed_run(const Deployed& system, std::size_t firings,
                                                   std::mt19937& random);
 /// The same run in one recording, in its order, as the simulated clock leaves it.

@@ -63,7 +63,7 @@ TEST(Legality, ARunWithoutOneOfItsFiringsIsIllegal) {
   const Recording run = random_run(net, 300, random);
   std::size_t tried = 0;
   for (std::size_t index = 0; index < run.entries.size(); ++index) {
-    // The last firing of a subsystem is missed by nobody.
+    // No other subsystem depends on the last firing of a subsystem.
     const std::uint32_t instance = run.entries[index].event.instance();
     const bool last =
         std::none_of(run.entries.begin() + static_cast<std::ptrdiff_t>(index) + 1, run.entries.end(),
@@ -122,7 +122,7 @@ Recording::Entry marking_after(Recording run, std::size_t count, const net::Net&
   return {event, text};
 }
 
-/// What a killed controller leaves of it: each subsystem's events up to any point.
+/// The recording of a killed controller: each subsystem's events up to any point.
 Recording cut_off(const Recording& run, Random& random) {
   Recording cut = as_of_threads(run, random);
   std::map<std::uint32_t, std::uint32_t> left;
@@ -205,7 +205,7 @@ TEST(Legality, IllegalRunsAreFoundInRecordingsOfThreadsThatAreCutOff) {
         found += check_legal(as_of_threads(wrong, random), net).verdict == Verdict::illegal ? 1 : 0;
       }
       EXPECT_GT(tried, 170U) << name;
-      // What is left out may be what was cut off.
+      // The missing part may be the part that was cut off.
       EXPECT_GE(found, cut ? tried * 3 / 4 : tried) << name << (cut ? ", cut off" : "");
     }
 }

@@ -8,9 +8,9 @@
 
 namespace tessera::replay {
 
-/// Is there an order of all recorded firings, with firings of the media in between, that the net allows? All
-/// orders are tried. The recordings are whole, one per process, and only their names are believed: nothing of
-/// the check that is tested is used.
+/// Whether the net allows some order of all recorded firings, with firings of the media in between. It tries
+/// all orders. The recordings are whole, one per process, and it relies only on their names: it uses no part
+/// of the tested check.
 ///
 /// Precondition: short recordings.
 [[nodiscard]] bool naive_joint(std::span<const Recording> recordings, const net::Net& net);

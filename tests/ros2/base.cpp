@@ -1,9 +1,10 @@
-// A robot base that speaks ROS 2 by Fast DDS and is its own world: it drives in a room of 6 m x 6 m, and sends
-// scans and odometry. For examples/10_ros2_base.
+// A robot base with ROS 2 over Fast DDS that also simulates its world: it drives in a room of 6 m x 6 m, and
+// sends scans and odometry. For examples/10_ros2_base.
 //
 //     ros2_base [DOMAIN [SECONDS]]
 //
-// It ends after that time, or when a controller has come and gone. At the end it prints what it has seen: "commands 180, driven 2.31 m, nearest wall 0.62 m, last v 0.0".
+// It ends after that time, or when a controller has come and gone. At the end it prints a summary: "commands
+// 180, driven 2.31 m, nearest wall 0.62 m, last v 0.0".
 #include <algorithm>
 #include <chrono>
 #include <cmath>

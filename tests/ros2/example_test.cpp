@@ -19,7 +19,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The example in a folder of its own. Its run waits for the base, so that nothing depends on time.
+/// The example in a folder of its own. Its run waits for the base, so the result does not depend on time.
 fs::path copy_of_example() {
   fs::path folder = fs::path(testing::TempDir()) / ("ros2_base_" + std::to_string(getpid()));
   fs::copy(fs::path(TESSERA_SOURCE_DIR) / "examples/10_ros2_base", folder, fs::copy_options::recursive);

@@ -16,9 +16,9 @@
 #include <string>
 #include <vector>
 
-/// The other side of topics, by an implementation of DDS that Tessera does not use: Fast DDS with its own CDR.
-/// Nothing here includes a header of Tessera. The types are written by hand, field after field, from the
-/// public definitions of ROS 2.
+/// The other side of topics, by a DDS implementation that Tessera does not use: Fast DDS with its own CDR.
+/// This file includes no header of Tessera. The types are written by hand, field after field, from the public
+/// definitions of ROS 2.
 namespace fast {
 
 using eprosima::fastcdr::Cdr;
@@ -130,7 +130,7 @@ struct SetBoolResponse {
     all(client, sequence, success, message);
   }
 };
-/// A request of an implementation that puts nothing before the data.
+/// A request of an implementation that puts no header before the data.
 struct BareSetBoolRequest {
   static constexpr const char* name = SetBoolRequest::name;
   bool data = false;
@@ -140,7 +140,7 @@ struct BareSetBoolRequest {
   }
 };
 
-/// Of a participant with one node, which has one writer and no reader.
+/// The announcement of a participant with one node, which has one writer and no reader.
 struct OneWriter {
   static constexpr const char* name = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
   std::array<std::uint8_t, 16> participant{};
@@ -197,7 +197,7 @@ class Type final : public eprosima::fastdds::dds::TopicDataType {
   }
 };
 
-/// Which interfaces a participant uses.
+/// The interfaces that a participant uses.
 enum class Reach : std::uint8_t {
   loopback,  ///< without multicast
   all        ///< as Fast DDS does by itself: all interfaces, with multicast and shared memory

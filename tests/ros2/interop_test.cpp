@@ -30,8 +30,8 @@ struct Odometry {
   TESSERA_FIELDS(Odometry, x, speed)
 };
 
-// A reader of DDS gets nothing that was written before it has found the writer, though the writer may have found
-// it already. So what is sent once may be lost, and these tests send until something arrives.
+// A DDS reader receives no sample that was written before it has found the writer, even if the writer has
+// found it already. So a single sample may be lost, and these tests send until one arrives.
 class WithFastDds : public testing::Test {
  protected:
   fast::Peer peer{test_domain()};
@@ -42,7 +42,7 @@ TEST_F(WithFastDds, GetsEveryTwistOfASecondAtOneKilohertz) {
   auto effector =
       opened_effector(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
   ASSERT_TRUE(eventually([&] { return fast::Peer::is_matched(*reader); }));
-  ASSERT_TRUE(eventually([&] {  // the writer knows the reader when something arrives
+  ASSERT_TRUE(eventually([&] {  // the writer knows the reader once a sample arrives
     EXPECT_TRUE(write(*effector, Motion{-1, 0}));
     return fast::Peer::take<fast::Twist>(*reader).has_value();
   }));

@@ -1,4 +1,4 @@
-// A participant of another implementation that uses all interfaces, as nodes of ROS 2 do unless told otherwise.
+// A participant of another implementation that uses all interfaces, the default for ROS 2 nodes.
 #include "ros2/dds/other_side.hpp"
 
 #include <gtest/gtest.h>

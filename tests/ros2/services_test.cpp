@@ -271,7 +271,7 @@ TEST_F(WithFastService, ServerAnswersOneAfterTheOther) {
   EXPECT_EQ(reply->client, 77U);
   EXPECT_EQ(reply->message, "done");
   EXPECT_TRUE(reply->success);
-  // What was sent while the first was pending is waiting in order.
+  // Requests sent while the first was pending wait in order.
   request.data = false;
   const std::int64_t last = request.sequence += 2;
   requests->write(&request);
@@ -370,7 +370,7 @@ TEST(Services, CallWithoutAReplyEndsOnBothSides) {
   EXPECT_TRUE(eventually([&] { return client.read() && client.reply.outcome == no_reply; }));
   EXPECT_EQ(client.reply.call, number);
   EXPECT_TRUE(server.reply(server.request.call, true, "too late"));
-  // The request that was given up keeps nobody from the next one.
+  // An abandoned request does not block the next one.
   const std::uint32_t before = server.request.call;
   EXPECT_TRUE(eventually([&] {
     EXPECT_TRUE(client.call(++number, false));

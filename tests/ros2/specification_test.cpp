@@ -76,7 +76,7 @@ std::string text_in(const fs::path& file) {
 
 const fs::path goldens = fs::path(TESSERA_SOURCE_DIR) / "tests/golden/ros2";
 
-/// What looking up messages says of a specification that is right in itself.
+/// The messages of the look-up about a specification that is right in itself.
 std::string report_of_golden(const fs::path& file, bool expected) {
   diagnostics::Diagnostics out(file.filename().string(), text_in(file));
   auto model = spec::parse(out);
@@ -89,7 +89,7 @@ std::string report_of_golden(const fs::path& file, bool expected) {
   return report;
 }
 
-/// TESSERA_UPDATE_GOLDEN=1 writes what is said now; read the difference before you keep it.
+/// TESSERA_UPDATE_GOLDEN=1 writes the present messages; read the difference before you keep it.
 TEST(Specification, WithWrongMessagesOrServicesIsRefused) {
   const std::string catalogue = text_in(fs::path(TESSERA_SOURCE_DIR) / "docs/diagnostics.md");
   for (const auto& file : fs::directory_iterator(goldens / "wrong")) {

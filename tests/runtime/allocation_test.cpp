@@ -77,7 +77,7 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   RunOptions options = simulated(duration);
   options.clock = clock;
   options.recording = scratch_file("run");
-  options.monitor = clock == RunOptions::Clock::steady;  // without anybody who watches
+  options.monitor = clock == RunOptions::Clock::steady;  // without a client
   const Cost before{allocations.load(), locks.load()};
   EXPECT_GT(run(system, options).firings, 10u);
   // The device of the test locks whenever it is written to.
@@ -86,7 +86,7 @@ void PrintTo(const Cost& cost, std::ostream* out) {
 
 /// Runs of both lengths cost the same.
 void expect_length_costs_nothing(RunOptions::Clock clock, Duration shorter, Duration longer) {
-  static_cast<void>(cost_of_a_run(clock, shorter));  // with what a process allocates once
+  static_cast<void>(cost_of_a_run(clock, shorter));  // allocates everything that a process allocates once
   EXPECT_EQ(cost_of_a_run(clock, shorter), cost_of_a_run(clock, longer));
 }
 

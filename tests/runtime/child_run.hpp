@@ -14,7 +14,7 @@
 
 namespace tessera::testing {
 
-/// What a device of a child process was given, seen by its parent, also when the child is no more.
+/// The commands that a device of a child process got, seen by its parent, even after the end of the child.
 struct CommandLog {
   std::atomic<std::uint64_t> commands{0}, safe{0};
   std::atomic<double> last{0};
@@ -27,7 +27,7 @@ struct CommandLog {
   }
 };
 
-/// A process of its own for a run, whose exit code says what came of it.
+/// A separate process for a run, whose exit code is the result.
 class ChildRun {
  public:
   /// body: in the child; returns its exit code.

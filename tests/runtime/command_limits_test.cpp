@@ -28,7 +28,7 @@ struct Motor {
   Output<std::int8_t> step;
 };
 
-/// What may be sent at one moment of commands that are all `asked`.
+/// The allowed commands at one moment, if all are `asked`.
 struct Limited : ::testing::Test {
   Limited() {
     bindings.real_output("left", out.left, 1.0);

@@ -33,7 +33,7 @@ class Controlled : public ::testing::Test {
   void send_line(const std::string& line) const;
   /// The next line that it accepts; null: the run is over.
   [[nodiscard]] nlohmann::json await(const std::function<bool(const nlohmann::json&)>& wanted);
-  /// What was wrong with the command; empty: nothing.
+  /// The mistake in the command; empty: there is none.
   std::string command(nlohmann::json what);
   /// The snapshot that shows the run paused for at least so many times.
   nlohmann::json rest(std::uint64_t pauses);

@@ -1,4 +1,4 @@
-// Drivers: which are made for which run, what they are told, and their life.
+// Drivers: which of them a run makes, their options, and their life.
 
 #include <gtest/gtest.h>
 
@@ -16,14 +16,14 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
-/// What the drivers of this file did, in order.
+/// The calls of the drivers of this file, in order.
 std::vector<std::string>& story() {
   static std::vector<std::string> lines;
   return lines;
 }
 std::vector<std::string> take_story() { return std::exchange(story(), {}); }
 
-/// Tells of everything; options make it fail.
+/// Records every call; options make it fail.
 class Teller final : public Effector<double> {
  public:
   explicit Teller(const DriverSetup& setup)
@@ -190,7 +190,7 @@ TEST_F(TwoMotors, HeartbeatsComeWhileTheSubsystemWaits) {
   EXPECT_EQ(std::count(lines.begin(), lines.end(), "b write 5"), 10);
 }
 
-/// Waits for ever for a subsystem that has ended, with a device that wants to hear something all the time.
+/// Waits for ever for a subsystem that has ended, with a device that needs heartbeats all the time.
 TEST(Heartbeats, DoNotHideThatNothingCanEverHappenAgain) {
   static constexpr DriverOption beating[] = {{"name", "b"}, {"beats", 2.0, "ms"}};
   const std::vector<CppDriver> drivers{{"robot.b.command", "Teller", "", beating, nullptr, make_teller}};

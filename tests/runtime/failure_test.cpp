@@ -219,7 +219,7 @@ struct StaleRun {
   TestSystem system;
   StaleRun result;
   Duration now{};
-  control.senses = true;  // notes the time, as the first to do something at an instant
+  control.senses = true;  // notes the time, because it acts first at an instant
   Script motor = script_of_a_driver();
   motor.call = [&now](ScriptState& state) {
     now = state.context.now.time_since_epoch();
@@ -251,7 +251,7 @@ TEST(SafeCommand, InvalidValuesAreNoNews) {
   };
   control.route = [](const ScriptState&, bool) { return 0; };
   const StaleRun result = run_stale(20ms, control, 25ms);
-  EXPECT_TRUE(result.summary.failed);  // nobody routes the error
+  EXPECT_TRUE(result.summary.failed);  // no `next` handles the error
   EXPECT_EQ(result.commands.back().second, -1);
 }
 

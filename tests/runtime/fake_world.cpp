@@ -13,9 +13,10 @@
 
 #include "tessera/device.hpp"
 
-/// A world in which a wheel's speed adds up to a position. WorldOptions::track names the thing that must not
-/// exist; its trace has a line per call. "seen.xml" can be looked at: it has two bodies. "slow.xml" takes four times as long as the time that passes in it.
-/// "stopped.xml" gets a SIGTERM at its first step, and "fails.xml" fails at 20 ms.
+/// A world in which a wheel's speed adds up to a position. WorldOptions::track names an element that must not
+/// exist; its trace has a line per call. "seen.xml" has a picture with two bodies. "slow.xml" takes four
+/// times as long as the time that passes in it. "stopped.xml" gets a SIGTERM at its first step, and
+/// "fails.xml" fails at 20 ms.
 namespace {
 
 struct State {

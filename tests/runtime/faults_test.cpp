@@ -56,7 +56,7 @@ struct Routed : ::testing::Test {
     const Kind kind = one.acts ? Kind::effector : one.senses ? Kind::receptor : Kind::control;
     system.add("robot.a", nets::two_behaviours, std::move(one), 10ms, 0ms, kind, policies);
   }
-  /// Runs it with that fault, and gives what the record says of it; the run must be legal.
+  /// Runs it with that fault, and returns the entries of the recording about it; the run must be legal.
   std::vector<Recorded> run_with(const std::string& fault) {
     options.inject = {fault};
     options.recording = scratch_file("run");
@@ -330,7 +330,7 @@ void make_line_follower(TestSystem& system) {
 TEST(FaultClasses, OfTheLineFollowerAreRecordedAndEndInTheSafeCommand) {
   struct Case {
     const char* fault;
-    std::optional<Fault> recorded;  ///< nothing: the run ends by a signal
+    std::optional<Fault> recorded;  ///< nullopt: the run ends by a signal
   };
   console::silence(true);
   for (const Case& one :

@@ -37,7 +37,7 @@ class Growing : public ::testing::Test {
   std::unique_ptr<Recorder> recorder_;
 };
 
-/// What there is by now, file by file.
+/// The present content, file by file.
 std::vector<std::string> files_of(GrowingRecording& growing, std::size_t most = plenty) {
   std::vector<std::string> files;
   for (GrowingRecording::Piece piece = growing.next(most); !piece.bytes.empty(); piece = growing.next(most)) {

@@ -66,7 +66,7 @@ struct PlainContext : Context {
 };
 using Base = SubsystemOf<Inputs, Nothing, Outputs, Nothing, PlainContext>;
 
-/// What a test wants of the two ends.
+/// The options of a test for the two ends.
 struct Wanted {
   bool writes = true;
   std::uint64_t sent = 0, received = 0, wrong = 0, kept = 0;
@@ -126,7 +126,7 @@ struct LargeValue : ::testing::TestWithParam<RunOptions::Clock> {
 };
 
 TEST_P(LargeValue, IsCopiedAtMostOnceOnItsWayThroughAChannel) {
-  // A run that writes but one value copies that, and what arrays are filled with when they are made.
+  // A run that only writes copies each value, and the initial values of arrays.
   wanted.writes = false;
   const std::uint64_t made = copies_of_a_run(GetParam());
   ASSERT_GE(wanted.received, 20U);

@@ -12,7 +12,7 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
-/// The paper's example without its robot: what the eye sees, times two, is what the motor gets.
+/// The paper's example without its robot: the motor gets the reading of the eye, times two.
 struct LineFollower : ::testing::TestWithParam<RunOptions::Clock> {
   TestSystem system;
   std::vector<std::uint16_t> behaviours;  // of control

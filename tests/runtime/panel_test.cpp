@@ -1,4 +1,4 @@
-// Panels of operators: what they refuse, when an input counts, and that a run records it.
+// Panels of operators: refused inputs, the life of an input, and the recording of inputs.
 #include "drivers/panel.hpp"
 
 #include <gmock/gmock.h>

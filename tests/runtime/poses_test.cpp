@@ -35,7 +35,7 @@ constexpr std::int64_t period_ns = pose_period.count();
 
 using Form = PoseEncoder::Form;
 
-/// Of both forms of frames.
+/// Frames of both forms.
 class Poses : public ::testing::TestWithParam<Form> {};
 INSTANTIATE_TEST_SUITE_P(Forms, Poses, ::testing::Values(Form::plain, Form::packed), [](const auto& form) {
   return std::string(form.param == Form::plain ? "Plain" : "Packed");

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
-/// A sensor, a controller that integrates what it gets, and a motor.
+/// A sensor, a controller that integrates its input, and a motor.
 struct Robot {
   TestSystem system;
   bool remembers = false;
@@ -78,7 +78,7 @@ TEST(Rerun, TheSameCodeDoesTheSame) {
   ASSERT_EQ(report.subsystems.size(), 3U);
   EXPECT_EQ(report.subsystems[0].iterations, 50U);
   EXPECT_GT(report.subsystems[1].iterations, 40U);
-  EXPECT_EQ(robot.readings, 0U);  // nothing but the recording is asked
+  EXPECT_EQ(robot.readings, 0U);  // only the recording is used
   EXPECT_TRUE(robot.system.devices.commands.empty());
 }
 
@@ -116,7 +116,7 @@ TEST(Rerun, NamesTheFirstDifferenceAndCountsTheOthers) {
   EXPECT_EQ(report.first->at, Time(210ms));
   EXPECT_EQ(report.first->what, "x");
   EXPECT_EQ(std::stod(report.first->computed), std::stod(report.first->recorded) + 1);
-  // The motor was given what the recorded controller had sent, so it does what it did.
+  // The motor got the commands that the recorded controller had sent, so it acts the same.
   EXPECT_EQ(report.subsystems[2].outputs[2].differing, 0U);
   EXPECT_EQ(report.subsystems[1].outputs[0].path, "robot.control.x");
   EXPECT_EQ(report.subsystems[1].outputs[0].differing, report.subsystems[1].iterations - 30);

@@ -242,7 +242,7 @@ TEST(SafeCommand, OfAFaultIsRecordedWithItsEnd) {
                                       "robot.motor.command: safe command: the end"}));
 }
 
-/// Standard error is a pipe that is full, and nobody reads it.
+/// Standard error is a full pipe that is not read.
 class FullPipe {
  public:
   FullPipe() {

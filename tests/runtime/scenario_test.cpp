@@ -40,7 +40,7 @@ namespace {
   return options;
 }
 
-/// What one subsystem fired, and what was logged, in order.
+/// The firings of one subsystem, and its log lines, in order.
 struct Story {
   std::vector<std::string> firings, lines;
 };

@@ -60,7 +60,7 @@ struct Race : ::testing::Test {
     for (const int self : {1, 2}) {
       Script script;
       script.call = [this, self](ScriptState& state) {
-        // The run before may have ended while somebody held it.
+        // The run before may have ended while a subsystem held it.
         if (state.context.iteration <= 1) holder = 0;
         state.context.assert_that(holder == 0 || holder == self, "{} takes what {} holds", self, holder);
         holder = self;
@@ -129,7 +129,7 @@ TEST(Schedules, AnEntryOfNextThatIsMissingFailsAll) {
 TEST(Schedules, AHangIsAFailure) {
   TestSystem system;
   const auto a = system.add("robot.waits", nets::b_receiver, {});
-  system.connect(a, "", a, "x", buffered);  // nobody sends
+  system.connect(a, "", a, "x", buffered);  // no behaviour sends
   const ScheduleReport report = try_all(system, simulated(100ms), {.count = 3});
   EXPECT_EQ(report.failed, 3u);
   const ScheduleOutcome deadlock = outcome_of(report, "deadlock", "");

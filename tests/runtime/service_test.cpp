@@ -81,7 +81,7 @@ TEST(Service, IsToldWhatTheRunDoes) {
     EXPECT_EQ(there.next(), "STATUS=3 subsystems run");
     manager.stopping();
     EXPECT_EQ(there.next(), "STOPPING=1");
-    EXPECT_EQ(manager.beat(Time{}), Time::max());  // nobody asked for it
+    EXPECT_EQ(manager.beat(Time{}), Time::max());  // no manager asked for it
     EXPECT_EQ(there.next(), "");
     EXPECT_EQ(std::getenv("NOTIFY_SOCKET"), nullptr);
   }
@@ -112,7 +112,7 @@ TEST(Service, IgnoresAWatchdogOfAnotherProcessAndNonsense) {
   }
   for (const char* const name : {"", "/", "@", "relative", "vsock:2:1"}) {
     setenv("NOTIFY_SOCKET", name, 1);
-    ServiceManager().ready();  // to nobody
+    ServiceManager().ready();  // without a manager
   }
   setenv("NOTIFY_SOCKET", ("/" + std::string(200, 'x')).c_str(), 1);
   ServiceManager().ready();

@@ -12,7 +12,7 @@ namespace {
 
 constexpr std::uint16_t empty = 1, full = 2;
 
-/// Counts who was woken.
+/// Counts the wake-ups of each side.
 struct CountingWaker final : Waker {
   std::vector<int> woken = std::vector<int>(2);
   void wake(std::uint32_t instance) override { ++woken[instance]; }

@@ -21,8 +21,8 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
-/// sensor -> motor on the steady clock, which commands 5 and whose safe command is -1, until something ends
-/// it. Returns what a controller would exit with.
+/// sensor -> motor on the steady clock, which commands 5 and whose safe command is -1, until a signal ends
+/// it. Returns the exit code that a controller would have.
 [[nodiscard]] int drive_until_stopped(CommandLog& log, const RunOptions& options = steady(1h),
                                       const Script& control = {}) {
   TestSystem system;

@@ -149,7 +149,7 @@ TEST(Stop, GivesUpADriverThatNeverReturnsAndNamesItsDevice) {
       << ended;
 }
 
-/// Its own thread is in the driver, and cannot say so.
+/// Its own thread is in the driver, and cannot report that.
 TEST(Stop, ComesIfADeviceDoesNotObeyAnEmergencyStop) {
   TestSystem system;
   Script motor, stops;
@@ -260,7 +260,7 @@ TEST(Recording, OfASlowWriterLosesEventsAndDoesNotHoldUpTheRun) {
   const std::string file = scratch_file("fifo");
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   std::atomic<bool> far{false};
-  // Opens it, and reads nothing before the run has gone far.
+  // Opens it, and reads no byte before the run has gone far.
   std::string read_at_last;
   std::thread reader([&] {
     std::ifstream stream(file, std::ios::binary);

@@ -29,7 +29,7 @@ constexpr Behaviour first_second[] = {{"first"}, {"second"}};
 constexpr Port sends_x[] = {{"x", Side::send, "x"}};
 constexpr Port relays[] = {{"x", Side::receive, "x"}, {"y", Side::send, "y"}};
 
-// Sends x in `first`, and nothing more in `second`, from which there is no way back.
+// Sends x in `first`, and no value in `second`, from which no way leads back.
 constexpr Place leaver_places[] = {
     {"in"}, {"out"}, BEHAVIOUR_PLACES("first"), BEHAVIOUR_PLACES("second"), SEND_PLACES("first", "x")};
 const Transition leaver_transitions[] = {ENTER("first"),

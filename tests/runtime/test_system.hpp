@@ -13,7 +13,7 @@
 
 namespace tessera::testing {
 
-/// What a Script subsystem has and does. Values are doubles; x is what channels carry.
+/// The data and actions of a Script subsystem. Values are doubles; x is the value in channels.
 struct ScriptState {
   Input<double> x, y;
   Output<double> out_x, out_y;
@@ -50,7 +50,7 @@ struct Devices {
   std::function<void()> made;          ///< while an effector is made
 };
 
-/// A system written by hand. Owns what the tables point to; one at a time.
+/// A system written by hand. Owns the data that the tables point to; one at a time.
 class TestSystem {
  public:
   TestSystem();
@@ -66,7 +66,7 @@ class TestSystem {
                Duration receive_timeout = Duration{0}, std::uint16_t slots = 1);
   /// Puts the instances into processes "p0", "p1", ...: one number per instance.
   void deploy(std::vector<std::uint32_t> process_of, Duration liveliness = std::chrono::seconds(1));
-  /// Made up from what was added; valid until the next change.
+  /// The system made from the added parts; valid until the next change.
   [[nodiscard]] const System& system();
 
   Devices devices;

@@ -65,7 +65,7 @@ TEST_F(InAWorld, ASignalEndsTheRunHoweverFarTheWorldHasToGo) {
   EXPECT_LE(summary.simulated, 10ms);
 }
 
-/// Also at the last instant of the run, where nothing comes after it.
+/// Also at the last instant of the run, which no event follows.
 TEST_F(InAWorld, AWorldThatFailsStopsTheRunWithItsReason) {
   options.world->world = "fails.xml";
   for (const Duration duration : {Duration(20ms), Duration(5s)}) {
@@ -78,7 +78,7 @@ TEST_F(InAWorld, AWorldThatFailsStopsTheRunWithItsReason) {
   }
 }
 
-/// What a recording has of the first body, by time in ms.
+/// The recorded poses of the first body, by time in ms.
 [[nodiscard]] std::map<std::int64_t, double> places_in(const Recording& recording) {
   std::map<std::int64_t, double> places;
   PoseDecoder decoder(recording.scene->bodies.size(), recording.scene->parents());

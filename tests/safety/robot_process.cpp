@@ -27,7 +27,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
-/// Copies what differs, so that nothing is compiled twice.
+/// Copies only files that differ, so that no file is compiled twice.
 void update(const fs::path& from, const fs::path& to) {
   const auto content = [](const fs::path& file) {
     std::ifstream stream(file, std::ios::binary);
@@ -261,7 +261,7 @@ void RobotProcess::hang_up() {
   ended_of_text_ = true;
 }
 
-/// Sleeps if there is nothing to read from.
+/// Sleeps if there is no output to read from.
 void RobotProcess::read_some(int timeout_ms) {
   pollfd source{.fd = reading_ && !ended_of_text_ ? descriptor_ : -1, .events = POLLIN, .revents = 0};
   if (poll(&source, 1, timeout_ms) <= 0) return;
@@ -270,7 +270,7 @@ void RobotProcess::read_some(int timeout_ms) {
   if (count > 0)
     text_.append(bytes.data(), static_cast<std::size_t>(count));
   else
-    ended_of_text_ = true;  // of a terminal: EIO, when nobody has it open any more
+    ended_of_text_ = true;  // for a terminal: EIO, when no process has it open
 }
 
 std::optional<int> RobotProcess::await_end(milliseconds limit) {

@@ -22,7 +22,7 @@ using command_log::Place;
 struct Project {
   fs::path folder, controller;
 };
-/// The same in every test. Throws std::runtime_error with what the compiler said.
+/// The same in every test. Throws std::runtime_error with the messages of the compiler.
 [[nodiscard]] const Project& project();
 
 /// A controller that drives the test robot, on a terminal or a pipe of its own.
@@ -36,7 +36,7 @@ class RobotProcess {
                const std::vector<std::string>& environment = {});
   RobotProcess(const RobotProcess&) = delete;
   RobotProcess& operator=(const RobotProcess&) = delete;
-  /// Kills what is left of it.
+  /// Kills the remaining processes.
   ~RobotProcess();
 
   /// Until every device has had so many more commands that drive. false: that did not happen in time.
@@ -51,11 +51,11 @@ class RobotProcess {
   void type(char key) const;
   /// Closes the terminal, or the reading end of the pipe.
   void hang_up();
-  /// From now on nobody reads what it prints.
+  /// From now on, its output is not read.
   void stop_reading() { reading_ = false; }
   void read_again() { reading_ = true; }
 
-  /// Until the process that was started has ended; reads what it prints meanwhile. nullopt: it runs on.
+  /// Waits until the process that was started has ended; reads its output meanwhile. nullopt: it runs on.
   [[nodiscard]] std::optional<int> await_end(std::chrono::milliseconds limit);
   /// Until every process that holds the terminal or the pipe has ended. false: some are left.
   [[nodiscard]] bool await_nobody_left(std::chrono::milliseconds limit);

@@ -93,7 +93,7 @@ TEST(Safety, BlockedAndClosedOutputHoldsUpNothing) {
   });
 }
 
-/// What the robot does to itself, in a function of the controller and in one of the motor.
+/// The faults that the robot causes in itself, in a function of the controller and in one of the motor.
 void add(std::vector<Case>& cases, const std::string& name, Harm harm, const std::string& says) {
   for (const Place place : {Place::control, Place::motor}) {
     const bool control = place == Place::control;
@@ -151,13 +151,13 @@ TEST(Safety, FunctionsThatHangLeaveTheDevicesSafe) {
              .after = After::hangs,
              .bar = milliseconds(150)};  // watchdog and stale
   try_all({loops});
-  // Not beside others: each takes a processor from whoever has no priority.
+  // Not beside others: each takes a processor from threads without priority.
   loops.name = "FIFO loop in control";
   loops.strike = does(Harm::fifo_loop, Place::control);
   try_all({loops});
 }
 
-/// Nothing hangs: control only sends nothing any more.
+/// No function hangs: control only sends no value any more.
 TEST(Safety, ValuesThatStopComingLeaveTheDevicesSafe) {
   try_all({{.name = "values stop coming",
             .strike = does(Harm::mute, Place::control),
@@ -211,7 +211,7 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
   try_all(cases);
 }
 
-/// Without a terminal, so that nobody sends SIGHUP.
+/// Runs without a terminal, so that no SIGHUP is sent.
 TEST(Safety, ControllersDoNotOutliveTheirParent) {
   const std::vector<std::string> run{std::string(TESSERA_BINARY_DIR) + "/tessera", "run",
                                      project().folder.string()};

@@ -20,14 +20,14 @@ using std::chrono::seconds;
 
 constexpr unsigned workers = 3;
 constexpr milliseconds patience = seconds(30);  // for what must happen
-constexpr milliseconds still{150};              // so long must devices stay safe where nothing ends
+constexpr milliseconds still{150};              // for so long must devices stay safe if the process lives on
 
 [[nodiscard]] unsigned runs() {
   const char* const wanted = std::getenv("TESSERA_SAFETY_RUNS");
   return wanted == nullptr ? 2 : static_cast<unsigned>(std::strtoul(wanted, nullptr, 10));
 }
 
-/// What came of one trial.
+/// The result of one trial.
 struct Result {
   std::string failure;  // empty: none
   double latency_ms = 0;
@@ -42,12 +42,12 @@ void pass_random_time(RobotProcess& robot, std::mt19937& random) {
   static_cast<void>(robot.await_end(time));
 }
 
-/// What is measured.
+/// The measured values.
 struct Times {
   std::int64_t event_ns = 0, safe_ns = 0;  // 0: not known yet
 };
 
-/// Empty, or what is wrong with how it went on.
+/// Empty, or the mistake in its further run.
 [[nodiscard]] std::string see_it_through(const Case& one, RobotProcess& robot, Times& times) {
   using After = Case::After;
   if (one.after == After::goes_on) {

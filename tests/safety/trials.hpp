@@ -12,14 +12,15 @@ namespace tessera::safety_test {
 
 using std::chrono::milliseconds;
 
-/// Something that happens to a controller that drives a robot, and what the last commands must be then.
+/// An event for a controller that drives a robot, and the commands that must be the last ones then.
 struct Case {
   std::string name;
-  /// Makes it happen. Returns when (CLOCK_MONOTONIC), or 0: the log says it, since the robot does it itself.
+  /// Makes it happen. Returns when (CLOCK_MONOTONIC), or 0: the robot causes it itself, and the log has the
+  /// time.
   std::function<std::int64_t(RobotProcess&)> strike;
-  /// ends: by itself. goes_on: it drives on until SIGTERM, and that is what is measured. hangs: the devices
-  /// are safe, and the test kills what is left. halts: it is stopped, and ends when it is continued. pauses:
-  /// it is stopped, and drives on when it is continued, until SIGTERM.
+  /// ends: by itself. goes_on: it drives on until SIGTERM, whose effect is measured. hangs: the devices are
+  /// safe, and the test kills the rest. halts: it is stopped, and ends when it is continued. pauses: it is
+  /// stopped, and drives on when it is continued, until SIGTERM.
   enum class After : std::uint8_t { ends, goes_on, hangs, halts, pauses } after = After::ends;
   RobotProcess::Output output = RobotProcess::Output::terminal;
   milliseconds bar{100};                 ///< declared time from the event to the last safe command

@@ -44,7 +44,7 @@ class Judge {
   Judge(const Judge&) = delete;
   Judge& operator=(const Judge&) = delete;
 
-  /// What is wrong with the message; empty: nothing.
+  /// The mistake in the message; empty: there is none.
   [[nodiscard]] std::string ask(const json& message) {
     const std::lock_guard lock(mutex_);
     const std::string line = message.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';

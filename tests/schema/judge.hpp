@@ -3,8 +3,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-/// Messages of a test against the schemas of share/tessera, which judge.js reads. What does not fit fails the
-/// test. Without Node.js nothing is judged.
+/// Judges messages of a test by the schemas of share/tessera, which judge.js reads. A message that does not
+/// fit fails the test. Without Node.js, no message is judged.
 ///
 /// Threads: any.
 namespace tessera::schema_test {

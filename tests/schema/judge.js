@@ -16,7 +16,7 @@ const ajv = new Ajv2020({ allErrors: false, strict: true, allowUnionTypes: true,
 for (const schema of Object.values(schemas)) ajv.addSchema(schema);
 const requests = Object.keys(schemas.studio.$defs.Requests.properties);
 
-/** What is wrong with the value; empty: nothing. `where`: names below the root of the schema. */
+/** The mistake in the value; empty: there is none. `where`: names below the root of the schema. */
 export function wrongWith(value, name, ...where) {
   const pointer = where.map((one) => encodeURIComponent(one.replaceAll('~', '~0').replaceAll('/', '~1'))).join('/');
   const validate = ajv.getSchema(`${schemas[name].$id}#/${pointer}`);

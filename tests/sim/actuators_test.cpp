@@ -17,7 +17,7 @@ Seven pose_of(World& world, const std::string& name) {
   return read_as<Seven>(*receptor<Seven>(world, {"a.look." + name, "pose", {name}, {}}));
 }
 
-/// What a command is refused with; empty: it is taken.
+/// The refusal of a command; empty: it is accepted.
 template <class T>
 std::string refusal(RealEffector& device, const T& value) {
   try {

@@ -1,4 +1,4 @@
-// Cameras of simulated worlds: what they see, the same from run to run, without disturbing the physics.
+// Cameras of simulated worlds: their pictures are the same from run to run, and do not disturb the physics.
 
 #include <gtest/gtest.h>
 
@@ -36,7 +36,7 @@ constexpr const char* studio = R"(<mujoco model="studio">
   <sensor><rangefinder name="beam" site="eye"/></sensor>
 </mujoco>)";
 
-constexpr int width = 63, height = 47;  // no multiples of anything
+constexpr int width = 63, height = 47;  // odd sizes, to find errors of alignment
 constexpr std::size_t middle = std::size_t{height / 2} * width + width / 2;
 using Colours = LargeArray<std::uint8_t, 3UL * width * height>;
 using Depths = LargeArray<float, 1UL * width * height>;
@@ -53,7 +53,7 @@ class Cameras : public ::testing::Test {
   }
 };
 
-/// What the camera sees now, as a value of the type T.
+/// The present picture of the camera, as a value of the type T.
 template <class T>
 auto look(World& world, const std::string& kind, const std::string& name = "front", Options options = small) {
   const auto device = receptor<T>(world, {"robot.eye.picture", kind, {name}, std::move(options)});

@@ -1,4 +1,4 @@
-// Receptors of general worlds: what they read, in which buffers.
+// Receptors of general worlds: their values, and the buffers they fit.
 
 #include <gtest/gtest.h>
 
@@ -132,7 +132,7 @@ TEST(Devices, NoiseIsThatOfTheModelUnlessAnOptionSaysOtherwise) {
   EXPECT_LE(*std::max_element(cut.begin(), cut.end()), 3) << "the model's cutoff";
 }
 
-/// Everything that can be read, at every instant or never; returns the bits of the state at the end.
+/// Reads every receptor, at every instant or never; returns the bits of the state at the end.
 std::vector<std::uint64_t> end_of_run(bool reading, std::uint64_t seed) {
   const auto world = open_text("disturb", workshop, seed);
   const auto drive =

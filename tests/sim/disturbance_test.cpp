@@ -53,7 +53,7 @@ class CountingSink final : public PoseSink {
   std::size_t seen = 0;
 };
 
-/// What a run of 1 s ends with, and what it read on the way.
+/// The end state of a run of 1 s, and its readings on the way.
 struct Outcome {
   std::vector<double> readings;
   bool operator==(const Outcome&) const = default;

@@ -14,7 +14,7 @@ struct Follower {
   bool search = false;  ///< cross gaps: go on straight, then turn to the side where the line was last seen
 };
 
-/// Drives in `world` (replaces its trace) and reads the trace. Throws std::runtime_error if anything fails.
+/// Drives in `world` (replaces its trace) and reads the trace. Throws std::runtime_error if a step fails.
 tessera::sim::Trace drive(const Follower& follower, tessera::WorldOptions world, double for_s);
 /// The same in a world of any simulator that has the three eyes and the two wheels. It is left unfinished.
 void drive(const Follower& follower, tessera::World& world, double for_s);

@@ -122,7 +122,7 @@ TEST(PlacedModels, HaveNoPoseOfTheirOwnButTheirBodiesHave) {
   }
 }
 
-/// A model that is placed stands in a body that never moves. What is meant is the robot in it.
+/// A placed model stands in a body that never moves. The check means the robot in it.
 TEST(Judging, APlacedModelIsWhereItsFirstBodyIs) {
   const std::string cart = file_with("cart.xml", R"(<mujoco><worldbody>
     <body name="cart" pos="0 0 0.1"><joint name="x" type="slide" axis="1 0 0"/>

@@ -15,7 +15,7 @@ struct Bits {
   friend bool operator==(const Bits&, const Bits&) = default;
 };
 
-/// Where a robot that turns is after five seconds.
+/// The pose of a turning robot after five seconds.
 [[nodiscard]] Bits driven(bool read_at_every_step) {
   auto loaded = Physics::load(line_world());
   if (!loaded) throw std::runtime_error(loaded.problem());

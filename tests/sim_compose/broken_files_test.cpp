@@ -1,4 +1,4 @@
-// Model files that were cut off, or in which something was changed at random: a message or a world, never a crash.
+// Model files that are cut off or changed at random give a message or a world, never a crash.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ namespace {
 constexpr std::array<const char*, 7> tried{"rover.xml",  "arm.xml",        "masses.xml", "sections.xml",
                                            "states.xml", "composites.xml", "ground.xml"};
 
-/// A problem has a text. No problem: the world has what the placement asked for.
+/// A problem has a text. Without a problem, the world has everything that the placement asks for.
 void try_text(const std::string& name, const std::string& mjcf) {
   const std::string file = file_with("broken/" + name, mjcf);
   const auto composition = sim::compose(model("world.xml"), {placed("a", file), placed("b", file, 1)});

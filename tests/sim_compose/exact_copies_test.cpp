@@ -1,5 +1,5 @@
-// A model in a composed world is what its file is alone. The file is compiled here as the engine finds it, not
-// through the code under test.
+// A model in a composed world equals its file compiled alone. The test compiles the file with the engine
+// itself, not with the code under test.
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 

@@ -15,7 +15,7 @@ using testing::SceneServer;
 
 const std::string oval = TESSERA_SOURCE_DIR "/share/tessera/tracks/oval.png";
 
-/// The line follower with a section `coppelia` in place of world and track, and nothing else changed.
+/// The line follower with a section `coppelia` in place of world and track, and otherwise unchanged.
 class InCoppelia : public Command {
  protected:
   InCoppelia() : project_(example("01_line_follower")) {}

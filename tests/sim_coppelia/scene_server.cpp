@@ -247,7 +247,7 @@ json SceneServer::of_sensor(const std::string& function, const json& arguments) 
   }
   if (function == "sim.readProximitySensor") {
     if (time_s_ == 0) return json::array({0, 0.0, row({0, 0, 0}), -1, row({0, 0, 0})});
-    const bool near = time_s_ < 0.1;  // only then it sees something
+    const bool near = time_s_ < 0.1;  // it detects an object only then
     return json::array({near ? 1 : 0, near ? 0.25 : 0.0, row({0, 0, 0.25}), 10, row({0, 0, 1})});
   }
   if (function == "sim.readForceSensor")

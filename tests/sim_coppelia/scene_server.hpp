@@ -32,7 +32,7 @@ class SceneServer {
     sim::Pose start{};
     double step_s = 0.01;
     int version = 40900;           ///< of the program
-    bool runs_already = false;     ///< somebody else's simulation
+    bool runs_already = false;     ///< a simulation that another client started
     std::uint16_t port = 0;        ///< 0: a free one
     int waits_per_step = 3;        ///< how often a step asks the client to wait
     bool no_marks = false;         ///< refuses to call functions of scripts
@@ -51,7 +51,7 @@ class SceneServer {
   /// The names of all functions that were called, in order.
   [[nodiscard]] std::vector<std::string> calls() const;
   [[nodiscard]] double joint(const std::string& path) const;
-  /// The simulation makes a step that nobody asked for.
+  /// Makes the simulation step without a request.
   void step_by_itself();
   void pause();
   void stop_by_hand();

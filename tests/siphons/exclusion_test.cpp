@@ -28,7 +28,7 @@ TEST(Exclusion, ADeadEndIsSuspectedWithItsMarking) {
   EXPECT_EQ(dead(explore::philosophers(5)).kind, Kind::suspected);
 }
 
-// All philosophers hold their left fork, or nobody does: the last one takes the right one first.
+// All philosophers hold their left fork, or none does: the last one takes the right one first.
 TEST(Exclusion, OnePhilosopherOfAnotherHandExcludesTheDeadlock) {
   net::Net net = explore::places_with({1, 0, 0, 1, 1, 0, 0, 1});
   explore::join(net, {{0, 1}, {3, 1}}, {{1, 1}});

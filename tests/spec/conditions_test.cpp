@@ -17,7 +17,7 @@ TEST(Conditions, LegalOnesAreAccepted) {
   }
 }
 
-/// The kinds and paths of what a condition names, with columns counted from its first character.
+/// The kinds and paths of the names in a condition, with columns counted from its first character.
 std::string named(const std::string& condition) {
   const Reading reading(with_condition(condition));
   if (!reading.model) return reading.report();

@@ -22,7 +22,7 @@ std::string name_of(const testing::TestParamInfo<std::string>& info) { return in
 
 class WrongSpecification : public testing::TestWithParam<std::string> {};
 
-/// TESSERA_UPDATE_GOLDEN=1 writes what the parser says now; read the difference before you keep it.
+/// TESSERA_UPDATE_GOLDEN=1 writes the present messages; read the difference before you keep it.
 TEST_P(WrongSpecification, GetsItsDiagnostics) {
   const std::string name = GetParam() + ".yaml";
   diagnostics::Diagnostics out(name, golden("wrong/" + name));

@@ -11,7 +11,7 @@
 
 namespace tessera::spec {
 
-/// A text and what the parser made of it.
+/// A text and the result of the parser.
 struct Reading {
   explicit Reading(const std::string& text) : diagnostics("spec.yaml", text), model(parse(diagnostics)) {}
 

@@ -38,7 +38,7 @@ TEST(Speed, AThousandAgentsWrittenOutAreReadInAMoment) {
   EXPECT_EQ(reading.model->agents.size(), 1000U);
   EXPECT_EQ(reading.model->channels.size(), 2000U);
   RecordProperty("seconds", std::to_string(taken.count()));
-  // Well under a second in a release; the bound leaves room for sanitizers and a busy machine.
+  // Well under a second in a release; the bound allows for sanitizers and a busy machine.
   EXPECT_LT(taken.count(), 20.0);
 }
 

@@ -117,7 +117,7 @@ TEST(Structure, ModulesIncludeWhatTheTableNames) {
   EXPECT_GT(files, 300U);
 }
 
-/// Where the names of `row` stand in it.
+/// The positions of the names of `row` in it.
 std::size_t rank(const Row& row, const std::string& folder) {
   return static_cast<std::size_t>(std::ranges::find(row.cells, folder) - row.cells.begin());
 }

@@ -19,7 +19,7 @@ namespace tessera::server_test {
 
 using server::ControllerLink;
 
-/// A controller that says what it is told to.
+/// A controller that sends the given lines.
 class Link : public testing::Test {
  protected:
   Link() {

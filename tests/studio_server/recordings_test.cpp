@@ -145,7 +145,7 @@ TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment)
     EXPECT_EQ(one.at("last"), 70);
     EXPECT_EQ(one.at("total"), 3);
   }
-  // After its end there is what it ended with.
+  // After its end, the last state stays.
   const json end = get("/api/recordings/run.tsr?from=100").json();
   EXPECT_EQ(end.at("firings"), json::array());
   EXPECT_EQ(end.at("values").at("robot.control.line.left"), json({{100, true}}));

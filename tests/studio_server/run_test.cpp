@@ -11,7 +11,7 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
   ASSERT_FALSE(firings.is_null());
   EXPECT_EQ(firings.at("run"), run);
   EXPECT_FALSE(firings.at("firings").empty());
-  // The first values are those of the beginning, when no receptor has read anything.
+  // The first values are the initial ones, before any receptor was read.
   const json value = events_->next("values", [](const json& data) {
     return data.at("values").contains("robot.sensor.line") &&
            data.at("values").contains("robot.control.motion");
@@ -29,7 +29,7 @@ TEST_F(RunOfTheStudio, ShowsTokensValuesAndThePathPausesStepsAndLeavesARecording
 
   ASSERT_EQ(control(run, {{"command", "pause"}}), 200);
   ASSERT_FALSE(await_state(run, "paused").is_null());
-  // What is shown is what the buffers hold at this moment.
+  // The shown values are those that the buffers hold at this moment.
   const std::string recorded = get("/api/recordings").json().at(0).at("name");
   const json samples = get("/api/recordings/" + recorded).json().at("values");
   EXPECT_EQ(info(run).at("values").at("robot.control.motion").at("linear"),
@@ -102,7 +102,7 @@ TEST_F(RunOfTheStudio, ParametersAreShownAndChangedWhileItRuns) {
   };
   ASSERT_EQ(set("v", "0.15"), 200);
   ASSERT_EQ(set("robot.motor.r", "0.04"), 200);
-  // Shown is what the recording says that it has taken, not what was asked for.
+  // The page shows the values that the recording reports as taken, not the requested ones.
   EXPECT_FALSE(events_
                    ->next("parameters",
                           [&](const json& data) {
@@ -134,7 +134,7 @@ TEST_F(RunOfTheStudio, SkipsToAMomentAndPausesThere) {
   const std::string run = start(asked);
   ASSERT_FALSE(await_state(run, "running").is_null());
   ASSERT_FALSE(await_state(run, "paused").is_null());
-  // Everything before the moment has happened, and nothing after it.
+  // All events before the moment have happened, and none after it.
   const json there = info(run);
   EXPECT_LE(there.at("t"), 42'500'000'000);
   EXPECT_GT(there.at("t"), 42'300'000'000);

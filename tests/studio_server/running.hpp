@@ -16,7 +16,7 @@ namespace tessera::server_test {
 using nlohmann::json;
 using testing::HasSubstr;
 
-/// A program that somebody else has started.
+/// A program that was started elsewhere.
 class Elsewhere {
  public:
   explicit Elsewhere(const project::Command& words)
@@ -39,7 +39,7 @@ class Elsewhere {
   std::thread running_;  // the last: it uses the others
 };
 
-/// `tessera studio` itself, because controllers are built with what is installed beside it. The tests share
+/// `tessera studio` itself, because controllers are built with the files installed beside it. The tests share
 /// one folder, one after the other, in which the controller is built once.
 class RunOfTheStudio : public Served {
  protected:
@@ -116,7 +116,7 @@ class RunOfTheStudio : public Served {
     EXPECT_TRUE(eventually([&] { return !(names = get("/api/controllers").json()).empty(); }));
     return names.empty() ? "" : names.at(0).get<std::string>();
   }
-  /// What the server says of a run, once `wanted` holds of it. null: the run ends first, or takes too long.
+  /// The server's report on a run, once `wanted` holds for it. null: the run ends first, or takes too long.
   json await_info(const std::string& run, const std::function<bool(const json&)>& wanted) {
     json now;
     const auto look = [&] { return wanted(now = info(run)); };

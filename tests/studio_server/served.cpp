@@ -18,7 +18,7 @@ namespace {
 constexpr int patience_ms = 60'000;
 constexpr std::chrono::minutes longest_wait{4};  // in it a controller is built, on a busy machine
 
-/// What comes next; empty: nothing more.
+/// The next part; empty: there is none.
 std::string receive_some(int socket) {
   pollfd source{.fd = socket, .events = POLLIN, .revents = 0};
   if (poll(&source, 1, patience_ms) <= 0) return {};

@@ -23,7 +23,7 @@ void write(const fs::path& file, const std::string& text);
 
 using Headers = std::multimap<std::string, std::string>;
 
-/// What a request came to.
+/// The result of a request.
 struct Reply {
   int status = 0;  ///< 0: no answer
   std::string body;
@@ -38,8 +38,8 @@ class EventStream {
   ~EventStream();
   EventStream(const EventStream&) = delete;
   EventStream& operator=(const EventStream&) = delete;
-  /// The next event of that name that `wanted` accepts; others are passed over. null: the stream ended,
-  /// nothing came for a minute, or nothing that was wanted for four.
+  /// The next event of that name that `wanted` accepts; others are skipped. null: the stream ended, no event
+  /// came for a minute, or none that was wanted for four.
   [[nodiscard]] nlohmann::json next(const std::string& name,
                                     const std::function<bool(const nlohmann::json&)>& wanted = {});
 
@@ -56,7 +56,7 @@ void mirror(const fs::path& from, const fs::path& to);
 class Served : public testing::Test {
  protected:
   Served() : Served(fs::temp_directory_path() / ("tessera_studio_" + std::to_string(getpid()))) {}
-  /// `folder`: where the project is; what was built there earlier is kept.
+  /// `folder`: of the project; an earlier build in it is kept.
   explicit Served(fs::path folder);
   ~Served() override;
   void serve();
@@ -68,7 +68,7 @@ class Served : public testing::Test {
   [[nodiscard]] Reply post(const std::string& path, const nlohmann::json& body) const {
     return ask("POST", path, body.dump());
   }
-  /// What is asked of the API and answered is judged by its schema.
+  /// Every request to the API and every answer is judged by its schema.
   [[nodiscard]] Reply ask(const std::string& method, const std::string& path, const std::string& body) const;
   /// Those headers and no others.
   [[nodiscard]] Reply ask_with(const Headers& headers, const std::string& method, const std::string& path,
@@ -91,7 +91,7 @@ class Served : public testing::Test {
 [[nodiscard]] int connect_to(int port);
 /// Sends all of it; false: the other side has closed.
 bool send_all(int socket, const std::string& bytes);
-/// What comes until the other side closes, or for a minute.
+/// The text until the other side closes, or for a minute.
 [[nodiscard]] std::string receive_all(int socket);
 
 }  // namespace tessera::server_test

@@ -30,7 +30,7 @@ TEST_F(Sources, TheFunctionOfABehaviourIsFoundReadAndSaved) {
   const json body{{"file", "src/control.cpp"}, {"text", text}, {"revision", before.at("revision")}};
   EXPECT_EQ(put("/api/sources", body).status, 200);
   EXPECT_EQ(content_of(project() / "src/control.cpp"), text);
-  // The revision is that of the text before: somebody else may have written since.
+  // The revision is that of the text before: another program may have written since.
   EXPECT_EQ(put("/api/sources", body).status, 409);
 }
 

@@ -38,7 +38,7 @@ class Tunnel : public RunOfTheStudio {
     fs::create_directories(robot_);
     make_key("host");
     make_key("user");
-    // Where the parts of the server that need no rights live. The system's service would make it.
+    // A folder for the parts of the server that run without rights. The system's service would make it.
     if (geteuid() == 0) fs::create_directories("/run/sshd");
     write(robot_ / "sshd.conf",
           "ListenAddress 127.0.0.1\nPidFile none\nUsePAM no\nStrictModes no\n"
@@ -51,7 +51,7 @@ class Tunnel : public RunOfTheStudio {
       server_ = std::make_unique<Elsewhere>(
           project::Command{ssh_server, "-D", "-e", "-f", (robot_ / "sshd.conf").string(), "-h",
                            (robot_ / "host").string(), "-p", std::to_string(ssh_port_)});
-      // Somebody else may have taken the port meanwhile: then the server ends, and another port is tried.
+      // Another program may have taken the port meanwhile: then the server ends, and another port is tried.
       listens = eventually(
           [&] {
             const int made = connect_to(ssh_port_);

@@ -89,7 +89,7 @@ TEST_F(ViewsOfTheStudio, HaveTheirNumbersInRecordings) {
   ASSERT_EQ(whole.size(), 3U) << whole;
   EXPECT_EQ(whole[0], json::array({0, {{"robot.laser.ranges", one}}}));
   EXPECT_EQ(whole[2], json::array({2'000'000'000, {{"robot.laser.ranges", five}}}));
-  // A part begins with what was before it.
+  // A part begins with the values before it.
   const json part = get("/api/recordings/run.tsr/arrays?from=500000000&to=1500000000").json().at("arrays");
   ASSERT_EQ(part.size(), 2U) << part;
   EXPECT_EQ(part[0], json::array({500'000'000, {{"robot.laser.ranges", one}}}));

@@ -63,7 +63,7 @@ std::string fleet(const std::string& sensor) {
                 free);
 }
 
-/// Sends y and then z, to one who receives z and then y.
+/// Sends y and then z, to a subsystem that receives z and then y.
 std::string crossed(const std::string& transfer) {
   return system(agent("a", "", "y: V, z: V", "go: { send: [y, z] }") +
                     agent("b", "p: V, q: V", "", "go: { receive: [q, p]" + transfer + " }"),

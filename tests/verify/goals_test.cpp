@@ -22,7 +22,7 @@ using Kind = Found::Kind;
 constexpr std::size_t most_naive_markings = 300;
 
 /// The long form of the test: TESSERA_RANDOM_NETS=20000.
-/// Puts a copy of a net beside what is there, as one agent of a fleet.
+/// Adds a copy of a net as one agent of a fleet.
 void add_copy(net::Net& to, const net::Net& net, std::uint32_t agent) {
   const auto first = static_cast<std::uint32_t>(to.places().size());
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {

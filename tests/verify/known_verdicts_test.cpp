@@ -1,4 +1,4 @@
-// Specifications of which the right verdict was worked out by hand, and who waits for whom.
+// Specifications whose verdicts and waiting subsystems were worked out by hand.
 
 #include <gmock/gmock.h>
 
@@ -93,7 +93,7 @@ TEST(KnownVerdicts, OfTheTestDataAreFound) {
     expect_known(known, fs::path(folder) / "verdicts" / (std::string(known.elsewhere) + ".yaml"));
 }
 
-/// `starved` follows a behaviour that is never acknowledged, `alone` and `other` follow nothing.
+/// `starved` follows a behaviour that is never acknowledged; `alone` and `other` follow none.
 constexpr const char* dead_in_two_ways = R"(tessera: 1
 system: s
 types: { V: { v: float64 } }

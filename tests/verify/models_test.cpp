@@ -196,7 +196,7 @@ const std::string hand_over =
          "[out, full, spare] }") +
     ", receive: " + side("read", receives) + " } }\n";
 
-/// Two agents that hear each other before they tell; and two who talk by built-in models.
+/// Two agents that both receive before they send; and two that communicate by built-in models.
 std::string two_groups(const std::string& first) {
   const auto agent = [](const std::string& name, const std::string& behaviours) {
     return "  " + name +

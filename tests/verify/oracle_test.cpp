@@ -64,7 +64,7 @@ std::set<std::string> dead_behaviours(const net::Net& net) {
   return dead;
 }
 
-/// What an exhaustive search finds, with an abstraction of its own (naive_endings.hpp).
+/// The results of an exhaustive search, with an abstraction of its own (naive_endings.hpp).
 struct Truth {
   test::NaiveAnswers conditions;
   std::optional<test::NaiveAnswers> failures;  ///< if any iteration may fail; nullopt: too large
@@ -93,7 +93,7 @@ std::optional<std::set<std::uint32_t>> that_can_fire(const net::Net& net) {
   return can;
 }
 
-/// Where a run ends, and what is said of it there.
+/// The end of a run, and the report about it.
 class RunEnd {
  public:
   RunEnd(const net::Net& net, std::set<std::uint32_t> can_fire) : net_(net), can_fire_(std::move(can_fire)) {
@@ -215,8 +215,8 @@ class Comparison {
   }
 
  private:
-  /// The search calls a channel dry as soon as its reader is about to end; the property does not, so where
-  /// that is the only difference nothing is compared.
+  /// The search calls a channel dry as soon as its reader is about to end; the property does not. So there is
+  /// no comparison if that is the only difference.
   static std::optional<bool> channels_flow(const test::NaiveAnswers& naive) {
     bool unclear = false;
     for (std::size_t channel = 0; channel < naive.dry.size(); ++channel) {

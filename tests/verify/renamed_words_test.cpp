@@ -1,5 +1,5 @@
-// Names are for people: a word that the layers write into names may change, and nothing follows from that but
-// the names themselves.
+// Names are for people: a word that the layers write into names may change, without any effect except on the
+// names themselves.
 #include <gtest/gtest.h>
 
 #include "faults.hpp"

@@ -15,7 +15,7 @@ using Ends = SystemBuilder::Ends;
 
 constexpr Ends both_block{true, true}, receiver_blocks{false, true}, sender_blocks{true, false};
 
-/// The first group with something to tell, in words.
+/// The first group with a result, in words.
 std::string story(const Judged& judged) {
   for (const verify::CircuitGroup& group : judged.report.groups) {
     if (!group.applies()) return group.why_not;

@@ -53,7 +53,7 @@ TEST(Communication, ConstantConditionsDecideWhatMayFollow) {
   SystemBuilder system;
   const auto a = system.subsystem();
   const auto first = system.behaviour(a, {}, {}), second = system.behaviour(a, {}, {});
-  system.behaviour(a, {}, {});  // nobody goes there
+  system.behaviour(a, {}, {});  // no behaviour leads there
   system.leave(a, first, true, {second});
   system.leave(a, second, false, {first, spec::none});
   EXPECT_EQ(in_text(judge(system.result()).structure),

@@ -108,7 +108,7 @@ class NaiveJudge {
   const net::Net& net_;
   const ReachabilityGraph& graph_;
   Places final_;
-  std::vector<Places> inside_;  // per subsystem: where a token says that it has not ended
+  std::vector<Places> inside_;  // per subsystem: places with a token as long as it has not ended
   std::vector<std::pair<std::string, net::SubsystemId>> paths_;  // of subsystems
   std::vector<net::SubsystemId> readers_;                        // per channel
 };

@@ -32,8 +32,9 @@ struct NaiveEndings {
 [[nodiscard]] const spec::Behaviour* behaviour_of(const spec::Model& model,
                                                   const net::Transition& transition);
 
-/// The flat net with what the trials say of conditions, and a transition "... none" and a place ".none" where
-/// no entry may hold. failures: any iteration may fail. Places and transitions keep their ids.
+/// The flat net with the results of the trials for conditions, and a transition "... none" and a place
+/// ".none" where possibly no entry holds. failures: any iteration may fail. Places and transitions keep their
+/// ids.
 [[nodiscard]] net::Net naively_abstract(const spec::Model& model, const net::Net& flat, bool failures);
 
 /// Terminal and error conditions and `next` drawn anew for the behaviours of which some are left: constants,

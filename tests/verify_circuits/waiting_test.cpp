@@ -108,7 +108,7 @@ struct WaitingTally {
   std::uint64_t compared = 0, going_on = 0, cleared = 0, beyond_circuits = 0, flowing = 0, seen_to_flow = 0;
 };
 
-/// What is claimed is so.
+/// The claims are true.
 void compare(const Judged& judged, const verify::WaitingReport& report, const NaiveAnswers& naive,
              WaitingTally& tally) {
   for (const verify::CircuitGroup& group : judged.report.groups)
@@ -124,7 +124,8 @@ void compare(const Judged& judged, const verify::WaitingReport& report, const Na
   const std::vector<bool> flows = verify::flowing_channels(judged.structure, report.goes_on);
   for (std::uint32_t index = 0; index < flows.size(); ++index) {
     const std::uint32_t id = judged.structure.channels[index].id.value;
-    const bool dry = id >= naive.dry.size() || naive.dry[id];  // the naive answers end with what is read
+    const bool dry = id >= naive.dry.size() || naive.dry[id];  // the naive answers end with the channels that
+                                                               // are read
     tally.flowing += dry ? 0 : 1;
     if (!flows[index]) continue;
     ++tally.seen_to_flow;

@@ -1,4 +1,4 @@
-// Runs the controller of spec.yaml and tells all that can be told of it: story SPEC RECORDING
+// Runs the controller of spec.yaml and prints everything that can be said about it: story SPEC RECORDING
 #include <cstdio>
 #include <iostream>
 

@@ -1,5 +1,5 @@
-// The words that the layers write into names are names and nothing else: a controller, its runtime, the
-// verification and all that reads a recording say the same with other words (CMakeLists.txt).
+// The words that the layers write into names are only names: a controller, its runtime, the verification and
+// every reader of a recording act the same with other words (CMakeLists.txt).
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -28,7 +28,7 @@ std::string told_by(const std::string& program) {
 
 TEST(Words, OtherWordsChangeNamesAndNothingElse) {
   const std::string usual = told_by(TESSERA_USUAL_WORDS), other = told_by(TESSERA_OTHER_WORDS);
-  // What is told is no list of nothing.
+  // The output must not be empty.
   for (const char* part : {"after 6: follow, failed init\n", "after 41: rest, failed init\n",
                            "robot.control.follow.t1: begin_sending follow \n",
                            "robot.control.follow.snd.note.timeout: timeout follow "

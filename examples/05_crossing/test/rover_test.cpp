@@ -9,7 +9,7 @@ namespace {
 
 class Rover : public ::testing::Test {
  protected:
-  /// Where the odometry sees it now.
+  /// The position that the odometry reports now.
   void see(double x, double y = 0, double heading = 0, bool known = true) {
     in.place = Place{x, y, heading, known};
     in.place.valid = true;

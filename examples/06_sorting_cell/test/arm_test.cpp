@@ -6,7 +6,7 @@
 namespace sorting_cell::arm::control {
 namespace {
 
-/// Where the cup is for these angles; `up` is that above the floor.
+/// The position of the cup for these angles; `up` is that above the floor.
 void expect_reached(double reach, double up) {
   const Angles angles = angles_of(reach, up);
   const double bent = angles.shoulder + angles.elbow;

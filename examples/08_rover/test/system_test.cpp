@@ -44,7 +44,7 @@ TEST(System, TurnsAwayFromAWallThatAppears) {
   double ahead = 0;
   rover.observe<base::Context>([&](auto& base) { ahead = base.out.command.ahead; });
   EXPECT_FALSE(rover.run(2s).failed);
-  // Before its first scan, it does not know of any room either.
+  // Before its first scan, the rover knows no free space either.
   EXPECT_EQ(rover.behaviours("robot.control"),
             (std::vector<std::string>{"drive", "avoid", "drive", "avoid"}));
   EXPECT_EQ(ahead, 0);

@@ -11,11 +11,11 @@
 #include "rover/base.hpp"
 #include "rover/odometry.hpp"
 
-// In place of hardware: a rover that does at once what it is told. Its wheels and its odometry are two devices of one
-// lane, so both look at the same one.
+// Simulated hardware: a rover that moves as commanded, at once. Its wheels and its odometry are two devices
+// of one lane, so both use the same object.
 namespace crossroads {
 
-/// Where the rover of an agent is. Threads: any.
+/// The positions of the rovers, by agent. Threads: any.
 class Lane {
  public:
   [[nodiscard]] static Lane& of(const std::string& agent) {

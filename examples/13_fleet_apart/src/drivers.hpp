@@ -4,7 +4,7 @@
 
 namespace convoy {
 
-/// In place of hardware: wheels that turn as they are told.
+/// Simulated hardware: wheels that turn as commanded.
 class Wheels final : public tessera::Effector<double> {
  public:
   bool write(const double& speed) override {

@@ -7,7 +7,7 @@
 
 namespace tessera {
 
-/// The bytes of a recording in order, while it is written or afterwards. A recording with a limit goes on
+/// The bytes of a recording in order, while it is written or afterwards. A recording with a limit continues
 /// in the next file when one file is full.
 ///
 /// Threads: one at a time.
@@ -15,7 +15,8 @@ class GrowingRecording {
  public:
   /// The point at which to begin in a recording with a limit.
   enum class From : std::uint8_t {
-    oldest,  ///< with the oldest segment that is left, or with the segment named by its number ("run.3.tsr")
+    oldest,  ///< with the oldest segment that still exists, or with the segment named by its number
+             ///< ("run.3.tsr")
     newest   ///< with the file itself, which is the newest segment
   };
   /// The file need not exist yet. A symbolic link counts as no file.
@@ -27,7 +28,7 @@ class GrowingRecording {
   struct Piece {
     std::string bytes;
     bool begins = false;  ///< a file begins here: it needs a new RecordingReader
-    bool more = false;    ///< there may be more at once
+    bool more = false;    ///< there may be more bytes now
   };
   /// The next bytes of one file, at most `most`. Does not wait.
   [[nodiscard]] Piece next(std::size_t most);

@@ -4,9 +4,9 @@
 
 namespace tessera {
 
-/// What a simulated run was judged by, and what it tells, as lines for people: "  check nobody touches: held".
-/// json: an object with `checks` and `measures`, such as the summary of a run (docs/worlds.md). Empty: neither
-/// is there, or the text is no such object.
+/// The checks and measures of a simulated run and their results, as lines for people:
+/// "  check nobody touches: held". json: an object with `checks` and `measures`, such as the summary of a
+/// run (docs/worlds.md). Empty: the object has neither, or the text is no such object.
 [[nodiscard]] std::string judgement_lines(const std::string& json);
 
 }  // namespace tessera

@@ -2,16 +2,16 @@
 
 #include <string_view>
 
-/// The words that the layers write into the names of places and transitions, in one place: src/layers draws
-/// with them, and the runtime makes the layers above the subsystems again with them. Everybody else asks an
-/// element for its role (net::PlaceRole, net::TransitionRole, tessera::Step).
+/// The words that the layers write into the names of places and transitions. src/layers draws the net with
+/// them, and the runtime builds the layers above the subsystems with them. All other code asks an element for
+/// its role (net::PlaceRole, net::TransitionRole, tessera::Step).
 ///
-/// They are no constants of the compiler, so that a test can link others in their place (tests/words).
+/// They are not constexpr, so that a test can link others in their place (tests/words).
 ///
 /// Source: Figat & Zielinski, ICRA 2019, sec. IV.
 namespace tessera::words {
 
-// Every page.
+// Words of every page.
 extern const std::string_view input;
 extern const std::string_view output;
 extern const std::string_view start;
@@ -19,7 +19,7 @@ extern const std::string_view end;
 /// "t_follow_1": behaviour `follow` is left by its first entry of `next`.
 extern const std::string_view leave;
 
-// A behaviour.
+// Words of a behaviour.
 extern const std::string_view send_page;
 extern const std::string_view receive_page;
 extern const std::string_view step;
@@ -30,7 +30,7 @@ extern const std::string_view go_on;
 extern const std::string_view terminal;
 extern const std::string_view error;
 
-// A block of a communication page.
+// Words of a block of a communication page.
 extern const std::string_view transfer;
 extern const std::string_view waiting;
 extern const std::string_view begin_transfer;
@@ -43,13 +43,13 @@ extern const std::string_view fork;
 extern const std::string_view join;
 extern const std::string_view pass;  ///< of a page without blocks
 
-// The memory of a channel.
+// Words of the memory of a channel.
 extern const std::string_view lock;
 extern const std::string_view empty;
 extern const std::string_view full;
 extern const std::string_view acknowledged;
 
-// The memory of a channel between processes, and what moves values from one side to the other.
+// Words of the memory of a channel between processes, and of the transitions that move its values.
 extern const std::string_view idle;             ///< nothing is on the way
 extern const std::string_view sent;             ///< the newest value is on the way
 extern const std::string_view more;             ///< the newest value and older ones are
@@ -65,11 +65,12 @@ extern const std::string_view replace;  ///< the newest value overwrites one tha
 extern const std::string_view deliver_older;
 extern const std::string_view lose_older;
 
-/// After the name of a behaviour's output: none of its initial conditions holds. A transition of the net that
-/// is judged (verify/communication/abstraction.hpp), and of scenarios.
+/// Follows the name of a behaviour's output, if none of its initial conditions holds: a transition of the net
+/// that is judged (verify/communication/abstraction.hpp), and of scenarios.
 extern const std::string_view no_successor;
 
-/// After the name of a channel between processes: what is added to the net that is judged if links may fail.
+/// Follows the name of a channel between processes: elements that are added to the judged net if links may
+/// fail.
 extern const std::string_view link;
 extern const std::string_view link_back;  ///< for acknowledgements
 extern const std::string_view cut;

@@ -6,11 +6,11 @@
 
 namespace tessera {
 
-/// What the name of a transition tells of its role, in a recording of a version that wrote no roles. The words
-/// are those of these versions and stay, whatever words the layers write today. Nothing else reads names.
+/// Derives the role of a transition from its name, for recordings of versions that wrote no roles. It keeps
+/// the words of those versions, whatever words the layers write today. No other function reads names.
 ///
-/// name: "robot.control.follow.t1", of the subsystem "robot.control"; empty: of none, as "robot.t_in". The
-/// channel of a transition is not told.
+/// name: "robot.control.follow.t1", of the subsystem "robot.control"; an empty subsystem: of none, as
+/// "robot.t_in". The result names no channel.
 [[nodiscard]] TransitionRole role_of_old_name(std::string_view name, std::string_view subsystem);
 
 }  // namespace tessera

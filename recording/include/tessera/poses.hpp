@@ -13,26 +13,27 @@
 
 #include "tessera/time.hpp"
 
-/// How the poses of bodies in a simulated world are recorded: one frame per `pose_period` in which a body has
-/// moved, and at least once per `whole_pose_period` a *whole* frame, which needs none before it. So a reader can
-/// begin anywhere, and a lost frame harms for a second at most.
+/// The format of the poses of bodies in a simulated world. There is one frame per `pose_period` in which a
+/// body has moved, and at least once per `whole_pose_period` a *whole* frame, which does not depend on
+/// earlier frames. So a reader can begin anywhere, and a lost frame affects at most one second.
 ///
-/// A pose is x, y, z in steps of 0.1 mm and the unit quaternion w + i + j + k in steps of 1/8191: what is read is
-/// what was rounded so, in every form of frame. A frame begins with
+/// A pose is x, y, z in steps of 0.1 mm and the unit quaternion w + i + j + k in steps of 1/8191. Every form
+/// of frame stores exactly these rounded values. A frame begins with
 ///
 ///     uint8    its form
-///     uint16   its number, little-endian: one more than that of the frame before
+///     uint16   its number, little-endian: one more than that of the previous frame
 ///
-/// Forms 2 (differences) and 3 (whole) are *packed*, as recordings have them: both ends expect each body to go on
-/// as in the last frames, or to go along with the body that it hangs on, and an arithmetic coder writes how far it is from that (pose_model.hpp beside the
-/// source). Forms 0 (differences) and 1 (whole) are *plain*, for the page of the studio, and in recordings of
-/// before; they list, per body in rising order of index,
+/// Forms 2 (differences) and 3 (whole) are *packed*, as in recordings. Both ends predict that each body
+/// continues its motion of the last frames, or follows the body that it is attached to; an arithmetic coder
+/// writes the difference from the prediction (pose_model.hpp beside the source). Forms 0 (differences) and 1
+/// (whole) are *plain*, for the page of the studio and in older recordings. They list, per body in ascending
+/// order of index,
 ///
-///     varint   bodies left out since the one before
+///     varint   bodies skipped since the previous one
 ///     uint8    which of x, y, z, w, i, j, k follow, in this order: bits 0 to 6
-///     varint   of each: zigzag difference to the frame before; in a whole frame, to 0
+///     varint   for each of them: zigzag difference to the previous frame; in a whole frame, to 0
 ///
-/// A varint has seven bits per byte, the lowest first, and the highest bit of a byte says that more follow.
+/// A varint has seven bits per byte, the lowest first. The highest bit of a byte says that more bytes follow.
 namespace tessera {
 
 inline constexpr Duration pose_period = std::chrono::milliseconds(40);
@@ -40,23 +41,24 @@ inline constexpr Duration whole_pose_period = std::chrono::seconds(1);
 inline constexpr double pose_steps_per_metre = 10'000, pose_steps_per_unit = 8191;
 inline constexpr std::int64_t farthest_pose_step = 1'000'000'000'000;  ///< of a position: 10^8 m
 
-/// Of a body in the world.
+/// The pose of a body in the world.
 struct BodyPose {
   std::array<double, 3> position_m{};
   std::array<double, 4> rotation{1, 0, 0, 0};  ///< unit quaternion: w, i, j, k
 };
 
-/// A pose in the steps in which recordings have it: x, y, z, w, i, j, k.
+/// A pose in the steps of the recording format: x, y, z, w, i, j, k.
 struct RoundedPose {
   std::array<std::int64_t, 7> steps{0, 0, 0, 8191, 0, 0, 0};
   friend bool operator==(const RoundedPose&, const RoundedPose&) = default;
 };
-/// Positions beyond 10^8 m are brought to that. nullopt: a number of the pose is not finite.
+/// Limits positions to 10^8 m. nullopt: a number of the pose is not finite.
 [[nodiscard]] std::optional<RoundedPose> rounded(const BodyPose& pose);
 [[nodiscard]] BodyPose pose_of(const RoundedPose& rounded);
 
 class PoseModel;
-/// For each body the one that it hangs on, which has a lower index; nullopt, or fewer than there are bodies: none.
+/// For each body the body that it is attached to, which has a lower index. nullopt, or a list that is too
+/// short: none.
 using PoseParents = std::vector<std::optional<std::size_t>>;
 
 /// Makes the frames of one stream of poses. The same poses give the same bytes, on every machine.
@@ -65,19 +67,19 @@ using PoseParents = std::vector<std::optional<std::size_t>>;
 class PoseEncoder {
  public:
   enum class Form : std::uint8_t { plain, packed };
-  /// parents: both ends of a stream of packed frames must have the same.
+  /// parents: both ends of a stream of packed frames must use the same.
   explicit PoseEncoder(std::size_t bodies, Form form = Form::plain, const PoseParents& parents = {});
   ~PoseEncoder();
   PoseEncoder(PoseEncoder&&) noexcept;
   PoseEncoder& operator=(PoseEncoder&&) noexcept;
 
-  /// poses: of all bodies. A body whose pose is not finite stays where it was. Empty: nothing has moved, and
+  /// poses: of all bodies. A body whose pose is not finite keeps its last pose. Empty: no body has moved, and
   /// no whole frame is due. The bytes are valid until the next call.
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const BodyPose> poses);
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const RoundedPose> poses);
-  /// The poses of the last frame as a whole plain one with the same number; empty: there is none yet.
+  /// The poses of the last frame as a whole plain frame with the same number; empty: there is none yet.
   [[nodiscard]] std::string last_whole() const;
-  /// The most bytes that a frame of so many bodies has. Where a packed one had more, it becomes a plain one.
+  /// The largest size of a frame of so many bodies. A packed frame that would be larger becomes a plain one.
   [[nodiscard]] static std::size_t longest_frame(std::size_t bodies);
 
  private:
@@ -91,7 +93,7 @@ class PoseEncoder {
   std::string bytes_;
 };
 
-/// Follows a stream of frames. Takes any bytes.
+/// Decodes a stream of frames. It accepts any bytes.
 ///
 /// Threads: one at a time.
 class PoseDecoder {
@@ -103,8 +105,8 @@ class PoseDecoder {
 
   /// false: the bytes are no frame of these bodies.
   bool take(std::string_view frame);
-  /// Whether `poses` is right. It is not before the first whole frame, and after a frame that is missing or
-  /// damaged until the next whole one.
+  /// Whether `poses` is right. It is not before the first whole frame, nor between a missing or damaged frame
+  /// and the next whole one.
   [[nodiscard]] bool known() const { return known_; }
   [[nodiscard]] const std::vector<RoundedPose>& poses() const { return poses_; }
 

@@ -19,7 +19,7 @@ enum class Fault : std::uint8_t {
   exception = 3,   ///< user code or a condition has thrown
   not_finite = 4,  ///< an output is infinite or not a number
   device = 5,      ///< a real receptor or effector has thrown or refused
-  stale = 6,       ///< an input of an effector is too old, or its source has ended or stalls
+  stale = 6,       ///< an input of an effector is too old, or its source has ended or does not respond
   stall = 7,       ///< a transition function takes longer than its watchdog
   overrun = 8,     ///< the subsystem's own work made it miss instants, and Overrun::fault forbids that
   limit = 9,       ///< a command is beyond the limits of its real effector, and `Limits::fault` is set
@@ -27,20 +27,20 @@ enum class Fault : std::uint8_t {
 };
 /// The changes of the safe command of a device.
 enum class SafeEvent : std::uint8_t {
-  given = 1,   ///< the device has taken it, for a reason that was not there before
+  given = 1,   ///< the device has taken it, for a new reason
   ended = 2,   ///< commands of the subsystem go to the device again
-  refused = 3  ///< the device has not taken it; it is tried again
+  refused = 3  ///< the device has not taken it; the runtime tries again
 };
-/// "not finite"; empty: no fault of this version.
+/// "not finite"; empty: this version does not know the fault.
 [[nodiscard]] std::string_view name_of(Fault fault);
 
-/// Of a recording in a folder.
+/// The name of a recording in a folder.
 inline constexpr const char* recording_file_name = "recording.tsr";
-/// The beginning of a recording, of one with poses, and of one with memory of subsystems. Versions of Tessera
-/// that are too old for it refuse it.
+/// The first bytes of a recording: of a plain one, of one with poses, and of one with memory of subsystems.
+/// Versions of Tessera that are too old for a kind refuse it.
 inline constexpr std::string_view recording_magic = "TESSREC1", recording_magic_with_poses = "TESSREC2",
                                   recording_magic_with_memory = "TESSREC3";
-/// Whether this version reads a file that begins like that.
+/// Whether this version reads a file that begins with these bytes.
 [[nodiscard]] constexpr bool is_recording_magic(std::string_view bytes) {
   const std::string_view magic = bytes.substr(0, recording_magic.size());
   return magic == recording_magic || magic == recording_magic_with_poses ||
@@ -48,7 +48,7 @@ inline constexpr std::string_view recording_magic = "TESSREC1", recording_magic_
 }
 inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
-/// Stands in place of the index of a subsystem for the layers above the subsystems.
+/// Replaces the index of a subsystem in events of the layers above the subsystems.
 inline constexpr std::uint32_t system_instance = 0xffffff;
 
 /// The file that a run leaves: these 8 bytes, a little-endian uint32 length, that many bytes of JSON
@@ -61,30 +61,31 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///      "process": {"name", "number", "incarnation": decimal}, "processes": [name...], "networked": [channel...],
 ///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
 ///
-/// Of a transition, "step" is a name of a Step, "behaviour" a name and "channel" an index into "channels"; what
-/// it does not have is left out at the end, or "". Versions before roles wrote [name, instance] and no
+/// For a transition, "step" is a name of a Step, "behaviour" a name and "channel" an index into "channels".
+/// An absent value is left out at the end, or "". Versions before roles wrote [name, instance] and no
 /// "channels" (tessera/old_names.hpp); they read what is written today.
 ///
-/// ("process": of a run of one process of a deployed system, whose recording has the firings of its own agents
-/// and none of the system's; "processes" and "networked", the channels between processes: of every run of a
-/// deployed system) with padding to a multiple of 8, and events of 24 bytes, the last of which is `end`.
+/// "process" belongs to a run of one process of a deployed system; its recording has the firings of its own
+/// agents and none of the system's. "processes" and "networked", the channels between processes, belong to
+/// every run of a deployed system. Padding follows to a multiple of 8, then events of 24 bytes, the last of
+/// which is `end`.
 ///
 /// A recording without `end` was cut off, because the controller was killed or the disk was full; only its
-/// tail is lost. If the run's clock is simulated, nothing in the file depends on the wall clock. A recording
-/// with a limit goes on in segments: each segment is a file with "segment": number in its header, and its
+/// tail is lost. If the run's clock is simulated, the file does not depend on the wall clock. A recording
+/// with a limit continues in segments: each segment is a file with "segment": number in its header, and its
 /// first event is `marking`.
 struct Event {
   enum class Kind : std::uint8_t {
-    /// subject: transition; version: of the channel it touched (0: none). Of a channel between processes, the
-    /// low 32 bits of the number of a value (docs/fleets.md): of a sender, the one that it has written last,
-    /// or writes; of a receiver, the one that it reads; 0: none.
+    /// subject: transition; version: that of the channel it touched (0: none). For a channel between
+    /// processes, version is the low 32 bits of the number of a value (docs/fleets.md): for a sender, the
+    /// value that it has written last, or writes; for a receiver, the value that it reads; 0: none.
     firing = 1,
     log = 2,      ///< subject: bytes of text, which follow in whole events' worth of space; version: level
     stop = 3,     ///< like log: why the run ended
     fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
     overrun = 5,  ///< subject: how many instants of its rate the subsystem missed by its own work
     call = 6,     ///< a transition function begins; subject: behaviour; version: iteration
-    value = 7,    ///< like log: what a buffer holds now; version: buffer + 2^24 * flags
+    value = 7,    ///< like log: the present value of a buffer; version: buffer + 2^24 * flags
     /// Like log: the places that hold a token where a segment begins, one per line; version: 1: not known.
     /// Not counted in `sequence`.
     marking = 8,
@@ -95,16 +96,15 @@ struct Event {
     /// `sequence`.
     poses = 11,
     /// Like log: "CHANNEL\nINCARNATION": the start of the process at the other end of a channel that the
-    /// instance deals with from here on. Of a receiver: before it reads a value of that start; of a sender:
-    /// before it learns that a value was taken by it.
+    /// instance works with from now on. A receiver writes it before it reads a value of that start; a sender,
+    /// before it learns that the other has taken a value.
     peer = 12,
     /// Like log: "NAME\nINCARNATION": under the simulated clock, a process of the deployment begins again
-    /// (version 1) with this incarnation, or has died (version 0). Its places then hold the tokens with
-    /// which they
-    /// begin. The incarnation of a first start is 1.
+    /// (version 1) with this incarnation, or has died (version 0). Its places then hold their initial tokens.
+    /// The incarnation of a first start is 1.
     process = 14,
     /// The last event of a file. subject: how many events of the run are lost; version: 1: the next segment
-    /// follows. Not counted in `sequence`, and no entry of a Recording.
+    /// follows. Not counted in `sequence`, and not among the entries of a Recording.
     end = 15
   };
   std::int64_t time_ns = 0;
@@ -117,7 +117,7 @@ struct Event {
   [[nodiscard]] bool has_text() const {
     return kind() != Kind::firing && kind() != Kind::overrun && kind() != Kind::call && kind() != Kind::end;
   }
-  /// How many events' worth of space the text takes.
+  /// The number of events whose space the text takes.
   [[nodiscard]] std::uint64_t pieces() const { return has_text() ? (std::uint64_t{subject} + 23) / 24 : 0; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
@@ -136,7 +136,7 @@ struct ValueFlags {
       failed = 64;  ///< real input: the device has thrown; no bytes
 };
 
-/// An event of a buffer, decoded.
+/// A decoded value event of a buffer.
 struct ValueEvent {
   std::uint32_t buffer = 0;
   std::uint32_t flags = 0;
@@ -146,7 +146,7 @@ struct ValueEvent {
   [[nodiscard]] bool has(std::uint32_t flag) const { return (flags & flag) != 0; }
 };
 
-/// A recording that was read.
+/// A recording that has been read.
 struct Recording {
   struct Transition {
     std::string name;        ///< full path
@@ -181,15 +181,15 @@ struct Recording {
     std::uint32_t number;  ///< into processes
     std::uint64_t incarnation;
   };
-  std::optional<OneProcess> process;   ///< nullopt: all that is recorded ran in one
+  std::optional<OneProcess> process;   ///< nullopt: all that is recorded ran in one process
   std::vector<std::string> processes;  ///< of the deployment; empty: there is none
   std::vector<std::string> networked;  ///< channels between processes
   /// The simulated world.
   struct Scene {
     struct Body {
       std::string name;                     ///< as in the scene
-      std::string agent;                    ///< the agent that has it; empty: none
-      std::optional<std::size_t> parent{};  ///< the body that it hangs on; nullopt: none of these
+      std::string agent;                    ///< the agent that owns it; empty: none
+      std::optional<std::size_t> parent{};  ///< the body that it is attached to; nullopt: none of these
     };
     /// A light sensor: the point at which it looks, in the frame of a body.
     struct Eye {
@@ -205,15 +205,15 @@ struct Recording {
   std::optional<Scene> scene;     ///< nullopt: recorded without poses
   std::vector<Buffer> buffers;    ///< empty: recorded without values
   std::uint64_t value_limit = 0;  ///< larger values are hashed
-  /// In a recording with a limit: the number of this segment, from 0. If several were
-  /// read together: of the first.
+  /// The number of this segment in a recording with a limit, from 0. If several segments were read together:
+  /// that of the first.
   std::optional<std::uint64_t> segment;
   std::vector<Entry> entries;
   bool truncated = false;  ///< the end is missing: the recording was cut off, or is still being written
-  std::uint64_t lost = 0;  ///< events that are missing in between, as `end` says
+  std::uint64_t lost = 0;  ///< events that are missing within the file, as `end` says
 };
 
-/// Whether it may be the hash of a scene, and so a part of a file name: 16 hexadecimal digits.
+/// Whether the text can be the hash of a scene, and so a part of a file name: 16 hexadecimal digits.
 [[nodiscard]] bool is_scene_hash(std::string_view text);
 /// The file of a scene beside a recording.
 [[nodiscard]] std::string scene_file(const std::string& recording, const std::string& hash);
@@ -230,13 +230,13 @@ class RecordingReader {
   void feed(std::string_view bytes);
   /// Whether the header has been read. Before that, `recording` is empty.
   [[nodiscard]] bool has_header() const { return has_header_; }
-  /// Why nothing more will come: "is no recording of Tessera", "is damaged"; empty: more may come.
+  /// Why no more entries will come: "is no recording of Tessera", "is damaged"; empty: more may come.
   [[nodiscard]] const std::string& problem() const { return problem_; }
   /// Whether the last event of the file has been read.
   [[nodiscard]] bool has_ended() const { return has_ended_; }
   /// Bytes of an entry, or of the header, that is not complete yet.
   [[nodiscard]] std::size_t pending() const { return pending_.size(); }
-  /// A reader of a long recording takes the entries out as they come.
+  /// The entries read so far. A reader of a long recording removes them as they come.
   [[nodiscard]] Recording& recording() { return recording_; }
 
  private:
@@ -250,18 +250,18 @@ class RecordingReader {
   Recording recording_;
 };
 
-/// The path of a segment that is no longer the newest: "run.tsr" -> "run.3.tsr".
+/// The path of a segment that is not the newest: "run.tsr" -> "run.3.tsr".
 [[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
 
-/// The inverse: "run.3.tsr" -> "run.tsr"; empty: `path` is not that of a segment.
+/// The inverse: "run.3.tsr" -> "run.tsr"; empty: `path` names no segment.
 [[nodiscard]] std::string without_segment_number(const std::string& path);
 
 /// The number in the header of a file; nullopt: the file is no segment of a recording with a limit.
 [[nodiscard]] std::optional<std::uint64_t> segment_number_in(const std::string& file);
 
-/// A folder stands for the recording_file_name in it. Of a recording with a limit, all segments that are left
-/// before the file that is named, and also when that file itself is not there or not begun; of one named by
-/// its number, that one alone. nullopt and `error` when it is no recording.
+/// Reads a recording. A folder stands for the recording_file_name in it. A recording with a limit gives all
+/// segments that exist before the named file, even if that file itself is missing or empty; a segment that is
+/// named by its number is read alone. nullopt and `error`: it is no recording.
 [[nodiscard]] std::optional<Recording> read_recording(const std::string& path, std::string& error);
 
 }  // namespace tessera

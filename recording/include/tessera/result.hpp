@@ -6,12 +6,12 @@
 
 namespace tessera {
 
-/// Why something was not done, for people.
+/// The reason why something was not done, as text for people.
 struct Problem {
   std::string text;
 };
 
-/// A value, or the problem that kept it from being made. Of what makes no value: std::optional<Problem>.
+/// A value, or the problem that prevented it. A function without a value returns std::optional<Problem>.
 template <class T>
 class [[nodiscard]] Result {
  public:

@@ -6,7 +6,7 @@ namespace tessera {
 
 using Duration = std::chrono::nanoseconds;
 
-/// Counts from the start of the run. Under the simulated clock, only the simulation moves it.
+/// The time since the start of the run. Under the simulated clock, only the simulation advances it.
 struct RunClock {
   using duration = Duration;
   using rep = duration::rep;

@@ -7,11 +7,11 @@
 
 namespace tessera {
 
-/// What a transition does in the five layers. The tables of a controller tell it, and its recordings.
+/// The function of a transition in the five layers. The tables of a controller and its recordings contain it.
 ///
 /// Source: Figat & Zielinski, ICRA 2019, sec. IV. "t1" and the like are the names of the paper.
 enum class Step : std::uint8_t {
-  other,  ///< not told
+  other,  ///< not known
   // Layers 1 and 2, the system and its agents.
   start_system,
   end_system,
@@ -28,19 +28,19 @@ enum class Step : std::uint8_t {
   terminal,         ///< t5
   error,            ///< t6
   // Layer 5, communication.
-  page,       ///< of a page, but of none of its blocks
-  transfer,   ///< of a block, and none of the following
-  overwrite,  ///< what is sent takes the place of what nobody has read
+  page,       ///< on a page, but in none of its blocks
+  transfer,   ///< in a block, and none of the following
+  overwrite,  ///< a new value replaces one that was not read
   skip,       ///< there is nothing to read
-  timeout,    ///< it was waited for in vain
-  // Of the medium of a channel between processes. These belong to no subsystem.
+  timeout,    ///< the wait has ended without success
+  // The medium of a channel between processes. These transitions belong to no subsystem.
   deliver,
   replace,
   deliver_older,
   lose_older
 };
 
-/// "begin_sending": the name of the enumerator, which recordings and generated tables hold.
+/// "begin_sending": the name of the enumerator, as in recordings and generated tables.
 [[nodiscard]] std::string_view name_of(Step step);
 /// The inverse; `other` if no step of this version has the name.
 [[nodiscard]] Step step_named(std::string_view name);
@@ -48,14 +48,14 @@ enum class Step : std::uint8_t {
 /// The role of a transition of a run.
 struct TransitionRole {
   Step step = Step::other;
-  std::string behaviour{};                 ///< that it belongs to, or leaves; empty: none
+  std::string behaviour{};                 ///< the behaviour that it belongs to, or leaves; empty: none
   std::optional<std::uint32_t> channel{};  ///< of a block or a medium: into Recording::channels
 
-  /// Ends an iteration of a behaviour.
+  /// Whether it ends an iteration of a behaviour.
   [[nodiscard]] bool ends_iteration() const {
     return step == Step::go_on || step == Step::terminal || step == Step::error;
   }
-  /// Of the communication of a behaviour.
+  /// Whether it belongs to the communication of a behaviour.
   [[nodiscard]] bool communicates() const { return step >= Step::page && step <= Step::timeout; }
 };
 

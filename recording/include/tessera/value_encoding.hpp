@@ -12,7 +12,7 @@
 #include <type_traits>
 #include <utility>
 
-/// How values of buffers are written into recordings: field after field, numbers little-endian, without the
+/// The encoding of values of buffers in recordings: field after field, numbers little-endian, without the
 /// padding of the compiler, so that equal values have equal bytes. A text describes the type
 /// (tessera/value_text.hpp reads it):
 ///
@@ -42,8 +42,8 @@ concept BoundedText = requires(const T& value) {
   { value.view() } -> std::convertible_to<std::string_view>;
 };
 
-/// Takes the bytes of a value. It keeps them if there are at most `limit`, and otherwise
-/// only their number and a hash.
+/// Takes the bytes of a value. It keeps them if there are at most `limit`, and otherwise only their number
+/// and a hash.
 class ValueSink {
  public:
   explicit ValueSink(std::size_t limit) : limit_(limit), bytes_(std::make_unique<std::byte[]>(limit)) {}
@@ -67,7 +67,7 @@ class ValueSink {
   std::unique_ptr<std::byte[]> bytes_;
 };
 
-/// Hands the bytes out again. Once they do not suffice, it hands out nothing.
+/// Hands the bytes out again. If too few are left, it hands out nothing from then on.
 class ValueSource {
  public:
   explicit ValueSource(std::span<const std::byte> bytes) : left_(bytes) {}
@@ -81,7 +81,7 @@ class ValueSource {
     std::memcpy(to, left_.data(), count);
     left_ = left_.subspan(count);
   }
-  /// Whether exactly as many bytes were there as were taken.
+  /// Whether exactly the bytes of the value were there, and no more.
   [[nodiscard]] bool exact() const { return sufficed_ && left_.empty(); }
 
  private:
@@ -94,7 +94,7 @@ namespace encoding {
 template <class T>
 using Element = std::remove_cvref_t<decltype(*std::declval<T&>().begin())>;
 
-/// How many elements a sequence has; 0: the type does not tell.
+/// The number of elements of a sequence; 0: the type has no fixed number.
 template <class T>
 [[nodiscard]] constexpr std::size_t extent() {
   if constexpr (requires { std::tuple_size<T>::value; })
@@ -126,7 +126,7 @@ template <class T>
     return std::is_trivially_copyable_v<T>;
 }
 
-/// Bytes of the longest value.
+/// The size of the longest value in bytes.
 template <class T>
 [[nodiscard]] constexpr std::size_t most() {
   if constexpr (BoundedText<T>)
@@ -219,7 +219,7 @@ struct ValueEncoding {
   std::string (*type)();  ///< as described above
   std::size_t most;       ///< length of the longest value in bytes
   void (*put)(const void* value, ValueSink& to);
-  /// false: the bytes do not encode a value of this type. `value` may have changed all the same.
+  /// false: the bytes do not encode a value of this type. `value` may have changed even then.
   bool (*take)(void* value, std::span<const std::byte> bytes);
 };
 

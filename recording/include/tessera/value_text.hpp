@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// Reads values of recordings by the type in the header (tessera/value_encoding.hpp), without any C++ type.
+/// Reads recorded values by the type in the header (tessera/value_encoding.hpp), without a C++ type.
 class ValueLayout {
  public:
   /// nullopt: `type` describes no type.
@@ -19,12 +19,12 @@ class ValueLayout {
 
   /// One number, bool or text of a value.
   struct Scalar {
-    std::string_view text;     ///< of a string, and of unknown bytes in hexadecimal
-    double number = 0;         ///< of every other kind; for integers beyond 2^53 the nearest double
-    std::int64_t integer = 0;  ///< of signed integers; unsigned ones with the same bits
+    std::string_view text;     ///< text of a string; unknown bytes in hexadecimal
+    double number = 0;         ///< value of every other kind; for integers beyond 2^53 the nearest double
+    std::int64_t integer = 0;  ///< value of signed integers; unsigned ones with the same bits
     enum class Kind : std::uint8_t { boolean, integer, natural, real, text } kind = Kind::real;
-    bool single = false;  ///< of real: float32
-    /// As people write it: the shortest text that gives the same number.
+    bool single = false;  ///< for a real number: it is a float32
+    /// The shortest text that gives the same number.
     [[nodiscard]] std::string shown() const;
   };
   /// path: "linear", "points[3].x"; empty for a value that is one scalar.
@@ -33,11 +33,11 @@ class ValueLayout {
   /// before the mistake have been visited.
   [[nodiscard]] bool visit(std::string_view bytes, const Visit& visit) const;
 
-  /// How many scalars every such value has.
+  /// The number of scalars in every such value.
   [[nodiscard]] std::size_t scalars() const;
-  /// Their paths.
+  /// The paths of the scalars.
   [[nodiscard]] std::vector<std::string> paths() const;
-  /// Their types, such as "float32", "bool" or "string(8)".
+  /// The types of the scalars, such as "float32", "bool" or "string(8)".
   [[nodiscard]] std::vector<std::string> types() const;
   /// "{linear: 0.3, angular: -1}", cut after `most` bytes.
   [[nodiscard]] std::string shown(std::string_view bytes, std::size_t most = 200) const;

@@ -13,14 +13,14 @@ struct Arrival {
   bool valid = false;              ///< the producer has written it, and its transition function did not fail
   Time stamp{};                    ///< when the producer wrote it
   Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first value
-  bool disconnected = false;       ///< the producer is in another process, which is not heard of
+  bool disconnected = false;       ///< the producer is in another process, which is not reachable
 };
 
 /// The status of the value in an output buffer.
 struct Departure {
   bool timed_out = false;     ///< the last blocking send gave up waiting for its acknowledgement
   Time stamp{};               ///< when it was last written to the channel
-  bool disconnected = false;  ///< the consumer is in another process, which is not heard of
+  bool disconnected = false;  ///< the consumer is in another process, which is not reachable
 };
 
 /// A value with its status. If the value is a structure, its fields and the status are members side by side
@@ -37,7 +37,7 @@ struct Buffer : T, Status {
   friend T& payload(Buffer& buffer) { return buffer; }
 };
 
-/// The same for a number or a bool: the buffer converts to it.
+/// The same for a number or a bool, to which the buffer converts.
 template <class T, class Status>
 struct Buffer<T, Status, false> : Status {
   Buffer() = default;

@@ -13,8 +13,8 @@ namespace tessera {
 
 enum class LogLevel : std::uint8_t { info, warning, error };
 
-/// Takes what a transition function asks for through its Context. The executor
-/// implements it; a test may, too.
+/// Receives the requests that a transition function makes through its Context. The executor implements it; a
+/// test can do so, too.
 class ContextServices {
  public:
   virtual ~ContextServices() = default;
@@ -31,7 +31,7 @@ class ContextServices {
   }
 };
 
-/// Thrown by Context::assert_that where there is no run that could fail, as in a plain unit test.
+/// Thrown by Context::assert_that outside a run, as in a plain unit test.
 class BrokenAssertion : public std::logic_error {
  public:
   using std::logic_error::logic_error;
@@ -45,13 +45,12 @@ class Context {
   Time now{};                   ///< one value for the whole iteration
   Duration period{};            ///< of the subsystem's rate; zero if it has none
   std::uint64_t iteration = 0;  ///< i of the paper: counts over all behaviours of the subsystem
-  /// Since the behaviour began, that is since the first call of its transition function. In that call zero. A
-  /// behaviour that follows itself by `next` begins again. By the clock of the run, as `now`.
+  /// Time since the first call of the behaviour's transition function; zero in that call. A behaviour that
+  /// follows itself by `next` begins again. Measured by the clock of the run, as `now`.
   Duration in_behaviour{};
   std::uint32_t index = 0;  ///< of the agent in its fleet, from 0; 0 if it is in none
 
-  /// Writes to the terminal and the recording, with time and path. Allocates
-  /// nothing; cuts text at 512 bytes.
+  /// Writes to the terminal and the recording, with time and path. Allocates nothing; cuts text at 512 bytes.
   template <class... Args>
   void log(fmt::format_string<Args...> format, Args&&... args) {
     print(LogLevel::info, format, fmt::make_format_args(args...));
@@ -72,9 +71,9 @@ class Context {
     if (services_ != nullptr) services_->emergency_stop(reason);
   }
 
-  /// States what must hold here; `tessera simulate --schedules` looks for a run that breaks it. If it does
-  /// not hold, the run has failed: the text goes to the recording, and the system stops safely after this
-  /// transition function. In a plain unit test, the function throws BrokenAssertion.
+  /// States a condition that must hold here; `tessera simulate --schedules` looks for a run that violates it.
+  /// If it does not hold, the run has failed: the text goes to the recording, and the system stops safely
+  /// after this transition function. In a plain unit test, the function throws BrokenAssertion.
   template <class... Args>
   void assert_that(bool holds, fmt::format_string<Args...> format, Args&&... args) {
     if (!holds) report_broken(format, fmt::make_format_args(args...));

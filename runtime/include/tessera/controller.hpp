@@ -23,18 +23,18 @@ struct RunOptions {
   } clock = Clock::simulated;
   bool realtime = false;  ///< simulated clock: never faster than the wall clock
   /// Simulated clock: its time is published as /clock of ROS 2 on this network interface, and is never faster
-  /// than the wall clock. Empty: it is not.
+  /// than the wall clock. Empty: it is not published.
   std::string ros2_clock;
   std::optional<Duration> duration;  ///< unset: the run lasts until the net ends or something stops it
   std::uint64_t seed = 1;
-  /// Simulated clock: subsystems that can go on at one instant take turns after every firing, and not only
-  /// where they have to wait. This finds more of the interleavings that threads can have.
+  /// Simulated clock: subsystems that can go on at one instant take turns after every firing, not only where
+  /// they have to wait. This covers more of the interleavings that threads can have.
   bool interleave = false;
   std::string recording;  ///< path of the file; empty: none
-  /// Which values of buffers the recording has.
+  /// The values of buffers that are recorded.
   enum class Values : std::uint8_t {
     none,
-    small,  ///< values of at most small_value bytes; of longer ones, the size and a hash
+    small,  ///< values of at most small_value bytes; for longer ones, the size and a hash
     all
   } values = Values::small;
   static constexpr std::uint64_t small_value = 4096;
@@ -49,9 +49,8 @@ struct RunOptions {
   /// Steady clock without a world: uses the simulated C++ drivers of the System in place of the real ones.
   /// Runs with the simulated clock or with a world always do.
   bool simulated_drivers = false;
-  /// Hardware in the loop: paths of subsystems and real buffers that use their real
-  /// drivers in a simulated run.
-  /// The simulated clock is then never faster than the wall clock, and the run cannot be paused.
+  /// Hardware in the loop: paths of subsystems and real buffers that use their real drivers in a simulated
+  /// run. The simulated clock is then never faster than the wall clock, and the run cannot be paused.
   std::vector<std::string> hardware;
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens the world
@@ -61,28 +60,28 @@ struct RunOptions {
   /// Simulated clock, with `monitor`: simulated seconds per second of real time. 0: as fast as possible.
   double speed = 1;
   /// Simulated clock, with `monitor`: up to this time the run goes as fast as possible. `speed` and `paused`
-  /// count from then on.
+  /// apply from then on.
   std::optional<Duration> skip_to;
-  /// File of a run that is followed first (tessera verify --scenario). When it has been followed,
-  /// everything runs freely, and `duration` begins. Simulated clock only.
+  /// File of a run that is followed first (tessera verify --scenario). After its last step, the run is free,
+  /// and `duration` begins. Simulated clock only.
   std::string scenario;
   std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
-  /// How processes of a deployed system talk to each other (docs/fleets.md).
+  /// How processes of a deployed system communicate (docs/fleets.md).
   struct Network {
     std::string process;        ///< steady clock: the process to run; empty: the whole system
-    std::string library;        ///< that carries messages, steady clock; empty: the one that was installed
-    std::optional<int> domain;  ///< in place of that of the System
-    std::string interface;      ///< in place of that of the process
-    std::vector<std::string> peers;  ///< hosts of the others; empty: those of the System
+    std::string library;        ///< steady clock: the library that carries messages; empty: the installed one
+    std::optional<int> domain;  ///< replaces the domain of the System
+    std::string interface;      ///< replaces the interface of the process
+    std::vector<std::string> peers;  ///< hosts of the other processes; empty: those of the System
     std::optional<std::uint64_t>
-        incarnation;         ///< of this start, greater than all before; unset: the time in ns
-    std::string conditions;  ///< simulated clock: as `--network`; empty: the usual ones
+        incarnation;         ///< number of this start, greater than all before; unset: the time in ns
+    std::string conditions;  ///< simulated clock: as `--network`; empty: the default
   } network;
   /// A subsystem that is stuck for good when the run ends is a warning and not a failure.
   bool accept_stuck = false;
   bool progress = false;  ///< shows the progress in one line on standard error, which is rewritten
-  /// File that gets two lines if the process dies in the middle of the run: where it was
-  /// ("robot.control.follow"), and what happened ("killed by SIGSEGV at address 0x0"). Empty: none.
+  /// File that gets two lines if the process dies during the run: where it was ("robot.control.follow"), and
+  /// what happened ("killed by SIGSEGV at address 0x0"). Empty: none.
   std::string death_note;
   int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
@@ -102,14 +101,14 @@ struct RunSummary {
   /// Why a run failed, if no fault of a subsystem says so.
   enum class Failure : std::uint8_t {
     none,      ///< it has not failed, or a fault says why
-    deadlock,  ///< nothing could ever happen again
+    deadlock,  ///< no event can ever happen again
     stuck,     ///< a subsystem is stuck for good
     scenario,  ///< the scenario could not be followed
     unsafe,    ///< a device has not taken its safe command
-    world      ///< of the simulated world
+    world      ///< the simulated world failed
   } failure = Failure::none;
   int signal = 0;  ///< the signal that ended the run; 0: none
-  /// If a world was slower than real time: how far the world came while `simulated` passed.
+  /// If a world was slower than real time: the time that the world reached while `simulated` passed.
   std::optional<Duration> world_time;
   struct PerSubsystem {
     std::string path;
@@ -117,7 +116,7 @@ struct RunSummary {
   };
   std::vector<PerSubsystem> subsystems;
   std::string judgement;                ///< checks and measures as World::results; empty: none
-  std::uint64_t lost_events = 0;        ///< of the recording
+  std::uint64_t lost_events = 0;        ///< events missing in the recording
   std::uint64_t lines_not_printed = 0;  ///< lines that the terminal did not take
   std::vector<std::string> warnings;    ///< e.g. the recording could not be written
 };

@@ -64,8 +64,8 @@ class Device {
 /// A real receptor R: read before every transition function of its virtual receptor.
 class RealReceptor : public Device {
  public:
-  /// Fills `value`: the bytes of the real buffer's type, or the place of an object of it if the type is not
-  /// trivially copyable. false: there is no value now; the buffer keeps the old one, which is not fresh.
+  /// Fills `value`: the bytes of the real buffer's type, or the address of an object of that type if it is
+  /// not trivially copyable. false: there is no value now; the buffer keeps the old one, which is not fresh.
   [[nodiscard]] virtual bool read(std::span<std::byte> value) = 0;
 };
 
@@ -73,7 +73,7 @@ class RealReceptor : public Device {
 /// device gets the safe command.
 class RealEffector : public Device {
  public:
-  /// false: the device refused, which is the subsystem's error.
+  /// false: the device refused, which is an error of the subsystem.
   [[nodiscard]] virtual bool write(std::span<const std::byte> value) = 0;
 };
 
@@ -95,7 +95,7 @@ inline constexpr bool is_guarded = std::is_base_of_v<Guarded, Class>;
 /// One value of an option: a number in SI units, true or false, or a name.
 struct WorldValue {
   std::variant<double, bool, std::string> value = 0.0;
-  /// Of a number with a unit: "m", "rad", "s" or "Hz". Empty: it has none.
+  /// The unit of a number: "m", "rad", "s" or "Hz". Empty: it has none.
   std::string unit{};
 
   WorldValue() = default;
@@ -125,10 +125,10 @@ struct DriverRequest {
   std::map<std::string, WorldOption> options;  ///< e.g. {"noise", 0.01}
   /// The type of the real buffer, as tessera/value_encoding.hpp writes it: "float64[4]".
   std::string type{};
-  /// How values of that type are read and stored. nullptr: the device is only to be judged.
+  /// Reads and stores values of that type. nullptr: the device is only to be judged.
   const ValueEncoding* encoding = nullptr;
 
-  /// Whose device it is: "robot[3]" of "robot[3].sensor.left".
+  /// The agent that owns the device: "robot[3]" of "robot[3].sensor.left".
   [[nodiscard]] std::string agent() const { return path.substr(0, path.find('.')); }
 };
 template <class T>
@@ -138,14 +138,14 @@ template <class T>
   return request;
 }
 
-/// What is wrong with a request.
+/// The mistake in a request.
 struct DriverProblem {
   std::string text;     ///< "the world has no sensor 'gyr'"
   std::string hint;     ///< "did you mean 'gyro'?"; empty: none
   std::string subject;  ///< the target or the name of the option that is wrong; empty: all of it
 };
 
-/// A simulator that is a program of its own, and a server: CoppeliaSim.
+/// A simulator that is a separate program and a server: CoppeliaSim.
 struct WorldServer {
   std::string host = "localhost";
   std::uint16_t port = 23000;
@@ -161,29 +161,30 @@ struct WorldOptions {
   double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
   std::uint64_t seed = 1;                                         ///< of sensor noise
   std::string trace;   ///< file that gets the path of the robot; empty: none
-  std::string checks;  ///< JSON: what the run is judged by (docs/worlds.md); empty: nothing
+  std::string checks;  ///< JSON: the checks and measures of the run (docs/worlds.md); empty: none
   std::string models;  ///< JSON: the placed models (docs/worlds.md); empty: none
   std::optional<WorldServer> server{};
-  /// Nothing is going to run: the world is asked what would be wrong with its devices. A world on a server
-  /// then does not call it, and tells what can be known without it.
+  /// No run follows: the world is only asked about problems with its devices. A world on a server then makes
+  /// no connection, and reports what it knows without one.
   bool only_asked = false;
 };
 
 /// A check of the run that has failed.
 struct WorldFailure {
   std::string check;  ///< its name
-  std::string text;   ///< what it demands, and the facts
-  double time_s = 0;  ///< of the simulated clock
+  std::string text;   ///< its demand, and the facts
+  double time_s = 0;  ///< by the simulated clock
 };
 
-/// What a simulated world looks like.
+/// The appearance of a simulated world.
 struct WorldScene {
   struct Body {
     std::string name;
     std::string agent;  ///< the agent whose devices it carries; empty: none, or it is not known
-    std::optional<std::size_t> parent{};  ///< number of the body that it hangs on; nullopt: none of these
+    std::optional<std::size_t> parent{};  ///< number of the body that it is attached to; nullopt: none of
+                                          ///< these
   };
-  /// A light sensor: the point at which it looks, in the frame of a body, and how large that is.
+  /// A light sensor: the point at which it looks, in the frame of a body, and the diameter of that point.
   struct Eye {
     std::size_t body = 0;  ///< number in `bodies`
     std::array<double, 3> at_m{};
@@ -198,7 +199,7 @@ struct WorldScene {
 class PoseSink {
  public:
   virtual ~PoseSink() = default;
-  /// time: of the world. poses: in the order of WorldScene::bodies; valid during the call.
+  /// time: by the clock of the world. poses: in the order of WorldScene::bodies; valid during the call.
   virtual void take(Time time, std::span<const BodyPose> poses) = 0;
 };
 
@@ -213,7 +214,7 @@ class World {
                                                                std::string& error) = 0;
   [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const DriverRequest& request,
                                                                std::string& error) = 0;
-  /// What would be wrong with such a device; nullopt: nothing, or the world does not tell.
+  /// The problem with such a device; nullopt: there is none, or the world does not say.
   [[nodiscard]] virtual std::optional<DriverProblem> problem_with(const DriverRequest& /*request*/,
                                                                   bool /*effector*/) {
     return std::nullopt;
@@ -224,8 +225,8 @@ class World {
   /// Computes the physics up to `time`, deterministically. Never goes back. Throws a std::exception once the
   /// world has failed, which ends the run.
   virtual void advance_to(Time time) = 0;
-  /// Why it could not judge by such checks and measures (WorldOptions::checks); nullopt: it can, or does not
-  /// tell.
+  /// Why the world cannot judge by these checks and measures (WorldOptions::checks); nullopt: it can, or does
+  /// not say.
   [[nodiscard]] virtual std::optional<Problem> problem_with_checks(const std::string& /*json*/) {
     return std::nullopt;
   }
@@ -233,7 +234,7 @@ class World {
   [[nodiscard]] virtual std::vector<WorldFailure> take_failures() { return {}; }
   /// JSON with `checks` and `measures` of the run (docs/worlds.md), at its end; empty: there are none.
   [[nodiscard]] virtual std::string results() { return {}; }
-  /// nullopt: the world cannot be looked at. devices: all devices of the run that the world may have made.
+  /// nullopt: the world has no picture. devices: all devices of the run that the world may have made.
   [[nodiscard]] virtual std::optional<WorldScene> scene(std::span<const DriverRequest> /*devices*/) {
     return std::nullopt;
   }
@@ -252,7 +253,7 @@ inline constexpr const char* open_world_function = "tessera_open_world_3";
 using ListWorld = bool (*)(const WorldOptions& options, std::string& json, std::string& error);
 inline constexpr const char* list_world_function = "tessera_list_world_3";
 
-/// Draws a world with its bodies where a recording says, without simulating it.
+/// Draws a world from recorded poses of its bodies, without simulating it.
 ///
 /// Threads: one at a time.
 class WorldPainter {
@@ -264,13 +265,13 @@ class WorldPainter {
 };
 struct PictureOptions {
   int width = 640, height = 480;
-  std::string camera;                ///< of the world; empty: one that sees the sphere below
+  std::string camera;                ///< a camera of the world; empty: a camera that sees the sphere below
   std::array<double, 3> middle_m{};  ///< what it looks at
-  double radius_m = 1;               ///< around the middle, all is seen
+  double radius_m = 1;               ///< radius of the sphere around the middle that is visible
   double elevation_deg = -50;        ///< -90: from above
   std::vector<std::string> bodies;   ///< the names of those whose poses will be given
 };
-/// nullptr and `error`: it does not open, has other bodies, or nothing can be rendered here.
+/// nullptr and `error`: it does not open, has other bodies, or this machine cannot render.
 using OpenPainter = std::unique_ptr<WorldPainter> (*)(const WorldOptions& options,
                                                       const PictureOptions& picture, std::string& error);
 inline constexpr const char* open_painter_function = "tessera_open_painter_1";
@@ -282,7 +283,7 @@ template <class T>
 class Receptor : public RealReceptor {
  public:
   using Value = T;
-  /// nullopt: there is no value now. An exception is the subsystem's error.
+  /// nullopt: there is no value now. An exception is an error of the subsystem.
   virtual std::optional<T> read() = 0;
   [[nodiscard]] bool read(std::span<std::byte> value) final {
     const std::optional<T> now = read();

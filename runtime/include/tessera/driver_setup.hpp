@@ -22,8 +22,8 @@ struct DriverOption {
   std::string_view unit{};  ///< of a number, as written; empty: none
 };
 
-/// A driver cannot work as the specification asks. The run does not start; the message is shown with the
-/// driver's path and the line of the specification.
+/// Thrown when a driver cannot work as the specification asks. The run does not start; the message is shown
+/// with the driver's path and the line of the specification.
 class DriverError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
@@ -33,7 +33,7 @@ class DriverError : public std::runtime_error {
 /// tessera::DriverSetup&` is given one; every other driver is default-constructed and has no options.
 ///
 /// The constructor asks for every option that the driver knows. An option that it did not ask for is an
-/// error, so that a misspelled option does not go unnoticed.
+/// error, so a misspelled option is always reported.
 ///
 /// Errors:  each accessor throws DriverError if the option is missing (unless `_or` gives a value for that
 ///          case) or has another type.

@@ -7,8 +7,8 @@
 
 namespace tessera {
 
-/// A place/transition net of any origin (drawn by hand, imported) that a NetExecutor can run: the net
-/// itself, and the C++ functions of its places and transitions.
+/// A place/transition net of any origin (drawn by hand, imported) that a NetExecutor can run: the net itself,
+/// and the C++ functions of its places and transitions.
 struct ExecutableNet {
   /// Selects the thread that runs the operation of a place.
   enum class Runs : std::uint8_t {

@@ -9,8 +9,8 @@
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
-/// Values as people write them on a command line. `tessera` reads them before it builds a controller; the
-/// controller reads them when it starts.
+/// Values in the form in which people write them on a command line. `tessera` reads them before it builds a
+/// controller; the controller reads them when it starts.
 namespace tessera {
 
 /// "60s", "1.5 min", "200ms", "2h", "90" (seconds). nullopt: none of these, or negative.

@@ -13,8 +13,8 @@ namespace tessera {
 /// elements until one of them is written to. So a value goes through channels without being copied. An
 /// output that is written to again is copied once.
 ///
-/// *Writing.* Every access that could change elements - data(), begin() and [] of an array that is not
-/// const - first makes sure that nobody shares them. Call `data()` once, or use a range-based for, rather
+/// *Writing.* Every access that could change elements - data(), begin() and [] of an array that is not const
+/// - first makes sure that no other array shares them. Call `data()` once, or use a range-based for, rather
 /// than calling [] a million times. Such a pointer must not be used after the array has been copied.
 ///
 /// *Memory.* There are at least as many blocks of a type as arrays of it. So writing finds a free block and
@@ -97,7 +97,7 @@ class LargeArray {
       }
     }
     void one_array_less() { arrays_.fetch_sub(1, std::memory_order_acq_rel); }
-    /// Owned by the caller. nullptr: none is free at the moment.
+    /// A block that the caller then owns. nullptr: none is free at the moment.
     Block* free_one() {
       for (Block* block = first_.load(std::memory_order_acquire); block != nullptr; block = block->next) {
         std::uint32_t none = 0;
@@ -122,8 +122,7 @@ class LargeArray {
   std::array<T, N>& own(bool keeping = true) {
     while (block_->owners.load(std::memory_order_acquire) != 1) {
       Block* const own = Blocks::instance().free_one();
-      if (own == nullptr)
-        continue;  // the array that shared this block has taken the last free one, and left this one to us
+      if (own == nullptr) continue;  // the other array has taken the last free block, so this one is ours now
       if (keeping) own->elements = block_->elements;
       block_->owners.fetch_sub(1, std::memory_order_acq_rel);
       block_ = own;

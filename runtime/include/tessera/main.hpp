@@ -1,6 +1,6 @@
 #pragma once
 
-/// For the file with the function `main` alone: the other headers would take most of the time of its compilation.
+/// Include this header only in the file with `main`: it is small, and the other headers take long to compile.
 namespace tessera {
 
 struct System;

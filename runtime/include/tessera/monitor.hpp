@@ -25,27 +25,27 @@
 /// often, so that the thread takes at most a fiftieth of a processor. The last line is {"ended": true};
 /// without it the connection was lost.
 ///
-/// Clients may send commands, one JSON object per line. Every controller that listens takes this one:
+/// Clients may send commands, one JSON object per line. Every controller that listens accepts this one:
 ///
 ///     {"command": "recording"}
 ///
 /// It is answered by a line {"recording_bytes": N, "begins": bool, "more": bool} and the next N bytes of the
 /// recording (tessera/recording.hpp), at most `longest_piece` at a time, as far as they are in the file. The
 /// first answer starts at the beginning of the recording, or of the newest segment if it has a limit.
-/// `begins` is true where a segment begins. `more` is true if more bytes are there already. A client that
-/// has asked once gets the rest without asking after {"ended": true}, as far as there is room in the socket.
+/// `begins` is true where a segment begins. `more` is true if more bytes are there already. A client that has
+/// asked once gets the rest without asking after {"ended": true}, as far as the socket has space.
 ///
 ///     {"command": "scene", "from": N}
 ///
 /// is answered by {"scene_bytes": N, "from": N, "total": N} and so many bytes of the scene of the simulated
 /// world (tessera/poses.hpp), a glTF file; total 0: there is none.
 ///
-/// Every run takes these commands, and answers them like those below:
+/// Every run accepts these commands, and answers them like those below:
 ///
 ///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   sets a parameter, as `--set v=0.3`
 ///     {"command": "emergency_stop", "why": text}                 gives every device its safe command, and
 ///                                                                nothing else until the reset
-///     {"command": "reset"}                                       ends the emergency stop: the operator's
+///     {"command": "reset"}                                       ends the emergency stop (by an operator)
 ///     {"command": "panel", "path": "robot.operator.drive", "operator": text, "values": {"turn": 0.2}}
 ///                                                                an input of a panel (docs/drivers.md);
 ///                                                                without "values": the operator lets go
@@ -54,8 +54,8 @@
 /// another process of the system may have it.
 ///
 /// Under the simulated clock, only a run that was started with `--controlled` listens. It sends 25 lines a
-/// second, which also have {"paused", "pauses", "speed", "broke_at"}. It takes more commands and answers each
-/// by a line {"answer": its id, "error": ""}:
+/// second, which also have {"paused", "pauses", "speed", "broke_at"}. It accepts more commands and answers
+/// each by a line {"answer": its id, "error": ""}:
 ///
 ///     {"id": 1, "command": "pause" | "resume" | "step_firing"}
 ///     {"command": "step_iteration", "subsystem": path}   goes on until the transition function of the
@@ -63,29 +63,29 @@
 ///                                                        that of any subsystem
 ///     {"command": "speed", "value": 0.1}                 simulated seconds a second; 0: as fast as possible
 ///     {"command": "breakpoints", "places": [name...], "transitions": [name...], "conditions": [name...]}
-///         instead of those before: pause when one of these places gets a token, one of these transitions has
-///         fired, the condition of one of these comes to hold and its tokens are in its subsystem.
-///         Transitions are those of subsystems: `t_in` and `t_out` of system and agents fire only at the
-///         begin and at the end.
-///     {"command": "own"}                                 without an answer: the run ends with this
-///     connection
+///         replaces the breakpoints before: the run pauses when one of these places gets a token, one of
+///         these transitions has fired, or the condition of one of these holds and its tokens are in its
+///         subsystem. Transitions are those of subsystems: `t_in` and `t_out` of system and agents fire only
+///         at the begin and at the end.
+///     {"command": "own"}                                 no answer; the run ends when this connection ends
 ///
 /// share/tessera/control_socket.schema.json defines lines and commands; tests compare what is sent with it.
 namespace tessera {
 
 inline constexpr std::size_t longest_piece = std::size_t{256} << 10U;
 
-/// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID if there is none or its path leaves no room for sockets. Only
-/// its owner may enter the folder.
+/// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID if the variable is unset or its path is too long for a
+/// socket. Only its owner may enter the folder.
 [[nodiscard]] std::string monitor_folder();
 
-/// The socket of a process, NAME.PID.sock in that folder; name: SYSTEM or SYSTEM.PROCESS. The path of a socket has
-/// at most 107 bytes. So the end of a longer name is replaced by a hash: "warehouse_of_the_n~1a2b3c4d.4711.sock".
+/// The socket of a process, NAME.PID.sock in that folder; name: SYSTEM or SYSTEM.PROCESS. The path of a
+/// socket has at most 107 bytes. So the end of a longer name is replaced by a hash:
+/// "warehouse_of_the_n~1a2b3c4d.4711.sock".
 [[nodiscard]] std::string monitor_file(std::string_view name, std::int64_t process);
 
 inline constexpr char cut_off_name = '~';  ///< before the hash; no name has it
 
-/// Whether the name in the name of such a file was cut off: then only the lines of the process tell it.
+/// Whether the name in such a file name was cut off: then only the lines of the process contain it.
 [[nodiscard]] constexpr bool has_shortened_name(std::string_view file) {
   return file.substr(file.rfind('/') + 1).find(cut_off_name) != std::string_view::npos;
 }

@@ -45,8 +45,8 @@ class NetHash {
   }
 
  private:
-  // FNV-1a in two lanes with different offsets, finished by the mixer of splitmix64 so
-  // that sums do not cancel out.
+  // FNV-1a in two lanes with different offsets, finished by the mixer of splitmix64 so that sums do not
+  // cancel out.
   struct Element {
     std::array<std::uint64_t, 2> lanes{0xcbf29ce484222325U, 0x9ae16a3b2f90404fU};
     explicit Element(std::string_view kind) { text(kind); }

@@ -4,31 +4,32 @@
 #include <optional>
 #include <string>
 
-/// A process of a deployed system runs once on a machine: a second start would be taken for a restart of the
-/// first, which the other processes then do not listen to any more.
+/// Ensures that a process of a deployed system runs once on a machine. A second start would count as a
+/// restart of the first, which the other processes would then ignore.
 namespace tessera {
 
-/// What may be there only once. Other domains and other interfaces of the network are other deployments.
+/// The identity of a process that may run only once. Other domains and network interfaces are other
+/// deployments.
 struct ClaimedProcess {
   std::string system, process;
   int domain = 0;
   std::string interface {};  ///< empty: "lo"
 };
 
-/// The claim of this program to be that process. It holds as long as this object, or until the program dies, in one
-/// network namespace, and is an abstract socket.
+/// The claim of this program to be that process, made by an abstract socket. It holds as long as this object,
+/// or until the program dies, and within one network namespace.
 class ProcessClaim {
  public:
   explicit ProcessClaim(const ClaimedProcess& process);
   ~ProcessClaim();
   ProcessClaim(const ProcessClaim&) = delete;
   ProcessClaim& operator=(const ProcessClaim&) = delete;
-  /// Another program is that process; nullopt: none is, or claims cannot be made here.
+  /// The other program that is that process; nullopt: there is none, or claims cannot be made here.
   [[nodiscard]] const std::optional<std::int64_t>& other() const { return other_; }
 
  private:
   int socket_ = -1;
-  std::optional<std::int64_t> other_;  ///< its number; 0: not known
+  std::optional<std::int64_t> other_;  ///< its process id; 0: not known
 };
 
 /// "process gate of crossroads runs on this machine already (number 4711), ..."

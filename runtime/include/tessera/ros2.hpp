@@ -14,16 +14,16 @@
 
 namespace tessera {
 
-/// A real buffer that is a topic of ROS 2, or one side of a service, with all that the library needs to know
-/// (docs/ros2.md).
+/// A real buffer that is a ROS 2 topic or one side of a service, with everything that the library needs to
+/// know about it (docs/ros2.md).
 struct Ros2Binding {
   std::string path;   ///< "robot.base.velocity"
   std::string topic;  ///< "/cmd_vel", or the name of a service
   std::string type;   ///< "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool"
-  /// Of the message, or the message of the service that the buffer has, and of all that it uses
-  /// (ros2/definitions/resolver.hpp).
+  /// The definition of the message, or of the service's message that the buffer has, and of all messages it
+  /// uses (ros2/definitions/resolver.hpp).
   std::string definition;
-  std::string role;    ///< of a service: "client" or "server"; empty: a topic
+  std::string role;    ///< side of a service: "client" or "server"; empty: a topic
   std::string fields;  ///< "linear.x=v, angular.z=omega"; empty: equal names
   std::string names;   ///< "shoulder, elbow"; empty: none
   std::string frame_id;
@@ -33,7 +33,7 @@ struct Ros2Binding {
   std::string peers;                    ///< "10.0.0.2, cart.local"; empty: those on the interface are found
   std::optional<std::uint32_t> domain;  ///< nullopt: ROS_DOMAIN_ID, or else 0
   Duration wait{};                      ///< how long `open` waits for the other side; zero: not at all
-  Duration timeout{};                   ///< how long a call may last; zero: what is usual
+  Duration timeout{};                   ///< how long a call may last; zero: the default
   const ValueEncoding* encoding = nullptr;
 };
 
@@ -44,7 +44,7 @@ class Ros2Clock {
   Ros2Clock(const Ros2Clock&) = delete;
   Ros2Clock& operator=(const Ros2Clock&) = delete;
   virtual ~Ros2Clock() = default;
-  /// Messages that drivers send from now on have this time in their headers.
+  /// Sets the time that drivers write into the headers of their messages from now on.
   virtual void set(Duration since_start) = 0;
   virtual void publish(Duration since_start) = 0;
 };

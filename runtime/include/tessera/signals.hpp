@@ -38,7 +38,7 @@ inline constexpr std::array handled_signals{
     HandledSignal{SIGSTKFLT, "SIGSTKFLT", SignalUse::stop},  //
     HandledSignal{SIGXCPU, "SIGXCPU", SignalUse::stop},      // a limit, also of real-time threads
     HandledSignal{SIGTSTP, "SIGTSTP", SignalUse::suspend},   // Ctrl-Z
-    HandledSignal{SIGPIPE, "SIGPIPE", SignalUse::ignore},    // nobody reads what is written
+    HandledSignal{SIGPIPE, "SIGPIPE", SignalUse::ignore},    // the output is not read any more
     HandledSignal{SIGXFSZ, "SIGXFSZ", SignalUse::ignore},    // a file may not grow any more
     HandledSignal{SIGTTIN, "SIGTTIN", SignalUse::ignore},    // a background process reads its terminal
     HandledSignal{SIGTTOU, "SIGTTOU", SignalUse::ignore},    // a background process writes to its terminal

@@ -128,7 +128,7 @@ struct Bindings {
     Arrival* arrival;
     const ValueType* type;                    ///< nullptr: bytes
     const ValueEncoding* encoding = nullptr;  ///< nullptr: cannot be recorded
-    void* part = nullptr;                     ///< of a real buffer: its member of `real`, or nullptr
+    void* part = nullptr;                     ///< for a real buffer: its member of `real`, or nullptr
   };
   struct Outgoing {
     std::string_view name;
@@ -159,7 +159,7 @@ struct Bindings {
     std::size_t elements = 1;
     bool whole = false;  ///< integers
     double (*get)(const void* at, std::size_t element);
-    void (*set)(void* at, std::size_t element, double number);  ///< of integers: a whole number
+    void (*set)(void* at, std::size_t element, double number);  ///< for integers: a whole number
     Limits limits;
   };
   /// The structure of all real buffers, for a driver that serves all of them at once.
@@ -173,10 +173,10 @@ struct Bindings {
     void* value;
     std::size_t size;
     double minimum, maximum;   ///< of each element
-    std::size_t capacity = 0;  ///< of a string
-    std::size_t elements = 0;  ///< of an array of `kind`; 0: it is none
+    std::size_t capacity = 0;  ///< for a string
+    std::size_t elements = 0;  ///< number of elements if it is an array of `kind`; otherwise 0
   };
-  /// A field of the memory, for those who watch.
+  /// A field of the memory, for display.
   struct Remembered {
     std::string_view name;
     const void* value;
@@ -215,8 +215,8 @@ struct Bindings {
   void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
     real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe), part});
   }
-  /// number: a member of the real output that was bound last. It is an arithmetic
-  /// type, or a std::array of one.
+  /// number: a member of the real output that was bound last. It is an arithmetic type, or a std::array of
+  /// one.
   template <class T>
   void limit(std::string_view name, T& number, const Limits& its) {
     const auto offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&number) -
@@ -286,14 +286,13 @@ class Subsystem {
  public:
   virtual ~Subsystem() = default;
   virtual void bind(Bindings& bindings) = 0;
-  /// Calls the transition function of a behaviour, eq. (1) of the paper. Throws
-  /// whatever the user's code throws.
+  /// Calls the transition function of a behaviour, eq. (1) of the paper. Throws whatever the user's code
+  /// throws.
   virtual void call(std::uint16_t behaviour) = 0;
-  /// Evaluates the error condition, then the terminal condition. failed: the
-  /// transition function has thrown.
+  /// Evaluates the error condition, then the terminal condition. failed: the transition function has thrown.
   [[nodiscard]] virtual Outcome decide(std::uint16_t behaviour, bool failed) = 0;
-  /// The first entry of `next` whose condition holds, counted from 0; -1: none. failed:
-  /// the behaviour ended by error.
+  /// The first entry of `next` whose condition holds, counted from 0; -1: none. failed: the behaviour ended
+  /// by error.
   [[nodiscard]] virtual int route(std::uint16_t behaviour, bool failed) = 0;
   virtual void keep_outputs() = 0;     ///< remembers the outputs as sent
   virtual void restore_outputs() = 0;  ///< restores the sent outputs after a failed iteration
@@ -319,7 +318,7 @@ class SubsystemOf : public Subsystem {
   ContextT context_{parameters};
 
  private:
-  friend struct SubsystemData<ContextT>;  // of tests
+  friend struct SubsystemData<ContextT>;  // for tests
   OutputsT kept_{};
 };
 

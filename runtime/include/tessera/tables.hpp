@@ -42,7 +42,7 @@ struct Guard {
   enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
   std::uint16_t entry = 0;  ///< index into `next`, from 0
   std::string_view
-      port{};  ///< elapsed: the port whose timeout it is; empty: of the channel that the transition touches
+      port{};  ///< elapsed: the port with the timeout; empty: that of the channel that the transition touches
 };
 inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal},
     if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed};
@@ -55,11 +55,11 @@ struct Place {
   Does does{};
 };
 
-/// What a transition is for, as recordings tell it.
+/// The role of a transition in recordings.
 struct TableRole {
   Step step = Step::other;
-  std::string_view behaviour{};  ///< that it belongs to, or leaves
-  std::string_view port{};       ///< of a block
+  std::string_view behaviour{};  ///< the behaviour that it belongs to, or leaves
+  std::string_view port{};       ///< the port of its block
 };
 
 /// inputs and outputs name places of the subsystem ("in"), or fused places of a channel as
@@ -131,9 +131,9 @@ struct Instance {
   Policies policies{};
 };
 
-/// A place of the memory of a channel.
-/// A text of the tables, or one of the words. Words get their values when a program is linked, and tables are
-/// constants of the compiler: they must not depend on the order in which sources are initialised.
+/// A name of a place: a text of the tables, or one of the words. Words get their values when a program is
+/// linked, and tables are constants of the compiler: they must not depend on the order in which sources are
+/// initialised.
 class PlaceName {
  public:
   constexpr PlaceName(const char* text) : text_(text) {}              // NOLINT(google-explicit-constructor)
@@ -146,8 +146,9 @@ class PlaceName {
   const std::string_view* word_ = nullptr;
 };
 
+/// A place of the memory of a channel.
 struct FusedPlace {
-  /// As net::PlaceRole. none: only its name is known.
+  /// See net::PlaceRole. none: only the name is known.
   enum class Role : std::uint8_t {
     none,
     lock,
@@ -176,7 +177,8 @@ inline constexpr FusedPlace asynchronous[] = {shared_places::lock};
 inline constexpr FusedPlace buffered[] = {shared_places::empty, shared_places::full};
 inline constexpr FusedPlace acknowledged[] = {shared_places::empty, shared_places::full,
                                               shared_places::acknowledged};
-// Of channels between processes (docs/fleets.md). The last is that of a sender that waits without a timeout.
+// The places of channels between processes (docs/fleets.md). The last list is for a sender that waits without
+// a timeout.
 inline constexpr FusedPlace networked_exchange[] = {shared_places::sent_memory,
                                                     shared_places::received_memory};
 inline constexpr FusedPlace networked[] = {shared_places::idle, shared_places::sent, shared_places::more,
@@ -229,11 +231,11 @@ struct System {
   std::span<const Instance> instances;  ///< agent by agent
   std::span<const Channel> channels;
   std::span<const CppDriver> real_drivers;       ///< of the robot's devices
-  std::span<const CppDriver> simulated_drivers;  ///< in place of them in a simulated run
+  std::span<const CppDriver> simulated_drivers;  ///< replace them in a simulated run
   std::span<const Process> processes{};          ///< empty: all agents are in one
   std::span<const std::uint32_t> process_of{};   ///< per instance, into processes
   std::uint32_t domain = 0;                      ///< of DDS
-  Duration liveliness{0};  ///< a process that was not heard of for so long is disconnected for the others
+  Duration liveliness{0};  ///< a process that is silent for longer is disconnected for the others
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

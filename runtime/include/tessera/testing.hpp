@@ -17,17 +17,17 @@
 #include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
-/// For tests of a project (docs/testing.md). The generated file tessera_testing.hpp includes this one and
-/// says what belongs to each Context.
+/// Tests of a project use this header (docs/testing.md). The generated file tessera_testing.hpp includes it
+/// and says which types belong to each Context.
 namespace tessera {
 
-/// The generated code of the subsystems whose transition functions take this Context: types `Inputs`, `Memory`,
-/// `Outputs`, `Parameters`, and what makes one.
+/// The generated code of the subsystems whose transition functions take this Context: types `Inputs`,
+/// `Memory`, `Outputs`, `Parameters`, and the function that makes a subsystem.
 template <class Context>
 struct GeneratedUnit;
 
-/// Says what these are for a unit of generated code. space: the namespace of the user's functions; generated: that of
-/// what Tessera adds; nanoseconds: the period.
+/// Defines these for a unit of generated code. space: the namespace of the user's functions; generated: the
+/// namespace of Tessera's code; nanoseconds: the period.
 #define TESSERA_UNIT(space, generated, nanoseconds)                            \
   template <>                                                                  \
   struct GeneratedUnit<space::Context> {                                       \
@@ -70,7 +70,7 @@ struct SubsystemData {
 ///     control.receive(control.in.scan, wall_ahead(0.2));
 ///     EXPECT_EQ(control.iterate("drive"), "avoid");
 ///
-/// Errors:  std::invalid_argument if there is no such behaviour. What a transition function throws is passed on.
+/// Errors: std::invalid_argument: no such behaviour. Exceptions of transition functions pass through.
 /// Threads: one at a time.
 template <class Context>
 class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemData<Context> {
@@ -104,7 +104,7 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     subsystem().call(index);
     return decided(behaviour, subsystem().decide(index, /*failed=*/false), /*failed=*/false);
   }
-  /// The same for an iteration that failed, as by an exception or a refused command.
+  /// The same for an iteration that failed, for example by an exception or a refused command.
   std::string fail(std::string_view behaviour) {
     return decided(behaviour, subsystem().decide(index_of(behaviour), /*failed=*/true), /*failed=*/true);
   }
@@ -136,7 +136,7 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     return next;
   }
 
-  /// By the net: the behaviour whose transition function the transition of that entry of `next` starts.
+  /// The behaviour whose transition function starts after that entry of `next`, according to the net.
   [[nodiscard]] static std::string follows(std::string_view behaviour, std::uint16_t entry) {
     for (const Transition& transition : Unit::net().transitions) {
       if (transition.role.step != Step::leave || transition.role.behaviour != behaviour) continue;
@@ -170,9 +170,9 @@ class SystemUnderTest {
   SystemUnderTest(const SystemUnderTest&) = delete;
   SystemUnderTest& operator=(const SystemUnderTest&) = delete;
 
-  /// Called in place of the transition functions of these subsystems: with all that they get, as
-  /// SubsystemData. Their conditions are evaluated as usual. path: of one subsystem ("robot[1].laser");
-  /// empty: of all that are alike.
+  /// Called in place of the transition functions of these subsystems, with all their data as SubsystemData.
+  /// Their conditions are evaluated as usual. path: one subsystem ("robot[1].laser"); empty: all subsystems
+  /// of that kind.
   template <class Context>
   void script(std::function<void(SubsystemData<Context>&)> instead, std::string_view path = {}) {
     place(GeneratedUnit<Context>::maker, path, Moment::instead, with_data<Context>(std::move(instead)));
@@ -182,8 +182,8 @@ class SystemUnderTest {
   void observe(std::function<void(SubsystemData<Context>&)> after, std::string_view path = {}) {
     place(GeneratedUnit<Context>::maker, path, Moment::after, with_data<Context>(std::move(after)));
   }
-  /// Gives a real buffer of a receptor ("robot.laser.ranges") its values; nullopt: there is none now.
-  /// Other real buffers of receptors have none.
+  /// Provides the values of a receptor's real buffer ("robot.laser.ranges"); nullopt: there is none now.
+  /// Other real buffers of receptors have no values.
   template <class T>
   void sense(const std::string& path, std::function<std::optional<T>()> value) {
     check_real_buffer(path, sizeof(T));
@@ -194,15 +194,15 @@ class SystemUnderTest {
     };
   }
 
-  /// How it is run besides: parameters, seed, faults to inject, a recording. The test may change it.
+  /// The other options of the run: parameters, seed, faults to inject, a recording. The test may change them.
   RunOptions options;
 
-  /// Runs the system from its start. Fails like a test program would see it: by `failed` and `ended` of the summary.
+  /// Runs the system from its start. A failed run is reported by `failed` and `ended` of the summary.
   /// Errors: std::runtime_error if it cannot start, which says why.
   RunSummary run(Duration duration);
 
-  /// The behaviours of that subsystem ("robot.control") in the last run, in the order in which they ran. A
-  /// behaviour that ran for several iterations in a row is there once.
+  /// The behaviours of that subsystem ("robot.control") in the last run, in the order in which they ran.
+  /// Several iterations in a row of one behaviour count once.
   [[nodiscard]] const std::vector<std::string>& behaviours(std::string_view path) const;
 
  private:

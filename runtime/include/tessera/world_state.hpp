@@ -9,14 +9,14 @@
 
 namespace tessera {
 
-/// The simulated world as a driver sees it that the user writes as a C++ class. DriverSetup::world() gives
-/// it to classes that `simulation: drivers:` names.
+/// The simulated world as drivers see it that the user writes as C++ classes. DriverSetup::world() gives it
+/// to the classes that `simulation: drivers:` names.
 ///
 /// Names are looked up as for the other drivers: `v` is first the agent's own `robot[3]/v`, then the `v` of
 /// the world; `/v` is the world's alone.
 ///
-/// Reading never changes the simulation. Commands act from the next time step on. So it does not matter
-/// which driver comes first at an instant.
+/// Reading never changes the simulation. Commands take effect at the next time step. So the order of drivers
+/// at one instant does not matter.
 ///
 /// Errors:  WorldError if the world has no such element, or once its physics has failed.
 /// Threads: any; the world locks.
@@ -35,16 +35,15 @@ class WorldState {
   [[nodiscard]] virtual Duration time() const = 0;
   [[nodiscard]] virtual Pose body(const std::string& name) const = 0;
   [[nodiscard]] virtual Pose site(const std::string& name) const = 0;
-  /// What the sensor gives, without noise.
+  /// The value of the sensor, without noise.
   [[nodiscard]] virtual std::vector<double> sensor(const std::string& name) const = 0;
-  /// Of a hinge in rad, of a slide in m; of a ball joint a quaternion, of a free joint position and
-  /// quaternion.
+  /// A hinge in rad, a slide in m; a ball joint as a quaternion, a free joint as position and quaternion.
   [[nodiscard]] virtual std::vector<double> joint_position(const std::string& name) const = 0;
   [[nodiscard]] virtual std::vector<double> joint_velocity(const std::string& name) const = 0;
   /// Whether some geom of the one body touches some geom of the other.
   [[nodiscard]] virtual bool touch(const std::string& body, const std::string& other) const = 0;
-  /// Commands an actuator, which keeps the value until the next command. A value that is not
-  /// finite is a WorldError.
+  /// Commands an actuator, which keeps the value until the next command. A value that is not finite is a
+  /// WorldError.
   virtual void command(const std::string& actuator, double value) = 0;
   /// Pushes the body's centre of mass with a force in N, in the axes of the world, until the next call.
   virtual void push(const std::string& body, const std::array<double, 3>& force_n) = 0;

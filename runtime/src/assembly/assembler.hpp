@@ -20,10 +20,10 @@
 
 namespace tessera {
 
-/// Builds in the order in which things depend on each other; stops at the first step that fails.
+/// Builds the parts in the order of their dependencies; stops at the first step that fails.
 class Assembler {
  public:
-  /// waker: nullptr: nobody is woken.
+  /// waker: nullptr: no thread is woken.
   Assembler(Assembly& assembly, const Clock& clock, Waker* waker, std::string& error)
       : assembly_(assembly),
         part_(assembly.part),
@@ -101,7 +101,7 @@ class Assembler {
     return true;
   }
 
-  /// Which channel is behind each port.
+  /// Finds the channel behind each port.
   bool link_ports() {
     channel_of_.resize(parts_.size());
     for (std::size_t index = 0; index < parts_.size(); ++index)
@@ -133,7 +133,7 @@ class Assembler {
     return find_buffer(parts, parts.instance->net->ports[found->second], link);
   }
 
-  /// The other end is in another process, of which nothing is known here but its name.
+  /// The other end is in another process, of which this one knows only the name.
   void link_remote(const End& end, const End& other) {
     if (end.port.empty()) return;
     PortLink& link = port_of(end);
@@ -156,7 +156,7 @@ class Assembler {
     return fail(fmt::format("{} has no buffer '{}'", parts.path, port.buffer));
   }
 
-  /// One plan per net and kinds of channels behind its ports: a fleet shares one.
+  /// Compiles one plan per net and kinds of channels behind its ports: a fleet shares one plan.
   bool compile_plans() {
     std::map<std::pair<const SubsystemNet*, std::vector<const FusedPlace*>>, std::shared_ptr<const Plan>>
         known;
@@ -220,7 +220,7 @@ class Assembler {
     return set_parameters(all, assembly_.options.parameters, error_);
   }
 
-  /// Only makes the drivers; they are opened when nothing else can fail any more.
+  /// Makes the drivers; they are opened when no other step can fail any more.
   bool make_devices() {
     error_.clear();
     if (!check_hardware()) return false;
@@ -243,7 +243,7 @@ class Assembler {
     plant_device_faults(parts, assembly_.faults, clock_);
   }
 
-  /// Simulated time must not stand still or leap while it moves real devices.
+  /// Refuses hardware if simulated time could stand still or leap while it moves real devices.
   bool check_hardware() {
     const RunOptions& options = assembly_.options;
     if (options.hardware.empty()) return true;
@@ -255,7 +255,7 @@ class Assembler {
     return true;
   }
 
-  /// One word for each end that is here: the other side of it are the links.
+  /// Makes one word for each end in this process; the links are the other side of it.
   bool make_networked(std::uint32_t index, Side side, network::Incarnation incarnation) {
     const Channel& channel = system_.channels[index];
     const End& end = side == Side::send ? channel.from : channel.to;
@@ -337,7 +337,7 @@ class Assembler {
     return side == Side::send ? parts.bindings.outputs[buffer].type : parts.bindings.inputs[buffer].type;
   }
 
-  /// false: an operation of that end is about a slot that the channel does not have.
+  /// false: an operation of that end uses a slot that the channel does not have.
   bool connect(const End& end, Side side, SharedChannel& word) {
     if (end.port.empty()) return true;
     const std::uint32_t port = ports_[end.instance].at(end.port);
@@ -355,7 +355,7 @@ class Assembler {
         });
   }
 
-  /// As MarkingTrack wants them.
+  /// In the form of MarkingTrack.
   [[nodiscard]] std::vector<std::uint32_t> channels_of_transitions() const {
     std::vector<std::uint32_t> channels(net_.transitions.size(), MarkingTrack::none);
     for (std::uint32_t index = 0; index < parts_.size(); ++index)

@@ -13,7 +13,7 @@ bool assemble(Assembly& assembly, const Clock& clock, Waker& waker, std::string&
   if (!assembler->run()) return false;
   if (!assembly.outages.empty()) assembly.restarts = std::move(assembler);
   return true;
-} catch (const std::exception& exception) {  // of constructors of the user's: memory, drivers
+} catch (const std::exception& exception) {  // constructors of user code: memory, drivers
   error = exception.what();
   return false;
 }

@@ -27,15 +27,14 @@ namespace tessera {
 
 class Guardian;
 
-/// Makes the subsystems of a process again, as a new start of it does. Nothing that they held remains.
+/// Makes the subsystems of a process again, for a new start of it. No state of the old ones remains.
 class ProcessRestarts {
  public:
   virtual ~ProcessRestarts() = default;
-  /// The process has died: its ends of channels do nothing more. Its executors remain to be looked at.
+  /// The process has died: its ends of channels become inactive. Its executors remain readable.
   virtual void kill(std::uint32_t process) = 0;
   /// Precondition: it was killed, and its devices are closed. The new executors replace the old ones, and
-  /// their
-  /// devices are open. false and `error`: a device cannot be made or opened.
+  /// their devices are open. false and `error`: a device cannot be made or opened.
   [[nodiscard]] virtual bool restart(std::uint32_t process, network::Incarnation incarnation,
                                      std::string& error) = 0;
 };
@@ -68,17 +67,17 @@ struct Assembly {
   std::size_t recorded_checks = 0;          ///< how many of them are recorded
   std::string judgement;                    ///< World::results, at the end
   std::unique_ptr<Recorder> recorder;
-  std::unique_ptr<PoseRecorder> poses;  ///< nullptr: there is no world, or it cannot be looked at
+  std::unique_ptr<PoseRecorder> poses;  ///< nullptr: there is no world, or it has no picture
   std::string scene_file;               ///< of the world; empty: none
   std::optional<Scenario> scenario;
   Injections faults;
   InjectedSignals signals;
   Panels panels;                              ///< of operators, behind real buffers
   std::unique_ptr<ParameterChanges> changes;  ///< made with the executors, which take them
-  /// The words of a channel: one; of a channel between processes, one per end that is here.
+  /// The words of a channel: one; of a channel between processes, one per end in this process.
   struct Words {
     std::unique_ptr<SharedChannel> of_sender, of_receiver;
-    [[nodiscard]] std::uint16_t marking() const;  ///< as far as it is known here. Threads: any
+    [[nodiscard]] std::uint16_t marking() const;  ///< as far as this process knows it. Threads: any
     std::uint16_t receivers = 0;                  ///< fused places that only the receiver's word knows
   };
   std::vector<Words> channels;                ///< per channel; the word of a local one is the sender's
@@ -88,12 +87,12 @@ struct Assembly {
   network::Incarnation incarnation{1};        ///< of this start of the process
   std::vector<Outage> outages;                ///< simulated clock: when processes die, in this order
   std::unique_ptr<ProcessRestarts> restarts;  ///< nullptr: none dies
-  std::vector<Words> dead_channels;           ///< of processes that have died, which may still be looked at
+  std::vector<Words> dead_channels;           ///< of processes that have died; still readable
   std::vector<std::unique_ptr<SubsystemExecutor>> dead;       ///< of processes that have begun again
   std::vector<std::unique_ptr<SubsystemExecutor>> executors;  ///< per instance; devices die before the world
 };
 
-/// Checks that the tables are the net that was verified, and puts everything together.
+/// Checks that the tables are the verified net, and makes all parts.
 ///
 /// Errors: other tables version, names that do not resolve, another hash, unknown or bad parameters, real
 ///         buffers without a driver, a network that cannot be opened, a value without a fixed size on a channel
@@ -104,14 +103,14 @@ struct Assembly {
 struct LoosePart {
   SubsystemParts parts;  ///< each port has a channel of its own; no devices
   std::shared_ptr<const Plan> plan;
-  std::uint32_t first_transition = 0;  ///< how recordings number those of its plan
+  std::uint32_t first_transition = 0;  ///< the number of its plan's first transition in recordings
 };
 struct LooseParts {
   std::vector<std::unique_ptr<SharedChannel>> channels;
   std::vector<LoosePart> parts;  ///< per instance
 };
 
-/// Puts the subsystems together one by one, for user code to be run without the system around it.
+/// Makes the subsystems one by one, so that user code runs without the system around it.
 ///
 /// Errors: as assemble.
 [[nodiscard]] bool take_apart(Assembly& assembly, const Clock& clock, LooseParts& parts, std::string& error);

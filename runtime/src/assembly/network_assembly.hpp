@@ -7,16 +7,16 @@
 
 namespace tessera {
 
-/// Makes the links of a part that has channels to other processes; does nothing for another.
+/// Makes the links of a part that has channels to other processes; has no effect on another part.
 void make_links(Assembly& assembly, const Clock& clock);
 
-/// What passes through an end of a channel.
+/// The type of the values at an end of a channel.
 struct CarriedValue {
   std::size_t bytes = 0;  ///< in memory
   const ValueEncoding* encoding = nullptr;
   const ValueType* type = nullptr;
 };
-/// Makes one end of channel `index` of the part: its word, and what the links know of it.
+/// Makes one end of channel `index` of the part: its word, and its entry in the links.
 struct MadeEnd {
   SharedChannel* word;
   NetworkEnd* end;

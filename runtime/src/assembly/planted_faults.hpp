@@ -12,19 +12,17 @@
 
 namespace tessera {
 
-/// Reads the faults of `--inject`.
+/// Reads the faults of `--inject`. Faults of other processes are left out.
 ///
-/// Those of other processes are left out.
-///
-/// Errors: as read_injection; a link that is cut under the steady clock: false and `error`.
+/// Errors: see read_injection; a cut link under the steady clock: false and `error`.
 [[nodiscard]] bool read_faults(const RunOptions& options, const ProcessPart& part, Injections& faults,
                                std::string& error);
 
 /// The links that are cut.
 [[nodiscard]] std::vector<Cut> cuts_of(const Injections& faults);
 
-/// When processes die and begin again, in the order of their deaths. false and `error`: one dies while it is
-/// dead.
+/// The times at which processes die and begin again, in the order of their deaths. false and `error`: a
+/// process dies while it is dead.
 [[nodiscard]] bool outages_of(const Injections& faults, const System& whole, std::vector<Outage>& outages,
                               std::string& error);
 

@@ -96,8 +96,8 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
   return count;
 }
 
-/// The JSON at the beginning: the net, and with values also what `simulate --from` needs to know.
-/// scene: nullptr: no poses are recorded.
+/// The JSON at the beginning: the net, and with values also the fields that `simulate --from` needs. scene:
+/// nullptr: no poses are recorded.
 [[nodiscard]] RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
                                                const RunOptions& options, const FlatNet& net,
                                                std::span<const SubsystemParts> all, const WorldScene* scene) {
@@ -159,12 +159,12 @@ void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scen
   assembly.world->show_poses(*assembly.poses);
 }
 
-/// nullptr: the recording has no limit, so nobody needs to know the marking.
+/// nullptr: the recording has no limit, so it needs no marking.
 [[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, const FlatNet& net,
                                                      std::vector<std::uint32_t> channels) {
   if (assembly.options.record_limit.segment_bytes == 0) return nullptr;
   auto track = std::make_unique<MarkingTrack>(net, std::move(channels));
-  // What the network between processes does is a part of the marking, and is not recorded.
+  // The transitions of the network between processes change the marking, but are not recorded.
   if (assembly.links != nullptr) track->forget();
   return track;
 }

@@ -12,7 +12,8 @@
 namespace tessera {
 
 /// Opens the recording that the options ask for, and gives each subsystem its recorder of values. Its header
-/// (tessera/recording.hpp) names the subsystems and transitions of the whole system, whatever part of it runs.
+/// (tessera/recording.hpp) names the subsystems and transitions of the whole system, whatever part of it
+/// runs.
 ///
 /// channels: as MarkingTrack wants them.
 /// Errors:   as Recorder::open: false and `error`.

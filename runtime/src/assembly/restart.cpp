@@ -15,7 +15,7 @@ bool RestartingAssembler::restart(std::uint32_t process, network::Incarnation in
                     make_channels_again(process, incarnation) && replace_executors(process);
   error = error_;
   return made;
-} catch (const std::exception& exception) {  // of constructors of the user's
+} catch (const std::exception& exception) {  // constructors of user code
   error = exception.what();
   return false;
 }
@@ -51,7 +51,7 @@ bool RestartingAssembler::link_again(std::uint32_t process) {
   return true;
 }
 
-/// A name without an index means all subsystems, so those that live get values, too: copies of them.
+/// A name without an index means all subsystems. The running ones then get values, too: copies of them.
 bool RestartingAssembler::set_values_again(std::uint32_t process) {
   std::vector<ParameterOwner> all;
   std::vector<std::pair<std::unique_ptr<Subsystem>, std::unique_ptr<Bindings>>> copies;

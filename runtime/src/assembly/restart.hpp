@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-/// An assembler that stays, and makes the subsystems of one process again (ProcessRestarts).
+/// An assembler that is kept, and makes the subsystems of one process again (ProcessRestarts).
 class RestartingAssembler final : public Assembler, public ProcessRestarts {
  public:
   using Assembler::Assembler;

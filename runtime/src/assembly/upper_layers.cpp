@@ -6,7 +6,7 @@
 
 namespace tessera {
 
-// As FlatNet numbers them: t_in and t_out of the system, then a pair per agent.
+// In the numbering of FlatNet: t_in and t_out of the system, then a pair per agent.
 namespace {
 constexpr std::uint32_t system_in = 0, system_out = 1;
 [[nodiscard]] constexpr std::uint32_t agent_in(std::uint32_t agent) { return 2 + 2 * agent; }

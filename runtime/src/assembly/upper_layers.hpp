@@ -14,8 +14,8 @@ namespace tessera {
 /// Threads: the driver's.
 class UpperLayers {
  public:
-  /// agents: those that run here; numbers: theirs in the net. of_system: they are all, and the transitions of the
-  /// system fire.
+  /// agents: those that run here; numbers: their numbers in the net. of_system: they are all agents, and the
+  /// transitions of the system fire.
   UpperLayers(const std::vector<AgentSpan>& agents, std::vector<std::uint32_t> numbers, bool of_system,
               RecordingLane* lane);
 
@@ -24,13 +24,13 @@ class UpperLayers {
   /// Fires t_out of the agent if this was its last subsystem, and t_out of the system if this was
   /// the last agent.
   void subsystem_ended(std::uint32_t instance, Time now);
-  /// The process of this agent has died. If it begins again, so does the agent. Returns whether it had not
-  /// ended.
+  /// The process of this agent has died. If it begins again, so does the agent. Returns whether the agent had
+  /// not ended yet.
   bool agent_died(std::uint32_t agent);
   void agent_begins_again(std::uint32_t agent, Time now);
   /// The agent of a subsystem.
   [[nodiscard]] std::uint32_t agent_of(std::uint32_t instance) const { return agent_of_[instance]; }
-  /// All that have not died have ended.
+  /// Whether all agents that have not died have ended.
   [[nodiscard]] bool ended() const { return agents_left_ == 0; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
 

@@ -19,7 +19,7 @@ class DeviceLife {
   /// secure: gives the buffers of a driver that has just been opened their safe command. false: a device
   /// could not be opened or secured, and `error` says which. Devices that were opened have to be closed.
   [[nodiscard]] bool open(const std::function<bool(const DriverInUse&)>& secure, std::string& error);
-  /// Closes the open devices, the last one first. Returns what went wrong.
+  /// Closes the open devices, the last one first. Returns the failures.
   std::vector<std::string> close();
   /// Whether a driver needs heartbeats.
   [[nodiscard]] bool beats() const { return !beating_.empty(); }

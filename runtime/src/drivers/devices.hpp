@@ -46,8 +46,7 @@ class DeviceFinder {
 
   /// subsystem: its path. A driver that is not found, or cannot be made, is nullptr; `complaints` says why.
   [[nodiscard]] SubsystemDevices find(const std::string& subsystem, const Bindings& bindings);
-  /// One sentence per buffer that got no device, and per unknown name; empty: there is
-  /// nothing to complain about.
+  /// One sentence per buffer without a device, and per unknown name; empty: there are no complaints.
   [[nodiscard]] std::string complaints() const;
 
  private:

@@ -17,10 +17,10 @@
 
 namespace tessera {
 
-/// Why a device has its safe command.
+/// The reason for which a device has its safe command.
 struct SafeReason {
   enum class Kind : std::uint8_t {
-    none,      ///< it has not: the last command came from the subsystem
+    none,      ///< it does not have it: the last command came from the subsystem
     starting,  ///< no valid value has come to an input yet
     stale,     ///< an input has had no valid value for too long
     source_stalls,
@@ -77,7 +77,7 @@ class Effectors {
   /// Calls code while no other thread calls the driver of that output. Threads: the subsystem's.
   void alone_with(std::size_t output, const std::function<void()>& code);
 
-  // For a thread that acts because another one dies (Rescuer).
+  // The following members are for a thread that acts because another one dies (Rescuer).
   [[nodiscard]] std::size_t size() const { return count_; }
   [[nodiscard]] const void* device(std::size_t index) const { return &devices_[index]; }
   /// The device whose driver the calling thread is calling; nullptr: none. Async-signal-safe.
@@ -88,7 +88,7 @@ class Effectors {
 
   /// Whether the last request was the safe command and some device has not taken it.
   [[nodiscard]] bool owing() const;
-  /// The devices that took another command last than the safe one, or may have, as "robot.motor.left".
+  /// The devices whose last command was not the safe one, or may not have been, as "robot.motor.left".
   [[nodiscard]] std::vector<std::string> unsafe() const;
 
   /// Records the changes since the last call: which devices got the safe command and why, which got other
@@ -101,7 +101,7 @@ class Effectors {
     Group its{};
     std::atomic_flag in_use{};
     std::atomic<bool> owes{false};  // the safe command
-    std::atomic<bool> safe{false};  // the last command taken was the safe one
+    std::atomic<bool> safe{false};  // the last accepted command was the safe one
     SafeReason standing{}, recorded{};
     Time since{};             // since when `standing` is the reason
     bool refused = false;     // the last safe command was refused

@@ -128,7 +128,7 @@ std::string Panel::feed(const PanelInput& input, std::int64_t now_ns) {
       if (std::string wrong = put(field, value, bytes); !wrong.empty()) return wrong;
   const std::lock_guard lock(mutex_);
   const bool is_other = input.who != who_;
-  if (!input.values) {  // who does not hold it has nothing to let go of
+  if (!input.values) {  // only the operator who holds it can let go
     if (!is_other) input_.given_ns.reset();
     return "";
   }

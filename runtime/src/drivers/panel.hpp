@@ -15,7 +15,7 @@
 
 namespace tessera {
 
-/// What an operator gives a panel.
+/// The input of an operator to a panel.
 struct PanelInput {
   using Value = std::variant<double, bool>;
   std::string path;  ///< of the real buffer: "robot.operator.drive"
@@ -47,12 +47,12 @@ class Panel {
   [[nodiscard]] Duration stale() const { return stale_; }
   [[nodiscard]] const std::vector<std::byte>& neutral() const { return neutral_; }
 
-  /// Returns what is wrong with the input; empty: it counts from now on. now_ns: of monotonic_ns().
+  /// Returns the mistake in the input; empty: it counts from now on. now_ns: of monotonic_ns().
   [[nodiscard]] std::string feed(const PanelInput& input, std::int64_t now_ns);
 
   struct Input {
     std::vector<std::byte> bytes;          ///< the encoded value
-    std::optional<std::int64_t> given_ns;  ///< nullopt: nobody operates the panel
+    std::optional<std::int64_t> given_ns;  ///< nullopt: no operator uses the panel
   };
   /// Copies the newest input. Never waits: while another thread feeds the panel, `input` stays as it is.
   void latest(Input& input);
@@ -72,8 +72,8 @@ class Panel {
   std::string who_;
 };
 
-/// The driver of a real buffer with a panel. It has no value before the first input. When the input does not
-/// count any more, it gives the neutral value once, and has no value then.
+/// The driver of a real buffer with a panel. It has no value before the first input. When the input expires,
+/// it gives the neutral value once, and has no value after that.
 class PanelReceptor final : public RealReceptor {
  public:
   using Now = std::int64_t (*)();

@@ -12,7 +12,7 @@
 
 namespace tessera {
 
-/// How a run is told to end, and which subsystems have stalled. Shared by all threads of a run.
+/// The request to end a run, and the stalled subsystems. All threads of a run share it.
 ///
 /// Threads: any, unless said otherwise. Never blocks for long, never allocates after construction.
 class RunControl {
@@ -60,7 +60,7 @@ class RunControl {
   [[nodiscard]] std::uint32_t emergencies() const { return emergencies_.load(std::memory_order_seq_cst); }
   /// The reason of the emergency stop that is in force, or of the last one.
   [[nodiscard]] std::string emergency_reason() const;
-  /// An eventfd that is written to when an emergency stop begins or ends; -1: none.
+  /// Sets an eventfd that is written to when an emergency stop begins or ends; -1: none.
   void tell_of_emergencies(int descriptor) { news_.store(descriptor, std::memory_order_release); }
 
   /// Another process sets `acted` when it has given the devices their safe command for this one, which stood

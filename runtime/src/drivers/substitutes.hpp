@@ -9,9 +9,9 @@
 
 namespace tessera {
 
-/// What a test puts in the place of parts of a system, when a run makes them.
+/// The parts with which a test replaces parts of a system, when a run makes them.
 ///
-/// Threads: that which starts the run.
+/// Threads: the one that starts the run.
 class Substitutes {
  public:
   Substitutes() = default;
@@ -22,7 +22,7 @@ class Substitutes {
   /// instance: into System::instances.
   [[nodiscard]] virtual std::unique_ptr<Subsystem> subsystem(std::uint32_t instance,
                                                              std::unique_ptr<Subsystem> own) = 0;
-  /// Of the real buffer at that path.
+  /// The receptor for the real buffer at that path.
   [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const std::string& path) = 0;
   [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const std::string& path) = 0;
 };

@@ -38,7 +38,7 @@ class ReceptorPart final : public RealReceptor {
   /// last one begins a new reading.
   bool read(std::span<std::byte> value) override {
     if (number_ <= std::exchange(shared_->asked, number_)) {
-      shared_->has_value = false;  // if it throws
+      shared_->has_value = false;  // in case it throws
       shared_->has_value =
           shared_->driver->read({static_cast<std::byte*>(shared_->all.value.get()), shared_->all.size});
     }

@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Copied to a robot, the library is beside the controller.
+/// If the library was copied to a robot, it is beside the controller.
 void* load_library(const std::string& file, std::string& error) {
   std::error_code ignored;
   const fs::path beside = fs::read_symlink("/proc/self/exe", ignored).parent_path() / "libtessera_dds.so";

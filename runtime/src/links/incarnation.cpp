@@ -18,7 +18,7 @@ network::Incarnation new_incarnation(const std::string& recording, const std::st
   std::uint64_t last = 0;
   std::ifstream(file) >> last;
   made.value = std::max(made.value, last + 1);
-  std::ofstream(file) << made.value << '\n';  // if it cannot be kept, the clock has to do
+  std::ofstream(file) << made.value << '\n';  // if it cannot be stored, the clock has to suffice
   return made;
 }
 

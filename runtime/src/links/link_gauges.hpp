@@ -8,10 +8,10 @@
 
 namespace tessera {
 
-/// The values that observers of a link see: what passes between this process and another. Each value is
+/// The values that observers of a link see: the messages between this process and another. Each value is
 /// recent, but they may be from different moments.
 ///
-/// Threads: written by the one of the links, read by any.
+/// Threads: written by that of the links, read by any.
 struct alignas(64) LinkGauges {
   explicit LinkGauges(network::ProcessNumber its_peer) : peer(its_peer) {}
 

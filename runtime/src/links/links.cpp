@@ -169,8 +169,8 @@ void Links::complain(const LinkedChannel& channel, std::string_view text, bool f
   complain_(fmt::format("channel {}: {}", channel.name, text), fatal);
 }
 
-// The processes of one host read one clock. Between hosts goes the age of the value instead: it counts from
-// then on at the receiver, and lacks only the time on the way.
+// Processes of one host read one clock, so stamps are sent as they are. Between hosts, the age of the value
+// is sent instead: the receiver adds the time since its arrival, so only the time on the way is missing.
 
 std::chrono::nanoseconds Links::stamp_to_send(const LinkedChannel& channel,
                                               std::chrono::nanoseconds stamp) const {

@@ -22,7 +22,7 @@ namespace tessera {
 /// Threads: the service's, unless said otherwise; add_... before the run.
 class Links final : public Waker, private network::Carrier::Listener, private LinkServices {
  public:
-  /// complain: for a person to read. fatal: the run cannot go on.
+  /// complain: receives a message for people. fatal: the run cannot go on.
   using Complain = std::function<void(std::string_view text, bool fatal)>;
   Links(const Clock& clock, std::uint32_t channels, Complain complain);
   ~Links() override;
@@ -32,31 +32,31 @@ class Links final : public Waker, private network::Carrier::Listener, private Li
   ReceivingEnd& add_receiver(const LinkedChannel& channel, SharedChannel& word, const ValueEncoding& encoding,
                              std::size_t value_bytes, const ValueType* type,
                              network::Incarnation incarnation);
-  /// A process that runs here, too, has died: its ends do nothing more. New ones replace them.
+  /// A simulated process of this program has died: its ends become inactive. New ones replace them.
   void kill(network::ProcessNumber process);
-  /// What a carrier has to know of the channels of all ends.
+  /// The channels of all ends, in the form that a carrier needs.
   [[nodiscard]] std::vector<network::ChannelSetup> carried() const;
   void connect(network::Carrier& carrier) { carrier_ = &carrier; }
-  /// origin_ns: as SteadyClock::absolute_ns of time zero, so that processes of one host understand each other's
+  /// origin_ns: SteadyClock::absolute_ns of time zero, so that processes of one host understand each other's
   /// stamps; 0 under the simulated clock. Threads: any.
   void set_origin(std::int64_t origin_ns) { origin_.store(Duration(origin_ns), std::memory_order_relaxed); }
 
-  /// Takes what has arrived, looks at the ends that have news, and sends what is due. Waits for something to do
-  /// until `until`, if the carrier waits.
+  /// Takes the messages that have arrived, serves the ends that have news, and sends everything that is due.
+  /// Waits for work until `until`, if the carrier waits.
   void serve(Time until);
-  /// An end has news, or time has come for something.
+  /// Whether an end has news, or some work is due.
   [[nodiscard]] bool has_work(Time now) const;
-  /// When it has something to do without news; Time::max(): never.
+  /// When work is due without news; Time::max(): never.
   [[nodiscard]] Time next() const;
-  /// Some value may still have to be delivered.
+  /// Whether some value may still have to be delivered.
   [[nodiscard]] bool pending() const;
 
   /// Ends a wait of serve. Threads: any.
   void wake(std::uint32_t channel) override;
-  /// What is seen of each process with which a channel is shared, in the order of their numbers. Threads: any,
+  /// The gauges of each process with which a channel is shared, in the order of their numbers. Threads: any,
   /// once all ends are made.
   [[nodiscard]] const std::vector<std::unique_ptr<LinkGauges>>& gauges() const { return gauges_; }
-  /// The processes can hear each other, or not any more.
+  /// The processes can hear each other from now on, or no longer.
   void joined(network::ProcessNumber one, network::ProcessNumber other, bool are);
 
  private:
@@ -82,20 +82,20 @@ class Links final : public Waker, private network::Carrier::Listener, private Li
   std::vector<std::unique_ptr<SendingEnd>> senders_;
   std::vector<std::unique_ptr<ReceivingEnd>> receivers_;
   void add_gauges(network::ProcessNumber peer, std::uint32_t channel, Side side);
-  /// The newest message of a channel, to know one that comes again.
+  /// The newest message of a channel, to recognise a repeated one.
   struct Newest {
     LinkGauges* link = nullptr;  ///< to the process at the other end
     network::Incarnation from;
     network::Number number;
     bool recall = false;
-    /// Whether it is none that is newer.
+    /// Whether the message is no newer one.
     bool again(const network::Data& data);
   };
 
-  std::vector<std::unique_ptr<NetworkEnd>> dead_;  // what has died may still be looked at
+  std::vector<std::unique_ptr<NetworkEnd>> dead_;  // ends of dead processes, still readable
   std::vector<std::unique_ptr<LinkGauges>> gauges_;
-  std::vector<Newest> sent_, received_;     // per channel; nullptr: that end is elsewhere
-  std::vector<SendingEnd*> sender_of_;      // per channel; nullptr: it is elsewhere
+  std::vector<Newest> sent_, received_;     // per channel; nullptr: that end is in another process
+  std::vector<SendingEnd*> sender_of_;      // per channel; nullptr: it is in another process
   std::vector<ReceivingEnd*> receiver_of_;  // the same
 };
 

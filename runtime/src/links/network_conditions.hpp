@@ -10,22 +10,23 @@
 
 namespace tessera {
 
-/// What a simulated network does to messages.
+/// The way in which a simulated network treats messages.
 struct NetworkConditions {
   Duration delay = std::chrono::milliseconds(1);  ///< of every message
-  Duration jitter{0};    ///< a message takes up to so much longer, evenly distributed; their order remains
+  Duration jitter{0};    ///< upper bound of an additional delay, evenly distributed; the order of messages
+                         ///< remains
   double loss = 0;       ///< probability that a message is lost
-  double duplicate = 0;  ///< that it arrives twice
-  double reorder = 0;    ///< that later ones may overtake it: it takes up to ten times as long
+  double duplicate = 0;  ///< probability that it arrives twice
+  double reorder = 0;    ///< probability that later ones may overtake it: it takes up to ten times as long
 };
 
-/// Reads the value of `--network`: "delay=2ms,jitter=1ms,loss=0.1,duplicate=0.01,reorder=0.05"; what is left
-/// out keeps its default.
+/// Reads the value of `--network`: "delay=2ms,jitter=1ms,loss=0.1,duplicate=0.01,reorder=0.05"; a missing
+/// name keeps its default.
 ///
-/// Errors: an unknown name, a time or probability that is none: nullopt and `error`.
+/// Errors: an unknown name, an invalid time or probability: nullopt and `error`.
 [[nodiscard]] std::optional<NetworkConditions> read_network(const std::string& text, std::string& error);
 
-/// Two processes that do not hear each other for a while.
+/// Two processes that cannot hear each other for a while.
 struct Cut {
   network::ProcessNumber one = 0, other = 0;
   Time from{}, until{};

@@ -27,7 +27,7 @@ using PlaceRole = FusedPlace::Role;
   return false;
 }
 
-/// Two processes of which no host is told are taken to be on one, as in a first try.
+/// Two processes without a named host count as processes of one host, for a first try.
 [[nodiscard]] bool on_one_host(const System& whole, const Channel& channel) {
   return whole.processes[whole.process_of[channel.from.instance]].host ==
          whole.processes[whole.process_of[channel.to.instance]].host;

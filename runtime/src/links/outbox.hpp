@@ -10,12 +10,12 @@
 
 namespace tessera {
 
-/// The newest value of a sender, on its way to the thread that sends it. Nobody waits: there are three boxes,
-/// one of the writer, one of the reader, and one in between, which each side exchanges for its own. A value
-/// that was not taken is overwritten.
+/// The newest value of a sender, on its way to the thread that sends it. No thread waits: there are three
+/// boxes, one of the writer, one of the reader, and one in between, which each side exchanges for its own. A
+/// value that was not taken is overwritten.
 ///
 /// Threads: one that writes and publishes, one that takes and reads. The exchange of the box in between
-///          releases what was written and acquires what is read.
+/// releases the written bytes and acquires the read ones.
 class Outbox {
  public:
   struct Box {

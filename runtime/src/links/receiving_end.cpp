@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-/// After this time it looks again whether the slot is free, which takes no longer than to copy a value.
+/// After this time, it checks again whether the slot is free. A copy of a value takes no longer.
 constexpr Duration until_free = std::chrono::microseconds(200);
 
 }  // namespace
@@ -33,7 +33,7 @@ ReceivingEnd::~ReceivingEnd() {
 // ------------------------------------------------------------------------------------------ subsystem
 
 std::uint32_t ReceivingEnd::fired(Firing firing, Time now, RecordingLane* lane) {
-  if (firing.elapsed || (firing.taken != 0 && firing.produced != 0)) return 0;  // there was nothing
+  if (firing.elapsed || (firing.taken != 0 && firing.produced != 0)) return 0;  // there was no value
   if (firing.produced == 0) {
     reading_ = static_cast<std::uint32_t>(number_);
     record_peer(from_, now, lane);
@@ -52,7 +52,7 @@ void ReceivingEnd::serve(Time now, LinkServices& services) {
   if (announce_ <= now) announce(now, services);
 }
 
-/// Says that it is there, until a sender is heard of.
+/// Announces this receiver until a sender is heard.
 void ReceivingEnd::announce(Time now, LinkServices& services) {
   answer(receiver_.repeat(), services);
   const auto interval = repetition_.interval();
@@ -117,7 +117,7 @@ void ReceivingEnd::end_read(LinkServices& services) {
   answer(receiver_.end_read(), services);
 }
 
-/// What the token was says what has happened: a read may have ended since the last look.
+/// The token shows what has happened: a read may have ended since the last check.
 bool ReceivingEnd::seize(LinkServices& services) {
   const auto always = [] { return true; };
   for (const std::uint16_t token : {channel().own_memory, channel().empty, channel().full}) {

@@ -15,10 +15,10 @@ namespace tessera {
 
 /// The end at which a subsystem receives from another process.
 ///
-/// Before the service looks at a value, it takes the token of the slot (`empty`, `full`, or the lock of the
-/// memory), and gives back `full` if there is something to read then. If no token is there, the subsystem
-/// reads; the value waits in `held_`. The token passes through the word, whose compare-and-swaps acquire and
-/// release, so that the slot, `number_` and `from_` need no atomics.
+/// Before the service accesses a value, it takes the token of the slot (`empty`, `full`, or the lock of the
+/// memory). It gives back `full` if there is a value to read then. If no token is there, the subsystem is
+/// reading; the value waits in `held_`. The token passes through the word, whose compare-and-swaps acquire
+/// and release, so the slot, `number_` and `from_` need no atomics.
 ///
 /// Threads: as NetworkEnd; serve, hear and next: the service's.
 class ReceivingEnd final : public NetworkEnd {
@@ -37,7 +37,7 @@ class ReceivingEnd final : public NetworkEnd {
             LinkServices& services);
   /// Bytes of the longest encoded value.
   [[nodiscard]] std::size_t longest() const { return encoding_.most; }
-  /// When it wants to be served without news; Time::max(): never.
+  /// When it needs service without news; Time::max(): never.
   [[nodiscard]] Time next() const { return held_.any ? std::min(announce_, look_) : announce_; }
 
  private:
@@ -63,15 +63,15 @@ class ReceivingEnd final : public NetworkEnd {
   SharedChannel& word_;
   const ValueEncoding& encoding_;
   const ValueType* type_;
-  SharedChannel::Memory decoded_;  // a value that may not be one
+  SharedChannel::Memory decoded_;  // a value that may turn out invalid
   std::uint64_t number_ = 0;       // of the value in the slot
-  network::Incarnation from_;      // that has sent it
+  network::Incarnation from_;      // the incarnation that has sent it
   std::uint32_t reading_ = 0;      // used by the subsystem only
 
   network::Receiver receiver_;
   network::Repetition repetition_;
   Held held_;
-  Time announce_{}, look_{};  // when it says that it is there, and looks for the slot again
+  Time announce_{}, look_{};  // when it announces itself, and when it checks the slot again
   bool undecodable_ = false;
 };
 

@@ -39,7 +39,7 @@ std::uint32_t SendingEnd::fired(Firing firing, Time now, RecordingLane* lane) {
     tell();
     return firing.taken == 0 ? 0 : low(number);  // `timeout` touches no place of the channel
   }
-  if (channel().exchanged && firing.produced == 0) return low(number + 1);  // about to be written
+  if (channel().exchanged && firing.produced == 0) return low(number + 1);  // the value about to be written
   if ((firing.taken & channel().empty) != 0) {                              // it was taken
     record_peer({taken_by_.load(std::memory_order_relaxed)}, now, lane);
     return low(number);
@@ -65,7 +65,7 @@ void SendingEnd::serve(Time now, LinkServices& services) {
 void SendingEnd::take_value(Time now, LinkServices& services) {
   if (!outbox_.take()) return;
   const network::Number number{outbox_.front().number};
-  // Its time was up before anybody saw it: the value before it was given up, too.
+  // Its time was over before the service saw it: the value before it was given up, too.
   const bool too_late = given_up_.load(std::memory_order_acquire) >= number.value;
   if (sender_.waiting()) {
     const network::Sender::Effects effects = sender_.time_is_up();
@@ -97,8 +97,8 @@ void SendingEnd::hear(const network::State& state, Time now, LinkServices& servi
                       true);
   }
   if (effects.taken) acknowledge(state.from);
-  // A receiver that says again and again that it is there must not put off what is sent again: it may be what the
-  // receiver lacks.
+  // A receiver that announces itself again and again must not delay the repetition: it may lack exactly that
+  // message.
   if (!effects.send && sender_.repeats()) return;
   if (effects.send) repetition_.start(effects.send->recall);
   send(effects, now, services);

@@ -28,14 +28,14 @@ class SendingEnd final : public NetworkEnd {
   void write(const void* value, Time now, bool valid) override;
   [[nodiscard]] std::uint32_t fired(Firing firing, Time now, RecordingLane* lane) override;
 
-  /// Looks at what the subsystem has done, and sends what is due.
+  /// Handles the actions of the subsystem, and sends everything that is due.
   void serve(Time now, LinkServices& services);
   void hear(const network::State& state, Time now, LinkServices& services);
   /// Bytes of the longest encoded value.
   [[nodiscard]] std::size_t longest() const { return encoding_.most; }
-  /// When it wants to be served without news; Time::max(): never.
+  /// When it needs service without news; Time::max(): never.
   [[nodiscard]] Time next() const { return due_; }
-  /// A value may still have to be delivered. Threads: the service's.
+  /// Whether a value may still have to be delivered. Threads: the service's.
   [[nodiscard]] bool pending() const { return sender_.pending(); }
 
  private:
@@ -49,7 +49,7 @@ class SendingEnd final : public NetworkEnd {
   const ValueEncoding& encoding_;
   Outbox outbox_;
   std::atomic<std::uint64_t> begun_{0};     // the number of the newest value; written by the subsystem
-  std::atomic<std::uint64_t> given_up_{0};  // the newest value whose time was up; written by the subsystem
+  std::atomic<std::uint64_t> given_up_{0};  // the newest value that timed out; written by the subsystem
   std::atomic<std::uint64_t> taken_by_{0};  // incarnation; written by the service before it gives `idle`
 
   network::Sender sender_;

@@ -17,7 +17,7 @@ SimulatedNetwork::SimulatedNetwork(const NetworkConditions& conditions, std::vec
       cuts_(std::move(cuts)),
       outages_(std::move(outages)),
       liveliness_(liveliness),
-      random_(seed ^ 0x6c696e6b73U),  // not the numbers of the order of turns
+      random_(seed ^ 0x6c696e6b73U),  // independent of the random order of turns
       clock_(clock),
       channels_(std::move(channels)),
       joined_(std::move(joined)),
@@ -34,7 +34,7 @@ SimulatedNetwork::SimulatedNetwork(const NetworkConditions& conditions, std::vec
   for (const Outage& outage : outages_) tell_of(outage, pairs);
 }
 
-/// A new start of a process shows as gone, and then there, as it does on a real network.
+/// A new start of a process appears as gone, and then reachable, as on a real network.
 void SimulatedNetwork::tell_of(
     const Outage& outage, const std::set<std::pair<network::ProcessNumber, network::ProcessNumber>>& pairs) {
   const bool ends = outage.until != Time::max();
@@ -62,7 +62,7 @@ void SimulatedNetwork::send(network::ChannelNumber channel, const network::State
 void SimulatedNetwork::send(Message message) {
   const Channel& channel = channels_[message.channel];
   const std::size_t lane = 2 * std::size_t{message.channel} + static_cast<std::size_t>(message.is_state);
-  // Drawn in any case, so that a cut changes nothing but what it cuts.
+  // Always drawn, so that a cut affects no other message.
   const bool lost = happens(conditions_.loss), twice = happens(conditions_.duplicate);
   const Time first = arrival(lane), second = twice ? arrival(lane) : first;
   if (lost || is_cut(channel.sender, channel.receiver, clock_.now())) return;
@@ -70,7 +70,7 @@ void SimulatedNetwork::send(Message message) {
   on_the_way_.emplace(first, std::move(message));
 }
 
-/// Of the next message of a channel in one direction. Only one that takes long is overtaken.
+/// The arrival of the next message of a channel in one direction. Only a slow message is overtaken.
 Time SimulatedNetwork::arrival(std::size_t lane) {
   const Time usual = clock_.now() + conditions_.delay + up_to(conditions_.jitter);
   if (happens(conditions_.reorder))
@@ -84,7 +84,7 @@ void SimulatedNetwork::receive(Listener& listener, std::chrono::nanoseconds /*lo
     const News& news = news_.begin()->second;
     if (news.joined &&
         (is_dead(news.one, now) || is_dead(news.other, now) || is_cut(news.one, news.other, now)))
-      continue;  // there will be news when that is over
+      continue;  // there will be news when the cut is over
     joined_(news.one, news.other, news.joined);
   }
   while (!on_the_way_.empty() && on_the_way_.begin()->first <= now) {

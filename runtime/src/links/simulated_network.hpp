@@ -16,8 +16,9 @@
 
 namespace tessera {
 
-/// A network in memory, as bad as its conditions say. All processes are in one: a value goes to the receiving
-/// end of its channel, a state to the sending end. What it does depends only on the seed and on what is sent.
+/// A network in memory that behaves as its conditions say. All processes are in this program: a value goes to
+/// the receiving end of its channel, a state to the sending end. Its behaviour depends only on the seed and
+/// on the messages.
 ///
 /// Threads: one.
 class SimulatedNetwork final : public network::Carrier {
@@ -25,16 +26,16 @@ class SimulatedNetwork final : public network::Carrier {
   struct Channel {
     network::ProcessNumber sender = 0, receiver = 0;
   };
-  /// joined: two processes hear each other from now on, or have not for the time `liveliness`.
+  /// joined: two processes hear each other from now on, or have not done so for the time `liveliness`.
   using Joined = std::function<void(network::ProcessNumber, network::ProcessNumber, bool)>;
-  /// channels: by number; those within a process are left out by nobody sending on them.
+  /// channels: by number. A channel within a process is included, but never used.
   SimulatedNetwork(const NetworkConditions& conditions, std::vector<Cut> cuts, std::vector<Outage> outages,
                    Duration liveliness, std::uint64_t seed, const Clock& clock, std::vector<Channel> channels,
                    Joined joined);
 
   void send(network::ChannelNumber channel, const network::Data& data, const network::Value& value) override;
   void send(network::ChannelNumber channel, const network::State& state) override;
-  /// Hands over what has arrived by now. Never waits.
+  /// Delivers everything that has arrived by now. Never waits.
   void receive(Listener& listener, std::chrono::nanoseconds longest) override;
   void wake() override {}
 
@@ -74,7 +75,7 @@ class SimulatedNetwork final : public network::Carrier {
   const Clock& clock_;
   std::vector<Channel> channels_;
   Joined joined_;
-  std::vector<Time> last_;  // per channel and direction: the arrival of what was sent last
+  std::vector<Time> last_;  // per channel and direction: the arrival of the last message
   std::multimap<Time, Message> on_the_way_;
   std::multimap<Time, News> news_;
 };

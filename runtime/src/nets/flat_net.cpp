@@ -49,7 +49,8 @@ class Rebuilding {
   }
 
  private:
-  /// What carries the values of a channel between processes (src/layers/networked.cpp).
+  /// Adds the places and transitions that carry the values of a channel between processes
+  /// (src/layers/networked.cpp).
   void add_media() {
     struct Delivery {
       std::string_view name;

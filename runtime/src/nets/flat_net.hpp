@@ -25,7 +25,7 @@ struct FlatNet {
   };
   std::vector<FlatPlace> places;
   /// t_in, t_out of the system; then those of the agents; then, per instance, in the order of its table; then
-  /// what the network between processes does, per channel.
+  /// the transitions of the network between processes, per channel.
   std::vector<FlatTransition> transitions;
   std::vector<std::uint32_t> first_of_instance;  ///< into transitions
 

@@ -10,8 +10,8 @@
 
 namespace tessera {
 
-/// The net of a subsystem, prepared for firing: names resolved to indices, arcs in compressed rows.
-/// Instances with the same tables share one. Immutable; can be moved, not copied.
+/// The net of a subsystem, prepared for firing: names resolved to indices, arcs in compressed rows. Instances
+/// with the same tables share one. It is immutable, and can be moved but not copied.
 struct Plan {
   static constexpr std::uint32_t none = UINT32_MAX;
 

@@ -10,11 +10,12 @@
 namespace tessera {
 
 /// The part of a system that runs here: all of it, or the agents of one process. Its tables number instances
-/// and channels anew; everything but recordings, messages to other processes, and the hash uses these numbers.
+/// and channels anew; all code uses these numbers except recordings, messages to other processes, and the
+/// hash.
 ///
 /// A channel that ends in another process has no port there. One between two other processes is left out.
 ///
-/// Can be moved, not copied: its tables refer to it.
+/// It can be moved but not copied, because its tables refer to it.
 struct ProcessPart {
   ProcessPart() = default;
   ProcessPart(const ProcessPart&) = delete;

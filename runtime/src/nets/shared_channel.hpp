@@ -30,16 +30,16 @@ namespace tessera {
 /// a firing (it changes the marking and who fired last) and a registration that shrinks (it may release
 /// the other side, see below). Nothing else can make a need takeable.
 ///
-/// *Fairness.* A side that has been passed over says so when it registers again: it had registered,
-/// was woken, and found that the other side had fired again. From then on, the side that fired last
-/// does not take while the other is registered for a need that is met; it registers itself instead.
-/// This cannot block. The two sides cannot both be the last to fire, so the registered side may take.
-/// It has been woken by the change that met its need (above). Then it either takes, becomes the one that
-/// fired last, and wakes the first side; or it takes another way and withdraws the registration (before it
-/// runs any user code), which wakes the first side, too. Transitions that only give are never held back.
-/// A registration names each need and not their union, because a side must not be held back for a need
-/// that is met only in part. The first registration holds nobody back. Otherwise two busy sides would
-/// sleep and wake each other at every single turn.
+/// *Fairness.* A side that has been passed over says so when it registers again: it had registered, was
+/// woken, and found that the other side had fired again. From then on, the side that fired last does not take
+/// while the other is registered for a need that is met; it registers itself instead. This cannot block. The
+/// two sides cannot both be the last to fire, so the registered side may take. It has been woken by the
+/// change that met its need (above). Then it either takes, becomes the one that fired last, and wakes the
+/// first side; or it takes another way and withdraws the registration (before it runs any user code), which
+/// wakes the first side, too. Transitions that only give are never held back. A registration names each need
+/// and not their union, because a side must not be held back for a need that is met only in part. The first
+/// registration holds no side back. Otherwise two busy sides would sleep and wake each other at every single
+/// turn.
 ///
 /// The memory has one or more slots. A slot belongs to the side that has taken the token with which the
 /// net protects it. That token passes through the word, whose compare-and-swaps acquire and release, so
@@ -57,7 +57,7 @@ class alignas(64) SharedChannel {
   SharedChannel& operator=(const SharedChannel&) = delete;
 
   /// needs: the sets of fused places that the side's transitions take, as bits.
-  /// waker: nullptr wakes nobody.
+  /// waker: nullptr wakes no thread.
   void connect(Side side, Waker* waker, std::uint32_t instance, std::vector<std::uint16_t> needs);
   /// Both sides run in one thread.
   void set_single_threaded();
@@ -66,9 +66,9 @@ class alignas(64) SharedChannel {
   /// fire now. Otherwise: the version that this firing made; the registration of `side` is removed.
   [[nodiscard]] std::uint32_t fire(Side side, std::uint16_t taken, std::uint16_t produced);
 
-  /// As fire, but only if `still()` holds after the word was read that the firing replaces. What a firing of
-  /// the other side has made visible before that word is visible to `still`. Yields to nobody: it is for those
-  /// who do not fire for long.
+  /// As fire, but only if `still()` holds after the read of the word that the firing replaces. Everything
+  /// that the other side has published before that word is visible to `still`. It ignores fairness: it is for
+  /// callers that rarely fire.
   template <class Still>
   [[nodiscard]] std::uint32_t fire_if(Side side, std::uint16_t taken, std::uint16_t produced, Still still);
 

@@ -19,10 +19,10 @@ class MarkingTrack {
   static constexpr std::uint32_t none = UINT32_MAX;
   MarkingTrack(const FlatNet& net, std::vector<std::uint32_t> channels);
 
-  /// Whether the input places hold tokens, and the version is the next of its channel: every firing before
-  /// it has been recorded. Always true once the marking is not known any more.
+  /// Whether the input places hold tokens, and the version is the next of its channel: every firing before it
+  /// has been recorded. Always true once the marking is unknown.
   [[nodiscard]] bool may_fire(const Event& firing) const;
-  /// If the transition cannot fire because events are missing, the marking is not known any more.
+  /// If the transition cannot fire because events are missing, the marking becomes unknown.
   void fire(const Event& firing);
   [[nodiscard]] bool known() const { return known_; }
   /// From now on, firings come in any order.

@@ -46,7 +46,7 @@ std::string keep_scene(const WorldScene& scene, const std::string& recording, st
   std::error_code problem;
   if (!fs::is_regular_file(recording, problem)) return {};
   const std::string file = scene_file(recording, hash_of(scene));
-  // Its name says what it holds, unless it was cut off.
+  // An existing file of that name has the same content, unless it was cut off.
   if (fs::is_regular_file(fs::symlink_status(file, problem)) &&
       fs::file_size(file, problem) == scene.glb.size())
     return file;

@@ -17,7 +17,7 @@ namespace tessera {
 class PoseRecorder final : public PoseSink {
  public:
   PoseRecorder(RecordingLane& lane, const Clock& clock, const WorldScene& scene);
-  /// In real time, a frame has the time at which it is taken: the time of a slow world falls behind.
+  /// In real time, a frame has the time at which it is taken: a slow world falls behind.
   void take(Time time, std::span<const BodyPose> poses) override;
 
  private:
@@ -26,11 +26,11 @@ class PoseRecorder final : public PoseSink {
   PoseEncoder encoder_;
 };
 
-/// What tells scenes apart, and names their files.
+/// The identity of a scene, which is also its file name.
 [[nodiscard]] std::string hash_of(const WorldScene& scene);
 
-/// Writes the scene beside the recording. If the recording is no regular file, there is no place for it.
-/// Returns the file. Empty and `error`: it could not be written; the run goes on without it.
+/// Writes the scene beside the recording. A recording that is no regular file has no scene. Returns the file.
+/// Empty and `error`: it could not be written; the run goes on without it.
 [[nodiscard]] std::string keep_scene(const WorldScene& scene, const std::string& recording,
                                      std::string& error);
 

@@ -204,9 +204,9 @@ void Recorder::drain() {
   for (const auto& lane : lanes_) lane->drain();
 }
 
-/// Segments can be checked by themselves because every firing comes after those on which it depends. A
-/// firing waits for those as long as the threads need, however busy the machine is. Only if one of them is
-/// lost, or events will soon be lost, the rest is written as it comes.
+/// Segments can be checked on their own because every firing comes after those on which it depends. A firing
+/// waits for those as long as the threads need, however busy the machine is. Only if one of them is lost, or
+/// events will soon be lost, are the rest written in the order of arrival.
 void Recorder::drain_in_order() {
   bool moved = true, give_up = false;
   while (moved && !give_up) {

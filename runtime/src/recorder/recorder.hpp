@@ -19,10 +19,10 @@
 
 namespace tessera {
 
-/// What a recording begins with.
+/// The beginning of a recording.
 struct RecordingHeader {
   std::string json;
-  // What older versions cannot read:
+  // Parts that older versions cannot read:
   bool has_scene = false;   ///< there may be poses
   bool has_memory = false;  ///< the memory of subsystems is among the values
 };
@@ -52,9 +52,9 @@ class RecordingFile {
   void put_end(std::uint64_t lost);
   void flush();
   void close();
-  /// Nothing is written any more.
+  /// Stops writing.
   void fail(std::string_view why) { failure_ = why; }
-  /// The run has ended: waits at most two seconds more for a pipe that nobody reads. Threads: any.
+  /// The run has ended: waits at most two more seconds for a pipe that is not read. Threads: any.
   void hurry() { hurry_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
   [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
@@ -105,7 +105,7 @@ class RecordingLane {
              std::span<const std::byte> bytes);
   [[nodiscard]] std::uint64_t lost() const { return lost_; }
   /// Writes the content of the ring to the file. in_order: only up to a firing that depends on one that is
-  /// not in the file yet. true: there was something.
+  /// not in the file yet. true: there was an event.
   bool drain(bool in_order = false);
   /// The state of the ring as the writer sees it.
   struct Backlog {
@@ -146,7 +146,7 @@ class Recorder {
                                                       std::size_t longest = 0, RunOptions::Limit limit = {},
                                                       std::unique_ptr<MarkingTrack> track = nullptr,
                                                       std::span<const std::uint32_t> numbers = {});
-  /// Writes nothing: everything is only counted. The tally must live longer.
+  /// Writes no file, and only counts. The tally must live longer.
   [[nodiscard]] static std::unique_ptr<Recorder> counting(std::uint32_t instances, RunTally& tally);
   ~Recorder();
 

@@ -18,7 +18,7 @@
 namespace tessera {
 namespace {
 
-// at the end of the run, for a pipe that nobody reads
+// the wait at the end of the run for a pipe that is not read
 constexpr std::int64_t pipe_patience_ns = 2'000'000'000;
 constexpr int look_up_ms = 50;
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
@@ -112,7 +112,7 @@ void RecordingFile::put(const Event& event) {
   if (filled_ == buffer_.size()) flush();
 }
 
-/// Tracks the marking. Each segment ends with an event that says so.
+/// Tracks the marking at the ends of segments.
 void RecordingFile::keep_track(const Event& event) {
   if (segment_bytes_ + (2 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
     begin_segment(event.time_ns);

@@ -5,7 +5,7 @@
 namespace tessera {
 
 void RunTally::note(std::uint32_t instance, Fault fault, Time time, std::string_view text) {
-  // Comes from a signal handler, in which nothing may be allocated; the process ends after it.
+  // It comes from a signal handler, which must not allocate; the process ends after it.
   if (fault == Fault::crash) return;
   const std::string_view name = instance == system_instance ? name_in_fault(text) : "";
   const auto seen = std::ranges::find_if(faults_, [&](const SeenFault& one) {

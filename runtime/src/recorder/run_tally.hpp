@@ -11,24 +11,24 @@
 
 namespace tessera {
 
-/// By what faults of the system, "NAME: what", are told from each other.
+/// The name by which faults of the system, "NAME: what", are told apart.
 [[nodiscard]] inline std::string_view name_in_fault(std::string_view text) {
   return text.substr(0, text.find(": "));
 }
 
-/// Counts what happens in one run where nothing is recorded: firings, and faults by class and name.
+/// Counts the events of a run that is not recorded: firings, and faults by class and name.
 ///
-/// Threads: the one of a simulated run.
+/// Threads: that of a simulated run.
 class RunTally {
  public:
   /// All faults of one class and one name.
   struct SeenFault {
     Fault fault{};
     std::uint32_t instance = 0;  ///< or system_instance
-    std::string name;            ///< of a fault of the system: as its text begins; else empty
+    std::string name;            ///< for a fault of the system: the beginning of its text; otherwise empty
     std::uint64_t count = 0;
     Time first{};
-    std::string text;  ///< of the first
+    std::string text;  ///< of the first such fault
   };
 
   /// firings: a counter per transition, numbered as in recordings. Empty: firings are not counted.
@@ -37,7 +37,7 @@ class RunTally {
   void fire(std::uint32_t transition) {
     if (transition < firings_.size()) ++firings_[transition];
   }
-  /// text: as in a recording. A fault of the system, "NAME: what", is told from others by its name.
+  /// text: as in a recording. The name tells faults of the system, "NAME: what", apart.
   void note(std::uint32_t instance, Fault fault, Time time, std::string_view text);
 
   /// In the order in which they were first seen.

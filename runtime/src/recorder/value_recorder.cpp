@@ -45,7 +45,7 @@ ValueRecorder::ValueRecorder(const Bindings& bindings, std::uint32_t first_buffe
   });
 }
 
-/// Whether the value has changed; `written` becomes the value now.
+/// Whether the value has changed; `written` becomes the present value.
 bool ValueRecorder::changed(Buffer& buffer) {
   buffer.now.clear();
   buffer.encoding->put(buffer.value, buffer.now);
@@ -89,7 +89,7 @@ void ValueRecorder::real_input(std::size_t index, Time now, Reading reading) {
   const bool failed = reading == Reading::failed;
   if (std::exchange(buffer.silent, true) && !failed) return;
   lane_.value(now, buffer.number, failed ? ValueFlags::failed : ValueFlags::silent, {}, {});
-  // Whether the device has no value, or throws again, is recorded again.
+  // If the device then has no value or throws again, that is recorded again.
   if (failed) buffer.silent = false, buffer.known = false;
 }
 

@@ -18,8 +18,8 @@ namespace tessera {
 /// Threads: the subsystem's. Only the constructor allocates.
 class ValueRecorder {
  public:
-  /// limit: of larger values only size and hash are written.
-  /// first_memory: the number of its first field of memory.
+  /// limit: larger values are recorded by size and hash only. first_memory: the number of its first field of
+  /// memory.
   ValueRecorder(const Bindings& bindings, std::uint32_t first_buffer, std::uint32_t first_memory,
                 std::uint64_t limit, RecordingLane& lane);
 

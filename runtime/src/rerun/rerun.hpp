@@ -10,7 +10,7 @@
 
 namespace tessera {
 
-/// A point where user code did something else than in the recording.
+/// A point where user code acted differently from the recording.
 struct Difference {
   std::string subsystem;
   Time at{};                ///< of the call of the transition function, or of the decision
@@ -34,7 +34,7 @@ struct RerunReport {
     std::vector<PerBuffer> outputs;
   };
   std::vector<PerSubsystem> subsystems;
-  std::optional<Difference> first;  ///< by time; nullopt: the code does what it did
+  std::optional<Difference> first;  ///< the earliest one; nullopt: the code acts as in the recording
 };
 
 /// Runs the user's code of a controller again on recorded data. Every transition function and every
@@ -51,9 +51,9 @@ struct RerunReport {
 [[nodiscard]] std::optional<RerunReport> rerun(const System& system, RunOptions options,
                                                const std::string& recording, std::string& error);
 
-/// For people.
+/// As text for people.
 [[nodiscard]] std::string rerun_text(const RerunReport& report);
-/// For machines.
+/// As JSON for programs.
 [[nodiscard]] std::string rerun_json(const RerunReport& report);
 
 }  // namespace tessera

@@ -42,7 +42,7 @@ using Entry = Recording::Entry;
   return kind == Fault::device || kind == Fault::stall;
 }
 
-/// Takes every command. A refusal is taken from the recording.
+/// Accepts every command. Refusals come from the recording.
 class DeafEffector final : public RealEffector {
   bool write(std::span<const std::byte>) override { return true; }
 };

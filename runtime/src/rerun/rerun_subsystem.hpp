@@ -79,7 +79,7 @@ class RerunSubsystem {
   Operations operations_;
   std::vector<Reads> reads_;  // per buffer; of inputs
   std::vector<Output> outputs_;
-  std::map<std::uint32_t, int> decided_;        // per place with a token that has been decided on
+  std::map<std::uint32_t, int> decided_;        // per place with a token on which a condition was decided
   const RecordedMoment* unfinished_ = nullptr;  // the call that runs
   Time at_{};
   std::uint64_t iteration_ = 0;

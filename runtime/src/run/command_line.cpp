@@ -122,7 +122,7 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
                       "(default: delay=1ms)");
 }
 
-/// Returns what is wrong with the words; empty: nothing, and the options are filled.
+/// Returns the mistake in the words; empty: there is none, and the options are filled.
 [[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
   if (!words.duration.empty()) {
     options.duration = parse_duration(words.duration);

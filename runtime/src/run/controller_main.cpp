@@ -33,9 +33,9 @@ void complain(std::string_view what) { fmt::print(stderr, "error: {}\n", printab
 }
 
 [[nodiscard]] int report(const RunSummary& summary, const CommandLine& line) {
-  // Does not delay the end if the terminal takes nothing.
+  // The end must not wait for a blocked terminal.
   const console::Session session;
-  // A user who asks for a summary file shows its content.
+  // A user who asks for a summary file prints it himself.
   if (summary.failed && line.summary.empty()) console::say(printable(summary_lines(summary)));
   if (!line.summary.empty() && !write_summary(line.summary, summary_json(summary, line.options))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
@@ -45,7 +45,7 @@ void complain(std::string_view what) { fmt::print(stderr, "error: {}\n", printab
   return summary.signal == 0 ? exit_ok : exit_signal + summary.signal;
 }
 
-/// Without the ends of objects, which threads still use.
+/// Does not destroy objects that threads still use.
 [[noreturn]] void end_process(const RunSummary& summary, const CommandLine& line) {
   const int code = report(summary, line);
   static_cast<void>(console::Session().settle());
@@ -60,7 +60,7 @@ void complain(std::string_view what) { fmt::print(stderr, "error: {}\n", printab
     complain(error);
     return exit_failed;
   }
-  // A user who asks for a summary file shows its content.
+  // A user who asks for a summary file prints it himself.
   if (line.summary.empty()) fmt::print(stderr, "{}", printable(schedules_text(*report)));
   if (!line.summary.empty() && !write_summary(line.summary, schedules_json(*report))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);

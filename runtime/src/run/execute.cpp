@@ -63,7 +63,7 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   return names;
 }
 
-/// Returns what went wrong. left_behind: per instance, whether its devices stay open; empty: none.
+/// Returns the failures. left_behind: per instance, whether its devices stay open; empty: none.
 std::vector<std::string> close_devices(Assembly& assembly, const std::vector<bool>& left_behind) {
   std::vector<std::string> wrong;
   for (const bool effectors : {false, true})
@@ -89,8 +89,8 @@ class OpenDevices {
     close();
   }
 
-  /// Effectors are opened first, so that they are safe soon. false and `error`: the run must not start;
-  /// no device is open any more.
+  /// Effectors are opened first, so that they are safe soon. false and `error`: the run must not start; all
+  /// devices are closed again.
   [[nodiscard]] bool open(std::string& error) {
     open_ = true;
     for (const bool effectors : {true, false})
@@ -106,12 +106,12 @@ class OpenDevices {
     return true;
   }
 
-  /// Returns what went wrong.
+  /// Returns the failures.
   std::vector<std::string> close() {
     open_ = false;
     return close_devices(assembly_, {});
   }
-  /// The same, for no longer than `closing_patience`: a driver that does not return may hold what others need.
+  /// The same, for no longer than `closing_patience`: a driver that does not return may block the others.
   /// left_behind: per instance, whether its devices stay open.
   void close_what_can_be_closed(const std::vector<bool>& left_behind) {
     open_ = false;
@@ -128,7 +128,7 @@ class OpenDevices {
   bool open_ = false;
 };
 
-/// Everything except what only the driver of the run knows.
+/// Fills in everything except the facts that only the driver of the run knows.
 template <class Run>
 [[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
                                               std::string& error) {
@@ -211,14 +211,14 @@ template <class Run>
 
 namespace {
 
-/// Greater than that of every earlier start, if the clock of the machine goes on.
+/// Greater than that of every earlier start, unless the clock of the machine was set back.
 [[nodiscard]] network::Incarnation incarnation_of(const RunOptions& options) {
   if (options.network.process.empty()) return {1};
   if (options.network.incarnation) return {*options.network.incarnation};
   return new_incarnation(options.recording, options.network.process);
 }
 
-/// Without the devices of other processes.
+/// The options without the devices of other processes.
 [[nodiscard]] RunOptions options_of(const ProcessPart& part, RunOptions options) {
   if (!part.process) return options;
   const auto agents = agents_of(part.system);
@@ -244,7 +244,7 @@ namespace {
   return names;
 }
 
-/// nullopt and `error`: it is not said what to run.
+/// nullopt and `error`: the options do not say which process to run.
 [[nodiscard]] std::optional<ProcessPart> part_to_run(const System& system, const RunOptions& options,
                                                      std::string& error) {
   const std::string& process = options.network.process;
@@ -283,7 +283,8 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   const auto instances = static_cast<std::uint32_t>(part->system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
-  // From before the first driver is made until the last is gone. Only the steady clock can be suspended.
+  // In force from before the first driver is made until the last is gone. Only the steady clock can be
+  // suspended.
   using Suspension = StopSignals::Suspension;
   const StopSignals signals(nothing_real ? Suspension::usual
                             : simulated  ? Suspension::ends_run
@@ -291,7 +292,7 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   // Must run before there are threads.
   Companions companions(part->system, options);
   if (!companions.start_guardian(error)) return std::nullopt;
-  // After the guardian, which would inherit it.
+  // Made after the guardian, which would inherit it.
   std::optional<ProcessClaim> claim;
   if (part->process) claim.emplace(claimed(*part, options));
   if (claim && claim->other()) {
@@ -299,7 +300,7 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
     error = runs_already(claimed(*part, options), *claim->other());
     return std::nullopt;
   }
-  // Nothing real waits for a slow reader of the output.
+  // No real device waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
   companions.watch_parent();

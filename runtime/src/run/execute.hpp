@@ -9,8 +9,8 @@
 
 namespace tessera {
 
-/// As the public execute. tally: counts what happens, if nothing is recorded; nullptr: nothing is counted.
-/// give_up: what to do if user code never returns.
+/// As the public execute. tally: counts the events of a run that is not recorded; nullptr: they are not
+/// counted. give_up: the action if user code never returns.
 [[nodiscard]] std::optional<RunSummary> execute(const System& system, const RunOptions& options,
                                                 RunTally* tally, const GiveUp& give_up, std::string& error);
 

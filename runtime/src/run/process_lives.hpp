@@ -12,28 +12,26 @@ namespace tessera {
 
 /// Processes that die and begin again in a simulated run, as `--inject process:...` says.
 ///
-/// A death stops all subsystems of the process at one instant, whatever they were doing. Their devices get
-/// the safe
-/// command, as a guardian would give it. A new start has subsystems, channels and devices that were made
-/// anew, and
-/// the next incarnation. What the process had sent is still on its way.
+/// A death stops all subsystems of the process at one instant, in any state. Their devices get the safe
+/// command, as a guardian would give it. A new start has new subsystems, channels and devices, and the next
+/// incarnation. Messages that the process had sent are still on their way.
 ///
 /// Threads: the run's.
 class ProcessLives {
  public:
-  /// Where something happens next; Time::max(): nowhere.
+  /// The time of the next change; Time::max(): there is none.
   [[nodiscard]] Time next(const Assembly& assembly) const;
-  /// A dead process will begin again.
+  /// Whether a dead process will begin again.
   [[nodiscard]] bool awaits_start() const { return !starts_.empty(); }
 
   struct Change {
-    bool died = false;                       ///< else begun again
+    bool died = false;                       ///< otherwise it began again
     std::vector<std::uint32_t> instances{};  ///< of the process
   };
-  /// Makes the next change that is due happen; nullopt: none is due, or `error` says what failed.
+  /// Carries out the next change that is due; nullopt: none is due, or `error` says what failed.
   [[nodiscard]] std::optional<Change> follow(Assembly& assembly, UpperLayers& upper, Time now,
                                              std::string& error);
-  /// Firings of starts that have ended.
+  /// The number of firings of starts that have ended.
   [[nodiscard]] static std::uint64_t past_firings(const Assembly& assembly);
 
  private:

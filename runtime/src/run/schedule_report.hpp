@@ -18,11 +18,11 @@ struct SeedRange {
   bool operator==(const SeedRange&) const = default;
 };
 
-/// Something that went wrong in one run: a class of faults, or a way to fail, and where.
+/// A fault or failure in one run: its kind, and where it happened.
 struct ScheduleEvent {
   std::string kind;  ///< "assertion", "deadlock", ...: one of schedule_event_kinds
-  std::string name;  ///< the subsystem, or the check of the system; empty: of no one
-  double at_s = 0;   ///< of the first in the run; NaN: not known
+  std::string name;  ///< the subsystem, or the check of the system; empty: neither
+  double at_s = 0;   ///< time of the first one in the run; NaN: not known
   std::string text;
 };
 
@@ -37,16 +37,16 @@ struct ScheduleResult {
   std::vector<ScheduleEvent> events;  ///< each kind and name once; a run that failed has at least one
 };
 
-/// How often something went wrong.
+/// The frequency of one kind of fault or failure.
 struct ScheduleOutcome {
-  std::uint64_t runs = 0;    ///< in which it happened
-  std::uint64_t failed = 0;  ///< of these runs; in the others, the controller went on all the same
+  std::uint64_t runs = 0;    ///< runs in which it happened
+  std::uint64_t failed = 0;  ///< runs among them that failed; in the others, the controller went on
   std::uint64_t first_seed = 0;
-  double at_s = 0;  ///< in the run of the first seed
+  double at_s = 0;  ///< time in the run of the first seed
   std::string text;
 };
 
-/// The kinds of what can go wrong, in the order of the table.
+/// The kinds of faults and failures, in the order of the table.
 [[nodiscard]] const std::vector<std::string>& schedule_event_kinds();
 
 /// The result of trying many schedules.
@@ -54,7 +54,7 @@ struct ScheduleReport {
   std::string system, net_hash;
   std::uint64_t first_seed = 1, asked = 0;
   std::uint64_t tried = 0;    ///< completed runs
-  std::uint64_t failed = 0;   ///< of these
+  std::uint64_t failed = 0;   ///< runs among them that failed
   unsigned jobs = 1;          ///< processes that ran at a time
   Duration simulated{};       ///< sum over all runs
   std::uint64_t firings = 0;  ///< sum over all runs
@@ -62,7 +62,7 @@ struct ScheduleReport {
   int interrupted = 0;  ///< the signal that ended the search; 0: none
   std::vector<SeedRange> ran;
   std::map<std::pair<std::string, std::string>, ScheduleOutcome> outcomes;  ///< by kind and name
-  /// By kind alone; a run counts once, however many subsystems have the fault. All kinds are there.
+  /// By kind alone; a run counts once, however many subsystems have the fault. All kinds are present.
   std::map<std::string, ScheduleOutcome> kinds;
   struct Failure {
     std::uint64_t seed;
@@ -70,8 +70,8 @@ struct ScheduleReport {
     std::string ended;
   };
   std::optional<Failure> first_failure;  ///< that of the lowest seed
-  /// Seeds named as first whose run, made again alone in a process, went otherwise: something of the user's
-  /// code lasts from run to run.
+  /// Seeds reported as first whose run had another result when it was repeated alone in a process: user code
+  /// keeps some state from run to run.
   std::vector<std::uint64_t> not_repeated;
   /// Firings of each transition over all runs; empty: not counted.
   std::vector<std::pair<std::string, std::uint64_t>> transitions;
@@ -90,7 +90,7 @@ struct ScheduleReport {
 /// "at_s", "text"}; an unknown "at_s" is null. If firings were counted, also "transitions": {name: firings}.
 [[nodiscard]] std::string schedules_json(const ScheduleReport& report);
 
-/// One line of JSON, without its end; and back (nullopt: it is none).
+/// Writes a result as one line of JSON, without line end; and reads it (nullopt: invalid).
 [[nodiscard]] std::string to_line(const ScheduleResult& result);
 [[nodiscard]] std::optional<ScheduleResult> from_line(std::string_view line);
 

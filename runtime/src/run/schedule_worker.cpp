@@ -27,9 +27,9 @@
 namespace tessera {
 namespace {
 
-// Ends of a worker. What it has said before tells more.
+// Exit codes of a worker. The lines that it has written say more.
 constexpr int exit_done = 0, exit_unheard = 3;
-/// Begins a line of a worker that is no result.
+/// The first character of a line that is not a result.
 constexpr char error_mark = '!';
 
 [[nodiscard]] std::string_view name_of(RunSummary::Failure failure) {
@@ -75,7 +75,7 @@ constexpr char error_mark = '!';
   return result;
 }
 
-/// false: nobody listens any more.
+/// false: the reader has gone.
 [[nodiscard]] bool put_line(int descriptor, std::string line) {
   line += '\n';
   for (std::string_view left = line; !left.empty();) {
@@ -86,9 +86,9 @@ constexpr char error_mark = '!';
   return true;
 }
 
-/// A run takes and frees the same memory as the one before; the system need not clear it each time.
+/// Each run allocates and frees the same memory as the one before, so the process keeps it.
 void keep_memory() {
-  constexpr int most = 32 << 20;  // glibc takes no more
+  constexpr int most = 32 << 20;  // the upper limit of glibc
   mallopt(M_MMAP_THRESHOLD, most);
   mallopt(M_TRIM_THRESHOLD, most);
   mallopt(M_TOP_PAD, 1 << 24);
@@ -141,14 +141,14 @@ SharedCounters::~SharedCounters() {
 }
 
 std::optional<std::uint64_t> SeedQueue::take(unsigned worker) {
-  // What nobody takes is not counted: the number never passes the last.
+  // A run that is not taken is not counted: the number never exceeds the last.
   std::uint64_t run = at(0).load();
   do {
     if (run >= count_) {
       at(1 + std::size_t{worker}).store(0);
       return std::nullopt;
     }
-    // First: if the process dies right behind taking it, the run is known.
+    // Written first: if the process dies right after this, the run is known.
     at(1 + std::size_t{worker}).store(run + 1);
   } while (!at(0).compare_exchange_weak(run, run + 1));
   return first_ + run;
@@ -187,7 +187,7 @@ ScheduleWorker::ScheduleWorker(const Task& task, unsigned number)
   process_->output = ends[0];
   process_->note = memfd_create("tessera_death", MFD_CLOEXEC);
   fcntl(process_->output, F_SETFL, O_NONBLOCK);
-  std::fflush(nullptr);  // what is buffered must not be written twice
+  std::fflush(nullptr);  // buffered text must not be written twice
   const pid_t parent = getpid();
   process_->id = fork();
   if (process_->id < 0) {
@@ -211,7 +211,7 @@ ScheduleWorker::ScheduleWorker(const Task& task, unsigned number)
     std::fprintf(stderr, "error: %s\n", exception.what());
   }
   std::fflush(nullptr);
-  _exit(code);  // what else this process inherited is the parent's to end
+  _exit(code);  // the parent ends everything else that this process inherited
 }
 
 ScheduleWorker::~ScheduleWorker() = default;

@@ -29,7 +29,7 @@ class SharedCounters {
   std::span<std::uint64_t> all_;
 };
 
-/// The seeds of all runs, which the workers take one by one, and the seed that each of them has.
+/// The seeds of all runs, which the workers take one by one, and the present seed of each worker.
 class SeedQueue {
  public:
   SeedQueue(std::uint64_t first, std::uint64_t count, unsigned workers)
@@ -60,7 +60,7 @@ class ScheduleWorker {
     const RunOptions& options;  ///< of each run, but for the seed
     SeedQueue& seeds;
     std::span<std::uint64_t> firings;  ///< per transition, in shared memory; empty: not counted
-    bool quiet = false;                ///< standard error of the process goes nowhere
+    bool quiet = false;                ///< standard error of the process is discarded
   };
   /// Forks. Throws std::runtime_error if that is not possible.
   ScheduleWorker(const Task& task, unsigned number);
@@ -70,9 +70,9 @@ class ScheduleWorker {
   ~ScheduleWorker();
 
   [[nodiscard]] unsigned number() const { return number_; }
-  /// Readable when it has something to say, or has ended.
+  /// Readable when it has sent a line, or has ended.
   [[nodiscard]] int descriptor() const;
-  /// What it has said since the last call. Does not wait.
+  /// Its lines since the last call. Does not wait.
   struct News {
     std::vector<ScheduleResult> results;
     struct Refusal {
@@ -84,8 +84,8 @@ class ScheduleWorker {
   };
   [[nodiscard]] News read();
   void signal(int signal) const;
-  /// Waits for its end. Returns how it died, "killed by SIGSEGV at address 0x0 in robot.control.follow"; empty:
-  /// it ended as it should.
+  /// Waits for its end. Returns how it died, "killed by SIGSEGV at address 0x0 in robot.control.follow";
+  /// empty: it ended normally.
   [[nodiscard]] std::string death();
 
  private:

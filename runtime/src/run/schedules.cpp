@@ -27,7 +27,7 @@ namespace {
 
 constexpr std::int64_t schedules_progress_period_ns = 200'000'000;
 constexpr int between_looks_at_workers_ms = 100;
-/// From then on the processes that follow are quiet: their deaths say the same.
+/// After this number of deaths, further processes are quiet, because their messages are the same.
 constexpr std::uint64_t deaths_to_be_heard = 4;
 constexpr std::size_t most_repeated = 16;
 constexpr const char* cannot_start = "no start";
@@ -65,7 +65,7 @@ class Schedules {
     report_.jobs = jobs_;
   }
 
-  /// Standard error of the processes goes nowhere.
+  /// Discards standard error of the processes.
   void be_quiet() { deaths_ = deaths_to_be_heard; }
 
   /// nullopt and `error`: no run can start.
@@ -119,7 +119,7 @@ class Schedules {
     poll(outputs.data(), outputs.size(), between_looks_at_workers_ms);
   }
 
-  /// A signal of the terminal reaches all processes, another one only this.
+  /// A signal of the terminal reaches all processes, another one only this process.
   void pass_signals_on() {
     if (parent_ != 0 && StopSignals::pending() == 0 && getppid() != parent_) kill(getpid(), SIGTERM);
     const int signal = StopSignals::pending();
@@ -144,7 +144,8 @@ class Schedules {
   void hear_result(unsigned number, ScheduleResult result) {
     heard_[number] = result.seed;
     if (result.interrupted && StopSignals::pending() != 0) return;  // it is not complete
-    if (result.interrupted && !plants_signals()) {                  // somebody has stopped this one process
+    if (result.interrupted && !plants_signals()) {                  // this one process was stopped from
+                                                                    // outside
       result.failed = true;
       result.events.push_back({.kind = "other", .name = "", .at_s = 0, .text = result.ended});
     }
@@ -156,7 +157,7 @@ class Schedules {
                                [](const std::string& fault) { return fault.starts_with("signal:"); });
   }
 
-  /// If the first run that says anything cannot start, none can. Otherwise it is this seed's misfortune.
+  /// If the first run that reports cannot start, no run can. Later, only this seed is affected.
   void hear_refusal(unsigned number, std::uint64_t seed, std::string why, std::string& error) {
     heard_[number] = seed;
     if (report_.tried == 0)
@@ -204,14 +205,15 @@ class Schedules {
   const System& system_;
   bool progress_;
   ScheduleReport report_;
-  std::map<unsigned, std::optional<std::uint64_t>> heard_;  // per number of a worker: of which seed last
+  std::map<unsigned, std::optional<std::uint64_t>> heard_;  // per number of a worker: the seed of its last
+                                                            // report
   std::uint64_t deaths_ = 0;
   int passed_on_ = 0;
   std::int64_t start_ns_ = monotonic_ns(), shown_ns_ = start_ns_;
   Workers workers_;
 };
 
-/// Of the runs that the report names first: those that go otherwise when they are all that a process does.
+/// The seeds that the report names first and whose run differs when a process makes only that run.
 [[nodiscard]] std::vector<std::uint64_t> not_repeated(const ScheduleReport& report, const System& system,
                                                       RunOptions options, int parent) {
   std::set<std::uint64_t> seeds;

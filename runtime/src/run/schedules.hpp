@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// Which schedules to try, and how.
+/// The schedules to try, and the way to try them.
 struct ScheduleRequest {
   std::uint64_t count = 0;
   unsigned jobs = 0;      ///< processes at a time; 0: one per core that this process may use
@@ -23,8 +23,8 @@ struct ScheduleRequest {
 /// Without a duration, a run that does not end goes on for ever. A signal ends it with the results so far.
 ///
 /// Errors: the controller cannot start: nullopt and `error`.
-/// Threads: none may run: it forks a process per job. Data that user code keeps outside its subsystems lasts
-///          from run to run in one process.
+/// Threads: none may run, because it forks a process per job. Data that user code keeps outside its
+/// subsystems stays from run to run in one process.
 [[nodiscard]] std::optional<ScheduleReport> try_schedules(const System& system, RunOptions options,
                                                           const ScheduleRequest& request, std::string& error);
 

@@ -21,11 +21,11 @@ using Failure = RunSummary::Failure;
 /// Keeps simulated time from running ahead of real time. A signal or a command ends the wait.
 class Pace {
  public:
-  /// hardware: lost time is not made up for, so that simulated time is never faster than real time.
+  /// hardware: lost time is not made up for, so simulated time is never faster than real time.
   Pace(bool realtime, bool hardware, RemoteControl* remote, const StopSignals& signals)
       : speed_(realtime || hardware ? 1 : 0), hardware_(hardware), remote_(remote), signals_(signals) {}
 
-  /// Counts time from here again: it has stood still, or its speed has changed.
+  /// Counts time from here again, after a pause or a change of speed.
   void restart(Time now) {
     start_ = now;
     start_ns_ = monotonic_ns();
@@ -114,8 +114,8 @@ void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t in
   upper.subsystem_ended(instance, clock_.now());
 }
 
-/// The world moves in short steps, so that a signal ends the run although the world is slow. Time goes only as
-/// far as the world has come.
+/// The world moves in short steps, so that a signal ends the run even if the world is slow. The clock goes
+/// only as far as the world has come.
 void SimulatedRun::move_to(Assembly& assembly, Time time) {
   constexpr Duration world_step = std::chrono::milliseconds(10);
   Time reached = assembly.world == nullptr ? time : clock_.now();
@@ -146,8 +146,8 @@ std::optional<Ending> SimulatedRun::stopped(const Assembly& assembly) const {
                 world_failure_};
 }
 
-/// A device may have met the failure of the world before the clock did. Then the run has ended for what followed
-/// from it.
+/// A device may have noticed the failure of the world before the clock did. The reported ending is then only
+/// a consequence.
 Ending SimulatedRun::with_failure_of_world(Ending ending, Assembly& assembly) const {
   if (assembly.world == nullptr || !ending.failed || world_failure_ != Failure::none) return ending;
   try {
@@ -160,7 +160,7 @@ Ending SimulatedRun::with_failure_of_world(Ending ending, Assembly& assembly) co
   return ending;
 }
 
-/// Gives safe commands to all devices at this instant, and not at the next turns of their subsystems.
+/// Gives safe commands to all devices at this instant, not at the next turns of their subsystems.
 void SimulatedRun::follow_emergency(Assembly& assembly) {
   using News = EmergencyWatch::News;
   const RunControl& control = assembly.control;
@@ -291,7 +291,7 @@ Ending SimulatedRun::with_stuck(Ending ending, const Assembly& assembly) const {
   return ending;
 }
 
-/// What has arrived, what ends of channels have to send. true: there was something.
+/// Delivers messages that have arrived, and sends those of the ends of channels. true: there was one.
 bool SimulatedRun::serve_links(Assembly& assembly) {
   if (assembly.links == nullptr) return false;
   const Time now = clock_.now();
@@ -300,7 +300,7 @@ bool SimulatedRun::serve_links(Assembly& assembly) {
   return true;
 }
 
-/// Time::max(): never, or no subsystem has fired or waits for a time for so long that nothing will come of it.
+/// Time::max(): never, or no subsystem has fired or waited for a time for so long that no change can follow.
 Time SimulatedRun::next_of_links(const Assembly& assembly) const {
   constexpr Duration hopeless = std::chrono::minutes(1);
   if (assembly.links == nullptr) return Time::max();

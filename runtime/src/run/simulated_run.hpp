@@ -23,21 +23,21 @@ namespace tessera {
 
 /// How a run ended.
 struct Ending {
-  std::string text;  ///< as RunSummary::ended
+  std::string text;  ///< see RunSummary::ended
   bool failed = false;
   Time at{};
   int signal = 0;                        ///< the signal that ended the run; 0: none
-  std::optional<Duration> world_time{};  ///< if a world was slower than real time: how far it came
+  std::optional<Duration> world_time{};  ///< if a world was slower than real time: the time that it reached
   RunSummary::Failure failure = RunSummary::Failure::none;
-  /// Per instance: a thread that runs its user code goes on, since the run has given up. Empty: none does.
+  /// Per instance: whether its thread still runs user code, because the run has given up. Empty: none.
   std::vector<bool> left_behind{};
 };
 
-/// Runs all subsystems in one thread, in simulated time. At each instant, the subsystems that have
-/// something to do take turns in an order drawn from the seed, each until it has to wait, or firing by
-/// firing (RunOptions::interleave). When none has anything to do, time jumps to the next deadline, and the
-/// world moves with it. A scenario comes first: its subsystems take turns as it says, and time waits only
-/// for them. Everything except the real-time speed depends only on tables, seed and user code.
+/// Runs all subsystems in one thread, in simulated time. At each instant, the subsystems that can act take
+/// turns in an order drawn from the seed, each until it has to wait, or firing by firing
+/// (RunOptions::interleave). When none can act, time jumps to the next deadline, and the world moves with it.
+/// A scenario comes first: its subsystems take turns as it says, and time waits only for them. Everything
+/// except the real-time speed depends only on tables, seed and user code.
 class SimulatedRun final : public Waker {
  public:
   SimulatedRun(std::uint32_t instances, std::uint64_t seed);
@@ -52,8 +52,7 @@ class SimulatedRun final : public Waker {
   /// nullopt: the scenario was followed to its end, or there is none.
   [[nodiscard]] std::optional<Ending> follow_scenario(Assembly& assembly, UpperLayers& upper);
   [[nodiscard]] bool follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index);
-  /// Names the subsystems that have done nothing since the scenario, because a
-  /// scenario is there to show them.
+  /// Names the subsystems that have not fired since the scenario, because a scenario is there to show them.
   [[nodiscard]] Ending with_stuck(Ending ending, const Assembly& assembly) const;
   [[nodiscard]] std::uint32_t draw_ready();
   [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
@@ -72,7 +71,7 @@ class SimulatedRun final : public Waker {
   std::vector<bool> is_ready_, has_ended_;
   std::optional<std::uint32_t> unfinished_;  // has fired, and its turn has not ended
   std::unique_ptr<RemoteControl> remote_;    // only for a run that is watched
-  std::optional<Duration> skip_to_;          // until the run has come there
+  std::optional<Duration> skip_to_;          // until the run has reached it
   DeadlineQueue deadlines_, beats_;
   ProcessLives lives_;
   Time last_firing_{};

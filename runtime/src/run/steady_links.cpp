@@ -5,9 +5,10 @@
 namespace tessera {
 namespace {
 
-// So that it looks whether the run is to stop.
+// So that it checks regularly whether the run is to stop.
 constexpr Duration longest_wait_for_network = std::chrono::milliseconds(100);
-// After the end, repeated values are still answered for so long; so long are values sent that nobody has taken.
+// Times after the end: how long repeated values are still answered, and how long values that were not taken
+// are sent.
 constexpr Duration farewell = std::chrono::milliseconds(250), longest_farewell = std::chrono::seconds(2);
 
 }  // namespace

@@ -8,12 +8,12 @@
 namespace tessera {
 
 /// Serves the links until the run is to stop. If it stops because the net has ended, it goes on for a while:
-/// others may still need what has been sent, and to know what was taken.
+/// other processes may still need values that were sent, and acknowledgements.
 ///
 /// Threads: that of the network.
 void serve_links_until_end(Assembly& assembly, const SteadyClock& clock, const std::atomic<bool>& net_ended);
 
-/// Whether some subsystem waits for another process, which nobody here can judge. Threads: any.
+/// Whether some subsystem waits for another process, whose state is not known here. Threads: any.
 [[nodiscard]] bool waits_for_network(const Assembly& assembly);
 
 }  // namespace tessera

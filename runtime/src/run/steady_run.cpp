@@ -90,8 +90,8 @@ void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
   }
 }
 
-/// Sleeps until there may be something to do. Heartbeats are not part of the net: a subsystem that does
-/// nothing else is at rest (Stillness).
+/// Sleeps until there may be work. Heartbeats are not part of the net: a subsystem that only sends heartbeats
+/// is at rest (Stillness).
 void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
                       const SubsystemExecutor::Progress& progress) const {
   const auto limit = [&](Time time) { return time == Time::max() ? -1 : clock_.absolute_ns(time); };
@@ -246,7 +246,7 @@ void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& 
   }
 }
 
-/// A device that does not take its safe command ends the run, if its own subsystem does not get to say so.
+/// A device that does not take its safe command ends the run, if its own subsystem cannot report it.
 void SteadyRun::collect_secured(RunControl& control, Securing& securing, RecordingLane* lane) {
   if (const std::vector<std::string> devices = securing.refusing(); !devices.empty())
     control.request_stop(not_safe(devices), /*fault=*/true);

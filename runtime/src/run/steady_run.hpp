@@ -59,8 +59,8 @@ class SteadyRun final : public Waker {
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
   void await_news(Time until) const;
   // The end of the run: steady_end.cpp.
-  /// Waits until the threads of all subsystems have ended, or gives up. Reports which it waits for, and secures
-  /// their devices.
+  // Waits until the threads of all subsystems have ended, or gives up. Reports the subsystems that it waits
+  // for, and secures their devices.
   void await_threads(const Assembly& assembly, Securing& securing);
   void say_waiting(const Assembly& assembly, const Securing& securing, Duration since) const;
   [[nodiscard]] bool gives_up(const Assembly& assembly, Duration waited) const;
@@ -84,7 +84,7 @@ class SteadyRun final : public Waker {
   bool world_is_slow_ = false;              // used by the world's thread while it runs
   std::atomic<bool> denied_{false};         // it has been reported that real time was not permitted
   std::optional<Duration> given_up_after_;  // since the stop
-  std::string given_up_;                    // "; " and what it has waited for in vain
+  std::string given_up_;                    // "; " and the subsystems that did not end
   std::vector<bool> left_behind_;           // as Ending::left_behind
   std::vector<std::thread> threads_;        // per instance
   std::vector<std::thread> beside_;         // of the world and of the links

@@ -24,7 +24,7 @@ class TestedParts final : public Substitutes {
   std::unique_ptr<RealEffector> effector(const std::string&) override { return std::make_unique<Taken>(); }
 
  private:
-  /// Calls the script of the test, or the user's function; then tells the test.
+  /// Calls the script of the test, or the user's function; then the observer of the test.
   class Watched final : public Subsystem {
    public:
     Watched(SystemUnderTest& test, std::uint32_t instance, std::unique_ptr<Subsystem> own)
@@ -121,7 +121,7 @@ RunSummary SystemUnderTest::run(Duration duration) {
   how.clock = RunOptions::Clock::simulated;
   how.duration = duration;
   how.substitutes = &parts;
-  // `tessera test --coverage` reads what was reached of the net.
+  // `tessera test --coverage` reads the firings of the net.
   static int number = 0;
   const char* const folder = std::getenv("TESSERA_TEST_RECORDINGS");
   if (how.recording.empty() && folder != nullptr)

@@ -16,7 +16,7 @@ bool Companions::start_guardian(std::string& error) {
 
 void Companions::watch_parent() {
   if (options_.parent == 0) return;
-  // A process that is not the parent any more has ended before.
+  // The parent had already ended: this process has another parent now.
   constexpr pid_t none = -1;
   parent_watch_.emplace(getppid() == options_.parent ? options_.parent : none, [] {
     console::print(LogLevel::error, Time{}, "tessera",

@@ -94,7 +94,7 @@ class GuardianProcess {
     for (const CppDriver* driver : guarded_drivers(system, options)) make_driver(system, *driver);
   }
 
-  /// Watches until the controller has ended, or does not need the guardian any more.
+  /// Watches until the controller has ended, or no longer needs the guardian.
   void watch() {
     for (;;) {
       const bool ended = controller_.await_end(news_, guardian_looks_every_ms);
@@ -146,7 +146,7 @@ class GuardianProcess {
     return patient.first < outputs.size();
   }
 
-  /// Counts the looks of this process and not the time: a machine that sleeps or is overloaded delays both.
+  /// Counts the checks of this process and not the time: a machine that sleeps or is overloaded delays both.
   [[nodiscard]] bool stands_still() {
     constexpr auto enough = static_cast<unsigned>(
         std::chrono::duration_cast<std::chrono::milliseconds>(Guardian::stands_still_after).count() /

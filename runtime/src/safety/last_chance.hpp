@@ -31,13 +31,13 @@ class LastChance {
   static constexpr Duration patience = std::chrono::milliseconds(500);
 
   /// Acts from now on. On the steady clock, a thread stands ready to give devices their safe command.
-  /// guardian: is told of the death; nullptr: none.
+  /// guardian: is notified of the death; nullptr: none.
   LastChance(Assembly& assembly, const Clock& clock, Guardian* guardian);
   LastChance(const LastChance&) = delete;
   LastChance& operator=(const LastChance&) = delete;
   ~LastChance();
 
-  /// Returns when everything is done that can be done. Async-signal-safe.
+  /// Returns when it has done everything it can. Async-signal-safe.
   void use(const Death& death);
 
  private:

@@ -33,7 +33,7 @@ ChannelValues::ChannelValues(const SubsystemParts& parts, const RunControl& cont
   if (!parts_.effectors.empty()) find_received_inputs();
 }
 
-/// A place that reads is one of the behaviour that its name begins with: "follow.rcv.line.in".
+/// A place that reads belongs to the behaviour that its name begins with: "follow.rcv.line.in".
 void ChannelValues::find_received_inputs() {
   const SubsystemNet& net = *parts_.instance->net;
   received_.resize(net.behaviours.size());

@@ -10,8 +10,8 @@
 
 namespace tessera {
 
-/// Transfers values between the buffers of one subsystem and its channels, and knows how old the values on
-/// its inputs are.
+/// Transfers values between the buffers of one subsystem and its channels, and knows the ages of the values
+/// on its inputs.
 ///
 /// Threads: the subsystem's.
 class ChannelValues {
@@ -28,7 +28,7 @@ class ChannelValues {
 
   /// From now on, commands to devices need a valid value on every input that this behaviour receives.
   void await_inputs(std::uint16_t behaviour);
-  /// Sets the ages of the values to those at `now`, and whether other processes are heard of.
+  /// Sets the ages of the values to those at `now`, and whether other processes are reachable.
   void refresh_ages(Time now);
   /// The transition function has seen every value.
   void mark_seen();

@@ -14,7 +14,7 @@ namespace {
 
 using Text = std::array<char, 512>;
 
-/// The formatted text, cut to the room that there is.
+/// The formatted text, cut to the available space.
 [[nodiscard]] std::string_view format_into(Text& text, fmt::string_view format, fmt::format_args args) {
   const auto end = fmt::vformat_to_n(text.data(), text.size(), format, args);
   return {text.data(), std::min(end.size, text.size())};

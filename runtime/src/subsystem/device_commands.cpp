@@ -22,7 +22,7 @@ namespace {
   for (const DriverInUse& driver : parts.drivers)
     if (driver.effector) devices.push_back({driver.path, driver.first, driver.count});
   if (!devices.empty()) return devices;
-  // No drivers of a robot's: what is recorded takes the commands.
+  // The robot's drivers are absent: the recording takes the commands.
   for (std::size_t index = 0; index < parts.effectors.size(); ++index)
     devices.push_back({fmt::format("{}.{}", parts.path, parts.bindings.real_outputs[index].name), index, 1});
   return devices;
@@ -75,7 +75,7 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
   const bool was_held = std::exchange(held_, SafeReason{}).kind != SafeReason::Kind::none;
   switch (effectors_.command(now)) {
     case Effectors::Answer::withheld:
-      // What is left: the run stops, or will stop because the guardian has acted.
+      // In the remaining case the run stops, or will stop because the guardian has acted.
       give_safe_command({control_.stopping()    ? SafeReason::Kind::leaves
                          : control_.emergency() ? SafeReason::Kind::emergency
                          : control_.suspended() ? SafeReason::Kind::suspended
@@ -141,7 +141,7 @@ void DeviceCommands::insist() {
   effectors_.record(lane_);
 }
 
-/// Where the safe command was refused.
+/// Repeats the safe command for devices that refused it.
 void DeviceCommands::try_again(Time now) {
   if (refused_since_ == Time::max()) return;
   if (effectors_.insist(last_safe_, Effectors::Busy::waits)) {
@@ -157,7 +157,7 @@ SafeReason DeviceCommands::why_hold(Time now) const {
   return inputs_.why_hold(now);
 }
 
-/// The safe command stands until the reason is gone; said once.
+/// The safe command stands until the reason is gone; it is reported once.
 void DeviceCommands::hold(const SafeReason& why, std::string_view place) {
   give_safe_command(why);
   if (held_ == why) return;
@@ -185,12 +185,12 @@ void DeviceCommands::report_hold(const SafeReason& why, std::string_view place) 
       return reports_.log(
           LogLevel::info,
           say(FMT_STRING("the source of input '{}' has ended; the devices get the safe command")));
-    default:  // starting: as every run begins
+    default:  // starting: the state in which every run begins
       return;
   }
 }
 
-/// Where only an operator may end what a fault has begun.
+/// Begins an emergency stop if only an operator may end what a fault has begun.
 void DeviceCommands::ask_for_operator(std::string_view why) {
   if (effectors_.none() || !parts_.instance->policies.operator_resets) return;
   std::array<char, 384> text;
@@ -205,7 +205,7 @@ void DeviceCommands::note_fault(std::string_view what) {
 
 // -------------------------------------------------------------------------------------------- while it waits
 
-/// A heart that fails is a device that fails; said once until it beats again.
+/// A failed heartbeat is a failed device; it is reported once until the heartbeat works again.
 void DeviceCommands::beat(Time now, std::string_view place) {
   if (life_.next_beat() > now) return;
   std::string text = "the heartbeat of a device: an exception that is no std::exception";

@@ -43,7 +43,7 @@ class DeviceCommands {
   /// Closes the open devices and returns what went wrong. Threads: after the run.
   std::vector<std::string> close() { return life_.close(); }
 
-  /// There is no real effector.
+  /// Whether there is no real effector.
   [[nodiscard]] bool none() const { return effectors_.none(); }
   /// Whether a device wants heartbeats, or commands can get stale.
   [[nodiscard]] bool watches_time() const { return !none() || life_.beats(); }
@@ -61,7 +61,7 @@ class DeviceCommands {
   [[nodiscard]] std::optional<Failure> send(Time now, std::string_view place, std::span<char> room);
   /// Gives the safe command because of a fault, which has not been reported yet.
   void make_safe_after_fault() { give_safe_command({SafeReason::Kind::fault}); }
-  /// The fault has been reported. Begins an emergency stop if only an operator may end what it has begun.
+  /// The fault has been reported. Begins an emergency stop if only an operator may end the safe command.
   void note_fault(std::string_view what);
 
   /// Calls the heartbeats that are due. place: where the token is.

@@ -30,7 +30,7 @@ void Injection::announce() {
 
 namespace {
 
-/// Reads one `--inject`. Its functions return false after they have kept what is wrong.
+/// Reads one `--inject`. Its functions return false after they have stored the mistake.
 class InjectionReader {
  public:
   InjectionReader(const System& system, std::uint64_t seed, std::optional<Duration> duration)
@@ -209,7 +209,7 @@ class InjectionReader {
     const std::size_t dots = text.find("..");
     if (text == "any") {
       if (!duration_) return fail("'any' needs a run with a duration");
-      std::uint64_t mixed = seed_;  // several in one run come at several times
+      std::uint64_t mixed = seed_;  // several in one run get different times
       for (const char letter : fault_.text)
         mixed = (mixed ^ static_cast<unsigned char>(letter)) * 1099511628211U;
       std::mt19937_64 random(mixed);

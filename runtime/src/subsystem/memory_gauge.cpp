@@ -35,8 +35,8 @@ MemoryGauge::MemoryGauge(const Bindings& bindings)
   show();
 }
 
-/// A reader that sees one of the new words also sees that the version is another: each word is released after
-/// the odd version.
+/// A reader that sees one of the new words also sees a new version: each word is released after the odd
+/// version.
 void MemoryGauge::show() {
   now_.clear();
   for (std::size_t field = 0; field < sources_.size(); ++field) {

@@ -14,14 +14,13 @@
 
 namespace tessera {
 
-/// The memory of a running subsystem as observers see it: all fields as they were at one moment, the end of an
-/// iteration.
+/// The memory of a running subsystem as observers see it: all fields at one moment, the end of an iteration.
 ///
 /// Threads: `show` the subsystem's; `read` any. Neither waits for the other. Only the constructor and `read`
 /// allocate.
 class MemoryGauge {
  public:
-  /// Fields that do not fit into so many bytes any more are not shown, so that `show` takes little time.
+  /// Fields beyond this total size are not shown, so that `show` takes little time.
   static constexpr std::size_t most_bytes = 4096;
 
   explicit MemoryGauge(const Bindings& bindings);

@@ -18,7 +18,7 @@
 namespace tessera {
 namespace {
 
-/// 3 of "robot[3].control"; 0 of an agent that is in no fleet.
+/// 3 for "robot[3].control"; 0 for an agent that is in no fleet.
 std::uint32_t index_of_agent(std::string_view path) {
   std::uint32_t index = 0;
   const std::size_t open = path.find('[');
@@ -45,8 +45,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
   context_.index = index_of_agent(parts_.path);
 }
 
-/// Runs user code; false when it threw. Nothing a user throws gets past here. activity: in front of what was
-/// thrown.
+/// Runs user code; false: it threw. No exception of a user passes. activity: comes before the text of the
+/// exception.
 template <class Code>
 bool Operations::survives(Fault fault, std::uint16_t behaviour, std::string_view activity, Code&& code) {
   try {
@@ -70,14 +70,14 @@ void Operations::fail_in(Fault fault, std::uint16_t behaviour, std::string_view 
 }
 
 void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view what) {
-  devices_.make_safe_after_fault();  // before anything is said
+  devices_.make_safe_after_fault();  // before the report
   reports_.report(fault, place_of_call(behaviour), what);
   devices_.note_fault(what);
   failed_ = true;
   parts_.subsystem->restore_outputs();
 }
 
-/// Where the token stands while that behaviour's transition function runs.
+/// The place of the token while that behaviour's transition function runs.
 std::string_view Operations::place_of_call(std::uint16_t behaviour) const {
   const SubsystemNet& net = *parts_.instance->net;
   const std::string_view name = net.behaviours[behaviour].name;
@@ -176,7 +176,7 @@ void Operations::read_receptors(Time now) {
   }
 }
 
-/// Records what came of it.
+/// Records the result.
 bool Operations::read_receptor(std::size_t index, Time now) {
   using Reading = ValueRecorder::Reading;
   const Bindings::Incoming& input = parts_.bindings.real_inputs[index];

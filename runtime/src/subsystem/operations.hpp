@@ -17,8 +17,8 @@
 
 namespace tessera {
 
-/// The data part of a subsystem: what its operations and conditions do to buffers, devices and user code. It
-/// does not know the net.
+/// The data part of a subsystem: the effects of its operations and conditions on buffers, devices and user
+/// code. It does not know the net.
 ///
 /// *Failure.* An iteration fails when user code throws, a device fails, an output is not finite, or the
 /// transition function takes longer than the watchdog allows. The outputs then become those of the iteration
@@ -49,7 +49,7 @@ class Operations final : public ContextServices {
 
   // Conditions. Ages are those at `now`; a condition that throws is an error.
   [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
-  /// As decide, with an outcome that is decided elsewhere: no condition is evaluated.
+  /// As decide, with an outcome that was decided elsewhere: no condition is evaluated.
   void accept_outcome(Outcome outcome);
   /// no_entry: no entry holds. unknown_entry: a condition has thrown; this has been logged.
   static constexpr int no_entry = -1, unknown_entry = -2;

@@ -23,7 +23,7 @@ class ParameterChanges {
   explicit ParameterChanges(std::vector<ParameterOwner> owners)
       : owners_(std::move(owners)), waiting_(std::make_unique<Waiting[]>(owners_.size())) {}
 
-  /// Returns what is wrong with the request; empty: the change will take place. path: as in set_parameters.
+  /// Returns the mistake in the request; empty: the change will take place. path: as in set_parameters.
   /// Threads: any.
   [[nodiscard]] std::string ask(const std::string& path, const std::string& value);
   /// Whether a subsystem here has a parameter that `path` names. Threads: any.

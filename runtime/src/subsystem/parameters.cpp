@@ -48,7 +48,7 @@ using Parameter = Bindings::Parameter;
   return names;
 }
 
-// Each `store` returns what is wrong with the text; empty: nothing.
+// Each `store` returns the mistake in the text; empty: there is none.
 
 template <class Number>
 [[nodiscard]] std::string store_number(const Parameter& parameter, std::string_view text) {

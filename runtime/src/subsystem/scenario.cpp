@@ -27,7 +27,7 @@ class Reading {
       known_.emplace(net.transitions[index].name, index);
   }
 
-  /// Returns what is wrong; "": nothing.
+  /// Returns the mistake; "": there is none.
   [[nodiscard]] std::string read(const nlohmann::json& json, Scenario& scenario) const {
     if (json.value("scenario", 0) != 1) return "is no scenario of this version of Tessera";
     const std::string hash = json.at("net_hash").get<std::string>();

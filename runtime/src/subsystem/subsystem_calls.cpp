@@ -1,4 +1,4 @@
-// How a subsystem calls its transition functions: when, and what happens when one does not return in time.
+// How a subsystem calls its transition functions: when, and the reaction if one does not return in time.
 
 #include <algorithm>
 #include <atomic>
@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// When the call of a token that has just arrived begins.
+/// The start of the call for a token that has just arrived.
 Time SubsystemExecutor::release() {
   const Duration waited = std::exchange(waited_, Duration::zero());
   if (!releases_.have_rate()) return Time::min();
@@ -20,12 +20,12 @@ Time SubsystemExecutor::release() {
   return release.at;
 }
 
-/// Begins or ends a transition function; false when that has to wait.
+/// Begins or ends a transition function; false: it has to wait.
 bool SubsystemExecutor::advance(std::uint32_t place) {
   Token& token = tokens_[place];
   const Duration watchdog = operations_.parts().instance->policies.watchdog;
   if (token.phase == Phase::released_later) {
-    // User code may take long: nobody must be held back meanwhile by a wait that is over.
+    // User code may take long: a wait that is over must not hold back another subsystem meanwhile.
     if (registrations_ > 0 && !register_waits()) return true;
     const std::uint16_t behaviour = plan_->places[place].subject;
     const Time begin = now();
@@ -81,7 +81,7 @@ void SubsystemExecutor::end_alarm() {
   wake_receivers();
 }
 
-/// Once an iteration, for those who watch.
+/// Called once an iteration, for observers.
 void SubsystemExecutor::show() {
   gauges_.iterations.store(operations_.iterations(), std::memory_order_relaxed);
   gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);

@@ -84,7 +84,7 @@ void SubsystemExecutor::renew_time() {
   time_is_known_ = true;
 }
 
-/// The time since the last code of the user's, or a later one: firings take next to none.
+/// The time of the last user code, or a later one: firings take almost no time.
 Time SubsystemExecutor::now() {
   if (!time_is_known_) renew_time();
   return now_;
@@ -105,15 +105,15 @@ bool SubsystemExecutor::fire_one() {
   return false;
 }
 
-/// As fire_one where there is one token, which is the rule; in real time it walks as far as it can. On the
-/// way no token has a position: no transition that takes several tokens is enabled.
+/// As fire_one if there is one token, the usual case; in real time it fires as far as it can. Meanwhile, no
+/// token has a position: no transition that takes several tokens is enabled.
 bool SubsystemExecutor::walk() {
   std::uint32_t place = marked_.front();
   const Plan::TransitionEntry* departure = places_[place].departure;
   tokens_[place].position = Plan::none;
   bool walked = false;
   for (std::uint32_t left = simulated_ ? 1 : look_up; tokens_[place].phase == Phase::finished; --left) {
-    if (left == 0) {  // it looks up: at the clock, and whether the run is to stop
+    if (left == 0) {  // it checks the clock and whether the run is to stop
       renew_time();
       break;
     }
@@ -133,7 +133,7 @@ bool SubsystemExecutor::walk() {
   return walked;
 }
 
-/// Of the departures of a place. The tokens still lie where they were.
+/// Fires one of the departures of a place. The tokens have not moved yet.
 inline const Plan::TransitionEntry* SubsystemExecutor::fire_one_of(const Plan::TransitionEntry* departure) {
   if (departure == nullptr) return nullptr;
   for (;; ++departure) {
@@ -150,7 +150,7 @@ bool SubsystemExecutor::try_fire(std::uint32_t index) {
   return true;
 }
 
-/// Everything that firing does but moving the tokens of the subsystem.
+/// All of a firing except the tokens of the subsystem.
 inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transition) {
   if (!condition_holds(transition)) return false;
   std::uint32_t version = 0;
@@ -175,7 +175,7 @@ inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transit
   return true;
 }
 
-/// Returns what the event says in place of a version.
+/// Returns the number that the event contains instead of a version.
 std::uint32_t SubsystemExecutor::tell_network(NetworkEnd& end, const Plan::TransitionEntry& transition) {
   if (lane_ != nullptr) renew_time();
   const bool elapsed = transition.guard.kind == Guard::Kind::elapsed;
@@ -189,7 +189,8 @@ void SubsystemExecutor::tell_of_timeout(const Plan::TransitionEntry& transition)
     operations_.note_answer(transition.port);
 }
 
-/// Some transition waits for nothing but a peer that is reading or writing: that is shorter than a sleep.
+/// If some transition waits only for a peer that is reading or writing, waits actively: that is shorter than
+/// a sleep.
 bool SubsystemExecutor::outwait_peer() {
   const SharedChannel* const channel = std::exchange(held_, nullptr);
   return channel != nullptr && !simulated_ && channel->outwait();
@@ -340,7 +341,7 @@ void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
 }
 
 void SubsystemExecutor::end() {
-  static_cast<void>(register_waits());  // withdraws: nobody must yield to a subsystem that has ended
+  static_cast<void>(register_waits());  // withdraws: no other subsystem must yield to one that has ended
   leave();
   control_.mark_ended(index_);
   wake_receivers();

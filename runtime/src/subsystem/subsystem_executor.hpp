@@ -16,8 +16,8 @@
 namespace tessera {
 
 /// Executes the net of one subsystem: fires enabled transitions, starts the operations of the places that get
-/// tokens, and says what it waits for. It can be resumed, so that one thread runs all subsystems in simulated
-/// time, and each subsystem has its own thread in real time.
+/// tokens, and reports what it waits for. It can be resumed, so that one thread runs all subsystems in
+/// simulated time, and each subsystem has its own thread in real time.
 ///
 /// The rule of firing: a transition fires if its places in the subsystem hold tokens whose operations have
 /// finished, its condition holds, and the channel it touches, if any, makes its part of the firing
@@ -53,14 +53,14 @@ class SubsystemExecutor {
   struct Progress {
     State state = State::waiting;
     Time deadline = Time::max();  ///< waiting: step again then, or when woken
-    Time beat = Time::max();      ///< waiting: when a device wants a heartbeat; nothing else happens then
+    Time beat = Time::max();      ///< waiting: when a device needs a heartbeat; nothing else happens then
   };
   /// Fires until no transition may fire now. Wakes subsystems that receive from this one when it ends.
   /// most: how many firings and operations at most; ready: it could have gone on.
   [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
 
-  /// From now on follow, and nothing else, makes it fire: these transitions of its table, in this order
-  /// (Scenario). Conditions are not evaluated for a token that one of them decides on.
+  /// From now on only `follow` makes it fire: these transitions of its table, in this order (Scenario).
+  /// Conditions are not evaluated for a token that one of them decides on.
   void set_script(std::vector<std::uint32_t> transitions) { script_ = std::move(transitions); }
   /// Fires the next transition of the script. waiting: not yet, step again at the deadline, or never
   /// (Time::max()); fired: done. Precondition: there is a next one.
@@ -74,8 +74,9 @@ class SubsystemExecutor {
   /// Writes a line to the console and the recording.
   void note(std::string_view text) { operations_.reports().log(LogLevel::info, text); }
 
-  /// The transition function of call `since` has run longer than the watchdog allows: marks that, and those
-  /// who receive from here look at their devices; false: it has returned meanwhile. Threads: any.
+  /// The transition function of call `since` has run longer than the watchdog allows: marks that, and makes
+  /// the subsystems that receive from this one check their devices; false: it has returned meanwhile.
+  /// Threads: any.
   [[nodiscard]] bool mark_alarm(std::int64_t since_ns);
   /// Reports this. Threads: any, with a lane of its own.
   void tell_alarm(RecordingLane* lane) const;
@@ -95,13 +96,13 @@ class SubsystemExecutor {
     return operations_.devices().next_beat();
   }
 
-  /// Tokens of one channel that a transition lacks, which has everything else or needs only time.
+  /// The tokens of one channel that a transition lacks, if it lacks nothing else except time.
   struct Lack {
     std::uint32_t port;
     std::uint16_t tokens;  ///< fused places, as bits
   };
-  /// Everything that it can ever fire from here lacks: per transition. nullopt: it can go on by itself, it
-  /// has something to do or waits for a time. Threads: when it does not run.
+  /// The lack of every transition that it can still fire. nullopt: it can go on by itself, has work to do, or
+  /// waits for a time. Threads: when it does not run.
   [[nodiscard]] std::optional<std::vector<Lack>> lacks() const;
   /// Per port, the fused places that it may give tokens to from here on, whatever its conditions say.
   /// helped: per port, whether the other end may give tokens too. Threads: when it does not run.
@@ -120,23 +121,22 @@ class SubsystemExecutor {
   /// Async-signal-safe.
   void record_death(std::string_view text) { operations_.reports().record_death(text); }
   [[nodiscard]] const Gauges& gauges() const { return gauges_; }
-  /// nullptr: there is no memory, or nobody may look at it.
+  /// nullptr: there is no memory, or observers are not allowed.
   [[nodiscard]] const MemoryGauge* memory() const { return memory_.get(); }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return releases_.overruns(); }
-  /// Is there a token in that place of the table?
+  /// Whether that place of the table holds a token.
   [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
 
   /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
   [[nodiscard]] std::uint32_t last_fired() const { return last_fired_; }
-  /// Its tokens in this subsystem are there, and its condition holds; channels may still be in its way.
+  /// Whether its tokens in this subsystem are there, and its condition holds; channels may still prevent it.
   [[nodiscard]] bool wants_to_fire(std::uint32_t transition) const;
 
   /// Under the simulated clock, so many firings of a subsystem at one instant mean that time stands still.
   static constexpr std::uint32_t firings_per_instant = 100'000;
 
-  /// In real time, a subsystem that runs no code of the user's for so many firings looks at the clock
-  /// and at RunControl.
+  /// In real time, a subsystem that runs no user code for so many firings checks the clock and RunControl.
   static constexpr std::uint32_t look_up = 64;
 
  private:
@@ -208,13 +208,14 @@ class SubsystemExecutor {
   RecordingLane* lane_;
 
   Time now_{};                  // of the last look at the clock
-  bool time_is_known_ = false;  // no code of the user's has run since
+  bool time_is_known_ = false;  // no user code has run since
   bool watched_, simulated_;
   bool watches_time_ = true;        // what it does next may depend on the time: a rate, a timeout, a device
   bool at_end_ = false;             // the token is in `out`
   const PortLink* ports_;           // of operations_
   const Plan::PlaceEntry* places_;  // of plan_
-  const SharedChannel* held_ = nullptr;  // a channel that something waits for whose memory is in use
+  const SharedChannel* held_ = nullptr;  // a channel whose memory is in use, and for which some transition
+                                         // waits
 
   std::vector<Token> tokens_;              // per place
   std::vector<std::uint32_t> marked_;      // places with a token; room for all
@@ -225,7 +226,7 @@ class SubsystemExecutor {
   std::vector<std::uint32_t> script_;  // transitions to follow, or Plan::none: no initial condition holds
   std::size_t followed_ = 0;           // of the script
 
-  Time returns_{};  // simulated: when a call returns whose watchdog comes first
+  Time returns_{};  // simulated: the return of a call that the watchdog precedes
   Time blocked_since_ = Time::max();
   Duration waited_{0};  // for other subsystems, since the last call
   Time waits_since_ = Time::max();

@@ -17,7 +17,7 @@
 
 namespace tessera {
 
-/// One end of a channel as its subsystem sees it.
+/// One end of a channel, from the side of its subsystem.
 struct PortLink {
   SharedChannel* channel = nullptr;
   Side side = Side::send;
@@ -40,8 +40,8 @@ struct SubsystemParts {
   std::vector<DriverInUse> drivers;                      ///< behind receptors and effectors
   std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
   FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
-  std::unique_ptr<ValueRecorder> values;                 ///< nullptr: they are not recorded
-  ParameterChanges* changes = nullptr;                   ///< nullptr: parameters stay as they are
+  std::unique_ptr<ValueRecorder> values;                 ///< nullptr: values are not recorded
+  ParameterChanges* changes = nullptr;                   ///< nullptr: parameters never change
 };
 
 }  // namespace tessera

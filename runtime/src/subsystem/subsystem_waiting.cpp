@@ -8,8 +8,8 @@
 
 namespace tessera {
 
-/// Registers in every channel exactly what this subsystem waits for. false:
-/// something may be taken after all.
+/// Registers in every channel exactly the needs that this subsystem waits for. false: one of them can be met
+/// now.
 bool SubsystemExecutor::register_waits() {
   std::fill(wants_next_.begin(), wants_next_.end(), std::uint16_t{0});
   for (const std::uint32_t place : marked_) {

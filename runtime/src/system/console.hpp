@@ -11,8 +11,8 @@ namespace tessera {
 
 /// Lines for people on standard error: "12.345 s  robot.control  text". One write per line; fixed buffers.
 ///
-/// While a Session exists, a separate thread writes, and no other thread ever waits for the terminal: not
-/// if it was stopped with Ctrl-S, if it is a pipe that nobody reads, or if it is gone.
+/// While a Session exists, a separate thread writes, and no other thread ever waits for the terminal: not if
+/// it was stopped with Ctrl-S, if it is a pipe that is not read, or if it is gone.
 ///
 /// Threads: any.
 namespace console {
@@ -44,7 +44,7 @@ void say(std::string_view text);
 /// Rewrites the line that shows progress; the next print removes it.
 void progress(std::string_view text);
 void clear_progress();
-/// Turns print off, or on again: nobody reads every line of a thousand runs.
+/// Turns print off, or on again, for example while a thousand runs are made.
 void silence(bool wanted);
 }  // namespace console
 

@@ -18,9 +18,10 @@ class PatientOutput {
   ~PatientOutput();
 
   enum class Result : std::uint8_t { all, some, gone };
-  /// Writes as much as there is room for and removes that from `bytes`. gone: nobody will ever read it.
+  /// Writes as many bytes as the output accepts now, and removes them from `bytes`. gone: the reader has gone
+  /// for good.
   [[nodiscard]] Result write(std::string_view& bytes);
-  /// Waits for room, at most for this time.
+  /// Waits until the output accepts bytes, at most for this time.
   void await_room(int milliseconds) const;
 
  private:

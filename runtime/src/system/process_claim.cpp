@@ -12,7 +12,7 @@
 namespace tessera {
 namespace {
 
-/// Names of abstract sockets are short, so that this is a hash (FNV-1a).
+/// Names of abstract sockets are short, so this is a hash (FNV-1a).
 std::string name_of(const ClaimedProcess& process) {
   std::uint64_t hash = 0xcbf29ce484222325U;
   const auto add = [&](const std::string& text) {

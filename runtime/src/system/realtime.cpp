@@ -83,7 +83,7 @@ RealTimePriority::~RealTimePriority() {
   if (priority_ == 0) return;
   sched_param parameters{};
   parameters.sched_priority = priority_before_;
-  // A process that may not remove RESET_ON_FORK keeps it: the policy is what counts.
+  // A process that may not remove RESET_ON_FORK keeps it; only the policy matters.
   if (sched_setscheduler(0, policy_before_, &parameters) != 0)
     sched_setscheduler(0, policy_before_ | SCHED_RESET_ON_FORK, &parameters);
 }

@@ -40,7 +40,7 @@ class StopSignals {
   [[nodiscard]] static bool suspension_asked();
   /// Forgets the SIGTSTP.
   static void resume();
-  /// Readable once a signal has come; -1: the process has no descriptor left.
+  /// Readable once a signal has arrived; -1: the process has no descriptor left.
   [[nodiscard]] static int descriptor();
   /// Makes the descriptor unreadable until the next signal.
   static void take_news();

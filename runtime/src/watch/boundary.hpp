@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// Runs `code` as the outermost function of a thread. An exception stops the run, as a fault, and not the
+/// Runs `code` as the outermost function of a thread. An exception stops the run, as a fault, instead of the
 /// process. false: `code` has thrown. The end of a thread (pthread_exit) passes through.
 template <class Code>
 bool survives_in_thread(RunControl& control, std::string_view who, Code&& code) {

@@ -15,7 +15,7 @@ constexpr double patience_s = 1;
 constexpr auto between_looks_at_calls = std::chrono::milliseconds(100);
 
 /// Bypasses the console, which may be silent or wait for the thread that is watched. Does not wait for a
-/// terminal that takes nothing.
+/// blocked terminal.
 void write_to_terminal(const std::string& line) {
   pollfd terminal{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
   if (poll(&terminal, 1, 100) <= 0) return;

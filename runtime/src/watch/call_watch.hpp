@@ -12,7 +12,7 @@
 namespace tessera {
 
 /// Watches the one thread of a simulated run from another thread. User code that does not return blocks the
-/// whole run, which cannot even see that it has been told to stop.
+/// whole run, which then cannot notice a request to stop.
 ///
 /// A turn that has not ended after a second of real time is reported, and again after two, four and
 /// so on seconds. If a signal asks the run to stop and the same turn still lasts a second later, the

@@ -8,7 +8,7 @@ namespace tessera {
 
 /// Notices that an emergency stop begins or ends, and reports it on the terminal and in the recording.
 ///
-/// Threads: that which runs the subsystems.
+/// Threads: the one that runs the subsystems.
 class EmergencyWatch {
  public:
   enum class News : std::uint8_t { none, begins, ends };

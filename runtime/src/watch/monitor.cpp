@@ -26,17 +26,16 @@ namespace {
 
 constexpr int send_period_ms = 200, controlled_period_ms = 40;
 constexpr std::size_t most_clients = 32;
-/// The snapshot of a large system takes long to write: the thread rests for so many times as
-/// long.
+/// A snapshot of a large system takes long to write. The thread then rests for this many times as long.
 constexpr std::int64_t rest_per_work = 50;
 
-/// "line_follower"; "depot.cart[0]" of one process of a deployed system.
+/// "line_follower"; "depot.cart[0]" for one process of a deployed system.
 [[nodiscard]] std::string name_of_controller(const Assembly& assembly) {
   const std::string& process = assembly.options.network.process;
   return std::string(assembly.system.name) + (process.empty() ? "" : "." + process);
 }
 
-/// As it is where that cannot be found out: the folder may have gone.
+/// The unchanged path if the absolute one cannot be determined: the folder may be gone.
 [[nodiscard]] std::string absolute(const std::string& path) {
   if (path.empty()) return path;
   std::error_code problem;
@@ -71,7 +70,7 @@ Monitor::~Monitor() {
   for (std::unique_ptr<MonitorClient>& client : clients_) {
     try {
       send_end(*client);
-    } catch (const std::exception&) {  // it has seen less than it could have
+    } catch (const std::exception&) {  // the client has received less than it could have
     }
     client.reset();
   }
@@ -87,7 +86,7 @@ void Monitor::warn_of_failure(Time now) const {
 
 // -------------------------------------------------------------------------------------------- the thread
 
-/// Whatever goes wrong with those who watch ends the watching and not the run.
+/// A failure while serving clients ends the monitor and not the run.
 void Monitor::serve() {
   std::string_view what = "an exception that is no std::exception";
   std::string text;
@@ -117,7 +116,7 @@ void Monitor::serve_until_ended() {
       sources.push_back({.fd = client->socket(), .events = static_cast<short>(wanted), .revents = 0});
     }
     const std::int64_t left_ms = (due_ns - monotonic_ns()) / 1'000'000 + 1;
-    // Nobody watches: no work at all.
+    // No client is connected: it does no work.
     poll(sources.data(), sources.size(),
          clients_.empty() && !cannot_accept_ ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0)));
     if ((sources[0].revents & POLLIN) != 0) return;
@@ -154,8 +153,8 @@ void Monitor::receive(MonitorClient& client) {
   client.check_limits();
 }
 
-/// The commands of a client that has gone without waiting for the answer are executed: one may be an
-/// emergency stop, sent while this process did not get on.
+/// Executes the commands of a client that has gone without waiting for the answer: one may be an emergency
+/// stop, sent while this process was held up.
 void Monitor::receive_rest(MonitorClient& client) {
   for (std::size_t received = 0; received < MonitorClient::longest_command;) {
     const std::size_t count = client.receive();
@@ -174,7 +173,7 @@ void Monitor::remove_gone_clients() {
   });
 }
 
-/// A client that has not taken the last line yet goes without this one.
+/// A client that has not taken the last line yet does not get this one.
 void Monitor::send_snapshots() {
   std::string line;
   if (remote_ != nullptr && !clients_.empty()) remote_->show_recording();
@@ -190,7 +189,7 @@ void Monitor::send_snapshots() {
   remove_gone_clients();
 }
 
-/// The end, and what the client has not seen of the recording.
+/// Sends the end, and the part of the recording that the client does not have.
 void Monitor::send_end(MonitorClient& client) {
   client.add(ended_line());
   client.send();
@@ -215,7 +214,7 @@ void Monitor::execute_commands(MonitorClient& client) {
     execute_request(client, parse_request(*line));
 }
 
-/// A client that has gone takes no answer, and a recording least of all.
+/// A client that has gone gets no answer and no recording.
 void Monitor::execute_request(MonitorClient& client, const Request& request) {
   if (std::holds_alternative<commands::Own>(request.command)) return client.own_run();
   if (const auto* const command = std::get_if<AnsweredCommand>(&request.command)) {
@@ -224,7 +223,7 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
     client.add(answer_line(request.id, wrong, !wrong.empty() && is_elsewhere(*command)));
   } else {
     if (client.gone()) return;
-    // A client that always has a piece on the way would never get a snapshot.
+    // Without this, a client that always has a piece on the way would never get a snapshot.
     if (client.take_skipped()) client.add(snapshot_line());
     if (const auto* const scene = std::get_if<commands::SendScene>(&request.command))
       client.add_scene(assembly_.scene_file, scene->from);
@@ -248,7 +247,7 @@ std::string Monitor::execute(const commands::FeedPanel& command) {
   return assembly_.panels.feed(command.input);
 }
 
-/// Whether it names nothing that this process has.
+/// Whether the name exists in another process only.
 bool Monitor::is_elsewhere(const AnsweredCommand& command) const {
   if (const auto* const set = std::get_if<commands::SetParameter>(&command))
     return !assembly_.changes->knows(set->path);

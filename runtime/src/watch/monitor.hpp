@@ -43,7 +43,7 @@ class Monitor {
 
   void execute_commands(MonitorClient& client);
   void execute_request(MonitorClient& client, const Request& request);
-  // Returns what is wrong with the command; empty: it was carried out.
+  // Returns the mistake in the command; empty: it was executed.
   [[nodiscard]] static std::string execute(const commands::Malformed& command);
   [[nodiscard]] std::string execute(const SimulationCommand& command);
   [[nodiscard]] std::string execute(const commands::SetParameter& command);

@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// The connection of a monitor to one client, with the text received and the text that is not sent yet. It
+/// The connection of a monitor to one client, with the received text and the text that is not sent yet. It
 /// never waits for the client.
 ///
 /// Threads: that of the monitor.
@@ -27,11 +27,11 @@ class MonitorClient {
   static constexpr std::size_t longest_command = std::size_t{1} << 20U;
 
   [[nodiscard]] int socket() const { return socket_; }
-  /// The connection is lost, or the client has broken its limits.
+  /// Whether the connection is lost, or the client has exceeded its limits.
   [[nodiscard]] bool gone() const { return gone_; }
-  /// The client has received everything.
+  /// Whether the client has received everything.
   [[nodiscard]] bool up_to_date() const { return unsent_.empty(); }
-  /// The run ends when this connection ends.
+  /// Whether the run ends with this connection.
   [[nodiscard]] bool owns_run() const { return owns_run_; }
   void own_run() { owns_run_ = true; }
 
@@ -44,10 +44,9 @@ class MonitorClient {
 
   /// Appends to the text that is not sent yet.
   void add(std::string_view text);
-  /// The client has asked for the recording.
+  /// Whether the client has asked for the recording.
   [[nodiscard]] bool has_recording() const { return recording_ != nullptr; }
   /// Appends the next piece of the recording. false: there is nothing new.
-  /// A piece of a file that does not change; file: empty: there is none.
   void add_scene(const std::string& file, std::uint64_t from);
   bool add_piece(const std::string& recording);
   /// Sends as much as the socket takes.
@@ -55,7 +54,7 @@ class MonitorClient {
   /// Leaves out a snapshot, because the client is not up to date. The client is gone if it has received
   /// nothing for a long time.
   void skip_snapshot();
-  /// Was a snapshot left out since the last call?
+  /// Whether a snapshot was left out since the last call.
   [[nodiscard]] bool take_skipped();
 
  private:

@@ -68,7 +68,7 @@ template <class All>
   return list;
 }
 
-/// null: it has none. Nothing is copied: copying what is nested deeply takes a deep stack.
+/// null: it has none. It copies no data, because a copy of a deeply nested value takes a deep stack.
 [[nodiscard]] const json& member_of(const json& object, const char* name) {
   static const json none;
   const auto found = object.find(name);
@@ -83,7 +83,7 @@ template <class All>
   return names;
 }
 
-/// Throws what a member of another type makes nlohmann::json throw.
+/// Throws the exception of nlohmann::json if a member has another type.
 [[nodiscard]] SimulationCommand simulation_command(const std::string& name, const json& object) {
   if (name == "pause") return commands::Pause{};
   if (name == "resume") return commands::Resume{};

@@ -27,35 +27,36 @@ struct Snapshot {
   struct Channel {
     std::string name;
     std::vector<std::string> marked;  ///< its places with a token
-    /// A value is on the way to another process since then, without an answer.
+    /// Since when a value has been on the way to another process without an answer.
     std::optional<double> sending_since_s;
   };
-  /// A subsystem at rest that can go on only, or sooner, if the one at the other end of a channel acts.
+  /// A subsystem at rest that can go on only, or sooner, if the subsystem at the other end of a channel acts.
   struct Wait {
     std::string subsystem, waits_for, channel;  ///< two paths, and a name
-    bool for_answer = false;                    ///< that its value was taken; false: for a value
-    std::string process;                        ///< of the other end; empty: this one
+    bool for_answer = false;                    ///< it waits for the acknowledgement of its value; false: for
+                                                ///< a value
+    std::string process;                        ///< process of the other end; empty: this one
     double since_s = 0;
   };
-  /// What passes between this process and another.
+  /// The link between this process and another.
   struct Link {
     std::string process, host;  ///< the other one; host empty: none is given
     bool reachable = false;
     double since_s = 0;             ///< of `reachable`
-    std::optional<double> heard_s;  ///< the newest sign of it; nullopt: none yet
+    std::optional<double> heard_s;  ///< its newest message; nullopt: none yet
     std::uint64_t sent = 0, repeated = 0, received = 0, duplicates = 0;  ///< as LinkGauges
-    std::uint32_t signs = 0, signs_lost = 0;                             ///< of its newest signs of life
-    std::optional<double> clock_ahead_s;                                 ///< its clock of the day
+    std::uint32_t signs = 0, signs_lost = 0;                             ///< among its newest signs of life
+    std::optional<double> clock_ahead_s;                                 ///< by its wall clock
     double clock_uncertainty_s = 0;
   };
-  /// Which part of a deployed system this is.
+  /// The part of a deployed system that this process is.
   struct Process {
     std::string name, host;
     std::uint64_t incarnation = 0;
   };
   /// Additional state of a run in simulated time.
   struct Simulation {
-    bool paused = false;       ///< it stands, and all that it has fired is in its recording
+    bool paused = false;       ///< it stands still, and all its firings are in its recording
     std::uint64_t pauses = 0;  ///< how often it has been paused
     double speed = 0;          ///< simulated seconds a second; 0: as fast as possible
     std::string broke_at;      ///< the place or transition whose breakpoint paused it; empty: none
@@ -76,7 +77,7 @@ struct Snapshot {
 
 /// One line, with its line end. Text that is not UTF-8 is replaced (a path may hold any bytes).
 [[nodiscard]] std::string to_line(const Snapshot& snapshot);
-/// is_elsewhere: the error is only that nothing here has that name.
+/// is_elsewhere: the only error is that no part of this process has that name.
 [[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error, bool is_elsewhere = false);
 /// The line before a piece of the recording.
 [[nodiscard]] std::string piece_line(std::size_t bytes, bool begins, bool more);
@@ -91,7 +92,7 @@ struct Malformed {};
 struct SetParameter {
   std::string path, value;
 };
-/// Of an operator, or of one who lets go.
+/// The input of an operator, or of one who lets go.
 struct FeedPanel {
   PanelInput input;
 };

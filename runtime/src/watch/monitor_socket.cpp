@@ -21,7 +21,7 @@
 namespace tessera {
 namespace {
 
-/// The folder, which must be ours alone: somebody else's could be a trap.
+/// The folder, which must belong to us alone: that of another user could be a trap.
 [[nodiscard]] bool own_folder(const std::string& folder, std::string& failure) {
   struct stat status {};
   if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
@@ -40,8 +40,8 @@ namespace {
          (peer.uid == geteuid() || peer.uid == 0);
 }
 
-/// The process that made the socket was killed: it is gone, and nobody else (through a tunnel, from a
-/// container) listens.
+/// Whether the process that made the socket was killed: it is gone, and no other program (through a tunnel,
+/// from a container) listens.
 [[nodiscard]] bool is_left_behind(const std::filesystem::path& file) {
   const std::string name = file.stem().string();  // NAME.PID
   const std::size_t dot = name.rfind('.');
@@ -119,7 +119,7 @@ void MonitorSocket::listen(std::string_view name) {
   address.sun_family = AF_UNIX;
   const std::string file = monitor_file(name, getpid());
   std::memcpy(address.sun_path, file.c_str(), file.size() + 1);
-  unlink(file.c_str());  // of an earlier process with our number
+  unlink(file.c_str());  // left by an earlier process with our number
   const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const auto* own = reinterpret_cast<const sockaddr*>(&address);
   if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 || ::listen(descriptor, 4) != 0) {

@@ -208,7 +208,7 @@ void RemoteControl::about_to_fire() {
   }
 }
 
-/// Pauses if the breakpoint's condition has come to hold, or if its transition has just fired.
+/// Pauses if the breakpoint's condition holds now, or if its transition has just fired.
 void RemoteControl::look_at(Breakpoint& breakpoint, std::uint32_t fired) {
   bool reached = false;
   if (breakpoint.when == Breakpoint::When::fires) {

@@ -13,7 +13,7 @@
 
 namespace tessera {
 
-/// Requests of those who watch a run in simulated time: pause, single steps, breakpoints, speed
+/// Requests of clients that watch a run in simulated time: pause, single steps, breakpoints, speed
 /// (tessera/monitor.hpp has the commands). They change neither the transitions that the run fires nor their
 /// simulated times.
 ///
@@ -27,16 +27,16 @@ class RemoteControl {
   RemoteControl& operator=(const RemoteControl&) = delete;
 
   // ---- the watcher's
-  /// What is wrong with the command; empty: it is done.
+  /// Executes the command. Returns its mistake; empty: there is none.
   [[nodiscard]] std::string execute(const SimulationCommand& command);
   [[nodiscard]] Snapshot::Simulation shown() const;
-  /// What has been recorded shall be in the file soon.
+  /// Requests that recorded events reach the file soon.
   void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
   /// Ends the run because the client that started it has gone.
   void abandon();
 
   // ---- the run's
-  /// As the command does.
+  /// As the command of that name.
   void pause();
   [[nodiscard]] double speed() const { return speed_.load(std::memory_order_relaxed); }
   /// Whether `fired` must be called after every single firing.
@@ -64,7 +64,7 @@ class RemoteControl {
   [[nodiscard]] bool holds(const Breakpoint& breakpoint) const;
   void look_at(Breakpoint& breakpoint, std::uint32_t fired);
   void set_paused(bool paused);
-  // What `execute` does under its lock.
+  // The part of `execute` that needs its lock.
   [[nodiscard]] static std::string apply(const commands::Unknown& command);
   [[nodiscard]] std::string apply(const commands::Pause& command);
   [[nodiscard]] std::string apply(const commands::Resume& command);
@@ -78,7 +78,7 @@ class RemoteControl {
   Assembly& assembly_;
   mutable std::mutex mutex_;
   bool paused_;
-  bool stands_ = false;  ///< the run waits, and all that it has fired is in its recording
+  bool stands_ = false;  ///< the run waits, and all its firings are in its recording
   std::uint64_t firings_left_ = 0;
   bool to_iteration_ = false;              ///< of iterating_, or of any subsystem
   std::uint32_t iterating_ = UINT32_MAX;   ///< UINT32_MAX: any

@@ -51,7 +51,7 @@ namespace {
   return std::string(instance.agent) + "." + std::string(instance.name);
 }
 
-/// What the two sides of the channels wait for, as far as they are here.
+/// The waits at the two sides of the channels, as far as they are in this process.
 class Waits {
  public:
   Waits(const Assembly& assembly, Snapshot& snapshot) : assembly_(assembly), snapshot_(snapshot) {}

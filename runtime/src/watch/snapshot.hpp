@@ -5,7 +5,7 @@
 
 namespace tessera {
 
-/// What the subsystems and channels of a run show by now, without its recording and its pace.
+/// The present state of a run's subsystems and channels, without its recording and its pace.
 ///
 /// Threads: any.
 [[nodiscard]] Snapshot take_snapshot(const Assembly& assembly, const Clock& clock);

@@ -15,7 +15,7 @@ namespace tessera {
 /// ...". For reports, when no subsystem runs.
 [[nodiscard]] std::string why_nothing_happens(const Assembly& assembly);
 
-/// Notices that all threads of a run wait for each other, which lasts for ever.
+/// Notices that all threads of a run wait for each other, which never ends.
 ///
 /// A thread is at rest while it sleeps and only another thread can wake it. If all threads are at rest in
 /// two successive looks, each in the same sleep both times, then all of them rested at the same time

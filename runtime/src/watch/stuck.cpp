@@ -52,7 +52,7 @@ class Search {
   [[nodiscard]] bool can_be_freed(std::uint32_t instance) {
     return std::ranges::any_of(*lacks_[instance], [&](const Lack& lack) {
       const PortLink& port = ports_of(assembly_, instance)[lack.port];
-      if (port.end != nullptr) return true;  // nobody here knows what another process may do
+      if (port.end != nullptr) return true;  // the state of another process is not known here
       return !silent(port.peer) && (lack.tokens & ~given_by(port.peer, port.channel)) == 0;
     });
   }
@@ -126,7 +126,7 @@ void StuckWatch::look(Assembly& assembly, Time now) {
     if (said_[instance] || assembly.control.has_ended(instance)) continue;
     if (assembly.executors[instance]->waits_since() > now - patience) continue;
     const std::vector<std::uint32_t> stuck = stuck_for_good(assembly);
-    // A subsystem may wait for long and be freed in the end, so this is checked less and less often.
+    // A subsystem may wait for long and be freed in the end, so the check becomes less and less frequent.
     if (std::ranges::all_of(stuck, [&](std::uint32_t one) { return said_[one]; }))
       next_ = now + std::max(patience, now.time_since_epoch() / 4);
     return found(assembly, stuck, now, [&](std::uint32_t one) {

@@ -103,8 +103,8 @@ class Index {
   /// Whether an agent is a fleet, so that paths need an index.
   [[nodiscard]] bool is_fleet(std::string_view agent) const { return fleets_.contains(agent); }
 
-  /// What `in`, `out`, `memory` or `parameters` hold in that unit; nullptr: `base` is none of them. A receptor
-  /// finds its real buffers in `in`, an effector in `out`.
+  /// The contents of `in`, `out`, `memory` or `parameters` in that unit; nullptr: `base` is none of them. A
+  /// receptor finds its real buffers in `in`, an effector in `out`.
   [[nodiscard]] std::optional<NamesOf> members(const UnitNames& unit, std::string_view base) const;
 
  private:

@@ -33,7 +33,7 @@ class IndexBuilder {
   }
 
  private:
-  /// What the third word of a path is.
+  /// The kind of the third word of a path.
   enum class Place : std::uint8_t { agent, from, to, real, formula };
 
   SymbolId define(Kind kind, const Entry& entry, SymbolId owner, Way way, const std::string& above) {

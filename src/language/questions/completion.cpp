@@ -16,7 +16,7 @@ bool is_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// What a path in a text leads to.
+/// The element that a path in a text leads to.
 enum class PathEnd : std::uint8_t { agent, output, input, real, behaviour };
 
 class Completer {

@@ -41,7 +41,7 @@ Location definition_of(const Document& document, SymbolId symbol) {
   return {"", document.lines().range(document.index()[symbol].definition)};
 }
 
-/// The names beside that of `symbol`. What else may not be equal to it, the parser knows.
+/// The names beside that of `symbol`. The parser knows the other names that it may not equal.
 std::vector<SymbolId> neighbours(const Index& index, SymbolId symbol) {
   const Symbol& own = index[symbol];
   std::vector<SymbolId> all;

@@ -33,7 +33,7 @@ class Grammar {
   [[nodiscard]] std::vector<std::string> values(const Way& way) const;
   /// Examples of values: "20 Hz".
   [[nodiscard]] std::vector<std::string> examples(const Way& way) const;
-  /// What the schema says of the value at `way`; empty: nothing.
+  /// The description of the value at `way` in the schema; empty: there is none.
   [[nodiscard]] std::string description(const Way& way) const;
 
  private:

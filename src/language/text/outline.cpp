@@ -13,7 +13,7 @@ constexpr std::string_view blank = " \t";
 
 const Node no_node{};
 
-/// Reads a text from top to bottom. Never fails: what it does not understand it takes as a scalar or leaves out.
+/// Reads a text from top to bottom. It never fails: unknown parts become scalars or are left out.
 class OutlineReader {
  public:
   OutlineReader(std::string_view text, std::deque<Node>& nodes) : text_(text), nodes_(nodes) {}
@@ -27,7 +27,7 @@ class OutlineReader {
     }
     const Node* root = block(0, 0);
     Node* joined = nullptr;
-    // What follows a line that fits nowhere.
+    // Skips the lines after one that fits nowhere.
     while (!done()) {
       const std::size_t before = at_;
       const Node* more = block(0, 0);

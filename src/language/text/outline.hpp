@@ -8,9 +8,8 @@
 #include "language/text/lines.hpp"
 
 /// The outline of a YAML text that is being typed.
-///
-/// yaml-cpp refuses such a text: a bracket is still open, a key has no colon yet. This reader takes every text.
-/// Of a text that is right, it makes the same tree as the parser of the specification (a test compares).
+/// yaml-cpp refuses such a text: a bracket is still open, a key has no colon yet. This reader takes every
+/// text. For a correct text, it makes the same tree as the parser of the specification (a test compares).
 namespace tessera::language {
 
 struct Node;
@@ -25,8 +24,8 @@ struct Entry {
 
 struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map } kind = Kind::null;
-  Extent extent;     ///< of a scalar: its text without quotes. Of the others: from the first to the last byte
-  std::string text;  ///< of a scalar
+  Extent extent;           ///< a scalar: its text without quotes; others: from the first to the last byte
+  std::string text;        ///< of a scalar
   bool quoted = false;     ///< '...', "..." or a block (|, >)
   bool verbatim = false;   ///< text is exactly the bytes of `extent`
   bool flow = false;       ///< { } or [ ]
@@ -46,7 +45,7 @@ struct Node {
 /// The tree of one text. Aliases share nodes.
 class Outline {
  public:
-  /// Linear in the text. What is nested deeper than 64 levels is left out.
+  /// Linear in the text. It leaves out parts that are nested deeper than 64 levels.
   explicit Outline(std::string_view text);
   [[nodiscard]] const Node& root() const { return *root_; }
 

@@ -41,7 +41,7 @@ std::size_t plain_end(std::string_view text, std::size_t at, bool in_flow) {
   return line;
 }
 
-/// Where a quoted text ends: at its closing quote, or npos.
+/// The end of a quoted text: its closing quote, or npos.
 std::size_t quote_end(std::string_view text, std::size_t at, std::size_t limit) {
   const char quote = text[at];
   for (std::size_t i = at + 1; i < limit; ++i) {

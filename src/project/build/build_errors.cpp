@@ -58,7 +58,7 @@ class Explanation {
 
   void add(const CompilerError& error) {
     const std::optional<Shown> shown = place_of(error);
-    // What is wrong in a library follows from a mistake that has been shown.
+    // Errors in a library follow from a mistake that has been shown.
     if (!shown || (count_ > 0 && !is_of_user(shown->file.string()))) return;
     // Two conditions may stand in one line of the specification.
     const bool is_specification = shown->file == context_.specification.file;
@@ -145,7 +145,7 @@ class Explanation {
         return of_driver(*alias, "",
                          {"E505", fmt::format("there is no class {} in src/drivers.hpp", *alias),
                           fmt::format("{}; a class in a namespace is named with it", driver_rule)});
-      // Of a driver that does not fit, other errors follow.
+      // A driver that does not fit causes further errors.
       const auto row = driver_row(line);
       if (!row || !error.text.starts_with("static assertion failed")) continue;
       const CppMistake mistake = understand(error, context_.specification.model, context_.functions);

@@ -9,7 +9,7 @@
 
 namespace tessera::project {
 
-/// What the errors of a build are explained with.
+/// The facts that explain the errors of a build.
 struct BuildContext {
   const Specification& specification;
   const TransitionFunctions& functions;

@@ -189,7 +189,7 @@ Refused no_library(const std::string& name) {
                name)}};
 }
 
-/// What a line of compiler or linker says of a library or an option. No words: nothing.
+/// The message of a line of compiler or linker about a library or an option. No words: there is none.
 Refused refused_in(std::string_view line) {
   for (const std::string_view before : {"cannot find -l", "unable to find library -l", "library not found: "})
     if (const std::string name = word_behind(line, before); !name.empty()) return no_library(name);

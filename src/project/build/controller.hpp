@@ -26,7 +26,7 @@ struct Generated {
   std::filesystem::path folder;
   std::size_t files = 0, written = 0, lines = 0;
   std::vector<std::filesystem::path> created;    ///< files of the user that were made or extended
-  std::vector<std::filesystem::path> set_aside;  ///< new paths of generated files that somebody had edited
+  std::vector<std::filesystem::path> set_aside;  ///< new paths of generated files that were edited
   std::vector<codegen::Stub> missing;            ///< functions that the user has not written yet
   std::vector<codegen::Stub> unclear;            ///< functions that only the linker can judge
   std::shared_ptr<const TransitionFunctions> functions;
@@ -75,9 +75,9 @@ struct BuildOptions {
 [[nodiscard]] std::filesystem::path compile(const Specification& specification, const Generated& generated,
                                             const BuildOptions& options, Listener& listener);
 
-/// read_and_verify, generate and compile in one, one at a time for a project; nullopt when anything failed
-/// and was said, or `stop` became true. Where nothing can be written in the project, a program that was built there from
-/// the same files is taken as it is.
+/// read_and_verify, generate and compile in one, one at a time for a project; nullopt when a step failed and
+/// reported it, or `stop` became true. If the project cannot be written to, a program that was built there
+/// from the same files is used as it is.
 struct Controller {
   std::filesystem::path program;
   Specification specification;

@@ -15,12 +15,12 @@ struct CppMistake {
   std::string hint;     ///< may be empty
 };
 
-/// What a driver in C++ is, as a hint.
+/// The form of a driver in C++, as a hint.
 inline constexpr const char* driver_rule =
     "a receptor derives from tessera::Receptor<T> with `std::optional<T> read() override`, an effector "
     "from tessera::Effector<T> with `bool write(const T&) override`; T is the type of the real buffer";
 
-/// What an error of the compiler means in a project with that model.
+/// The meaning of a compiler error in a project with that model.
 [[nodiscard]] CppMistake understand(const CompilerError& error, const spec::Model& model,
                                     const TransitionFunctions& functions);
 

@@ -11,14 +11,14 @@ namespace tessera::project {
 
 /// The owner of the files of a folder that the list does not name.
 enum class Unlisted : std::uint8_t {
-  foreign,     ///< files of somebody else, always
+  foreign,     ///< files that Tessera has not written, always
   by_heading,  ///< ours if they begin like generated files: for folders of versions that kept no list
 };
 
 /// The changes to the files of a folder.
 struct GeneratedFiles {
   std::size_t written = 0;                       ///< files that were missing or differed
-  std::vector<std::filesystem::path> set_aside;  ///< new paths of files that somebody had edited
+  std::vector<std::filesystem::path> set_aside;  ///< new paths of files that were edited
 };
 
 /// Makes a folder hold these files. It keeps a list of them there (`.tessera-files`, with hashes) and

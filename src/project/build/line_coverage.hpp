@@ -20,8 +20,8 @@ struct LineCoverage {
 /// Forgets what earlier runs have reached. Before programs of that build folder run.
 void clear_line_coverage(const Specification& specification);
 
-/// What programs that were built with BuildOptions::coverage have reached since then, of all sources in src/, sorted by
-/// file. Asks gcov. Throws std::runtime_error if that fails.
+/// The lines that programs built with BuildOptions::coverage have reached since then, for all sources in
+/// src/, sorted by file. Asks gcov. Throws std::runtime_error if that fails.
 [[nodiscard]] std::vector<LineCoverage> line_coverage(const Specification& specification);
 
 /// "57, 60-62"

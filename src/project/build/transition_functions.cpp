@@ -231,7 +231,7 @@ std::string twice_text(const codegen::Stub& stub, const TransitionFunctions& fun
   return text + "hint: keep one of them; every source in src/ is part of the controller\n";
 }
 
-/// What is said of a function of that name that is there, but that the linker does not take; empty: there is none.
+/// The message about an existing function of that name that the linker does not take; empty: there is none.
 std::string other_parameters_text(const codegen::Stub& stub, const TransitionFunctions& functions) {
   std::vector<TransitionFunctions::Definition> all = functions.definitions(stub);
   std::ranges::move(functions.definitions_with_other_arguments(stub), std::back_inserter(all));

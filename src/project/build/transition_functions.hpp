@@ -37,9 +37,9 @@ class TransitionFunctions {
     std::string space;
     std::string name, heading;
   };
-  /// Where it is defined.
+  /// The position of its definition.
   [[nodiscard]] std::vector<Definition> definitions(const codegen::Stub& stub) const;
-  /// Where functions of its name are defined in namespaces that are nobody's: most likely it was meant there.
+  /// Definitions of functions of its name in namespaces of no subsystem: most likely one was meant there.
   [[nodiscard]] std::vector<Definition> definitions_elsewhere(const codegen::Stub& stub) const;
   /// Names of functions in its namespace that no behaviour has: most likely those of behaviours that had other names.
   [[nodiscard]] std::vector<std::string> leftovers(const codegen::Stub& stub) const;
@@ -79,7 +79,7 @@ class TransitionFunctions {
 /// there and what may be meant: a function with nearly that name, or one in another namespace.
 [[nodiscard]] std::string missing_text(const codegen::Stub& stub, const TransitionFunctions& functions);
 
-/// Where functions may be in the wrong namespace; one line each.
+/// Functions that may be in the wrong namespace; one line each.
 [[nodiscard]] std::string misplaced_functions(const TransitionFunctions& functions);
 
 /// Explains messages of compiler and linker in terms of the project: transition functions that are

@@ -11,7 +11,7 @@ namespace tessera::project {
 
 /// A simulated world, and the library that simulates it.
 struct ChosenWorld {
-  WorldOptions options;  ///< what the specification says of the world itself; no track, seed or checks
+  WorldOptions options;  ///< the specification's settings of the world itself; no track, seed or checks
   std::filesystem::path library;
   std::string name;  ///< for people: "/home/me/hall.xml", "CoppeliaSim at localhost:23000"
 };
@@ -28,7 +28,7 @@ struct ChosenWorld {
 /// Whether the server runs on this machine, so that it sees our files.
 [[nodiscard]] bool is_here(const spec::CoppeliaServer& server);
 
-/// What the controller is told of a server. A scene that is a file of the project has its whole name.
+/// The settings of a server for the controller. A scene that is a file of the project has its whole path.
 [[nodiscard]] WorldServer server_of(const spec::CoppeliaServer& server, const std::filesystem::path& project);
 
 }  // namespace tessera::project

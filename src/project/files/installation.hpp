@@ -6,8 +6,8 @@
 
 namespace tessera::project {
 
-/// Where this installation keeps its parts. The command is relocatable: everything is found from its own
-/// path, in an installed prefix (bin/tessera) as in a build tree (tessera beside share/ and lib/).
+/// The paths of the parts of this installation. The command is relocatable: it finds everything from its own
+/// path, in an installed prefix (bin/tessera) and in a build tree (tessera beside share/ and lib/).
 struct Installation {
   std::filesystem::path share;             ///< worlds/, tracks/, examples/, spec.schema.json
   std::filesystem::path cmake_package;     ///< folder of tesseraConfig.cmake

@@ -64,7 +64,7 @@ class MessageFinder {
   }
 
  private:
-  /// Of a service: the one that the buffer is.
+  /// For a service: the message of the buffer.
   [[nodiscard]] std::shared_ptr<const ros2::Structure> message_of(
       const spec::Driver& driver, const std::string& name, std::vector<ros2::Mistake>& mistakes) const {
     if (!is_service(driver)) return ros2::resolve(name, definitions_, mistakes);

@@ -9,7 +9,7 @@
 #include "spec/model/model.hpp"
 #include "tessera/device.hpp"
 
-/// What a controller and the world's library need of the section `simulation`.
+/// The parts of the section `simulation` that a controller and the world's library need.
 namespace tessera::project {
 
 /// A driver of the world as the world sees it, with the type of its buffer but without its encoding.

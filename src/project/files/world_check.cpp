@@ -23,7 +23,7 @@ Result<void*> function_of_library(const fs::path& file, const char* name) {
   return function;
 }
 
-/// Where in the specification a problem is.
+/// The position of a problem in the specification.
 diagnostics::Span place_of(const spec::Driver& driver, const DriverProblem& problem) {
   if (const auto option = driver.option_spans.find(problem.subject); option != driver.option_spans.end())
     return option->second;

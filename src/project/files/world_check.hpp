@@ -16,7 +16,7 @@ namespace tessera::project {
 
 /// A world that is open to be asked. No server is called. Problem: the library is not installed, or the world does not open.
 [[nodiscard]] Result<std::unique_ptr<World>> open_world_to_ask(ChosenWorld world);
-/// What a world offers, as JSON.
+/// The contents of a world, as JSON.
 [[nodiscard]] Result<std::string> contents_of_world(const ChosenWorld& world);
 /// A world of MuJoCo to be drawn as it was recorded. Problem: as OpenPainter, or the library is not installed.
 [[nodiscard]] Result<std::unique_ptr<WorldPainter>> open_painter(const WorldOptions& options,

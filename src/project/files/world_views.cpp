@@ -48,7 +48,7 @@ Vector turned(const Quaternion& q, const Vector& v) {
   return {moved[1], moved[2], moved[3]};
 }
 
-/// Stands for a body without a name, which nobody finds.
+/// Replaces the name of a body without one, which no name finds.
 constexpr const char* nameless = "?";
 
 /// Asks an open world at which bodies the sites are.

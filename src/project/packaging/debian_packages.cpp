@@ -46,7 +46,7 @@ std::set<std::string> needed_by(const fs::path& file) {
   return names;
 }
 
-/// Where the loader of this machine finds the libraries of a file, those of its libraries included.
+/// The paths at which the loader of this machine finds the libraries of a file, including their libraries.
 std::map<std::string, fs::path> found_by_loader(const fs::path& file) {
   std::map<std::string, fs::path> found;
   for (const std::string& line : lines_of(output_of({"ldd", file.string()}))) {
@@ -61,7 +61,7 @@ struct Owner {
   std::string package, version;
 };
 
-/// Of no package: then `package` is empty.
+/// A file of no package: then `package` is empty.
 Owner owner_of(const std::string& pattern) {
   const Exit found = capture({"env", "LC_ALL=C", "dpkg-query", "-S", pattern});
   if (found.code != 0) return {};
@@ -147,7 +147,7 @@ LibraryNeeds libraries_of(const std::vector<fs::path>& files, bool is_for_this_m
       if (!is_for_this_machine)
         throw std::runtime_error(
             fmt::format("{} needs {}, and no Debian package of this machine has it", file.string(), name));
-      // What it needs in turn has no package to say so.
+      // No package names its further needs.
       if (foreign.insert(place->second).second)
         for (const std::string& next : needed_by(place->second))
           if (seen.insert(next).second) open.push_back(next);

@@ -6,7 +6,7 @@
 
 namespace tessera::project {
 
-/// What programs and libraries need beside themselves.
+/// The libraries and packages that programs need.
 struct LibraryNeeds {
   /// Debian packages that have them: "libfmt9 (>= 9.1.0+ds1)"
   std::vector<std::string> packages;

@@ -72,7 +72,7 @@ std::string debian_name(const std::string& name) {
   return made;
 }
 
-/// Of one host, from its files to its package.
+/// The package of one host, from its files on.
 class Packing {
  public:
   Packing(const Controller& controller, const PackageOptions& options, HostPlan plan, bool is_only,
@@ -165,7 +165,7 @@ class Packing {
         system_, fmt::join(needs_.packages, ", "), start);
   }
 
-  /// What dpkg is told.
+  /// The control file for dpkg.
   void put_control(const fs::path& root) const {
     const fs::path control = root / "DEBIAN";
     const std::string runs =
@@ -188,7 +188,7 @@ if [ "$1" = remove ] && [ -d /run/systemd/system ]; then systemctl disable --now
                                               fmt::join(unit_files_, " ")));
   }
 
-  /// The same modes and times, whoever makes the package and when.
+  /// The same modes and times for every user and time of packaging.
   static void settle(const fs::path& root) {
     const auto time = fs::file_time_type(std::chrono::duration_cast<fs::file_time_type::duration>(
         fs::file_time_type::clock::from_sys(std::chrono::sys_seconds(std::chrono::seconds(epoch())))

@@ -29,7 +29,7 @@ struct Package {
   std::vector<std::string> needs;      ///< packages of Debian: "libfmt9 (>= 9.1.0)"
 };
 
-/// What is wrong with a version or a host, before anything is built; empty: nothing.
+/// The mistake in a version or a host, found before anything is built; empty: there is none.
 [[nodiscard]] std::string wrong_with(const PackageOptions& options, const spec::Model& model);
 
 /// Writes a package per host of the deployment, or one. It has the controller, the libraries of Tessera that

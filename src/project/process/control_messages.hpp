@@ -13,7 +13,7 @@
 /// share/tessera/control_socket.schema.json defines them.
 namespace tessera::project {
 
-/// What a controller does now.
+/// The present state of a controller.
 struct Snapshot {
   struct Subsystem {
     std::string path;
@@ -38,7 +38,7 @@ struct Snapshot {
     std::string process;  ///< of the other; empty: the same
     double since_s = 0;
   };
-  /// What this process knows of another.
+  /// The knowledge that this process has of another.
   struct Link {
     std::string process, host;
     bool reachable = false;
@@ -48,7 +48,7 @@ struct Snapshot {
     std::optional<double> clock_ahead_s;
     double clock_uncertainty_s = 0;
   };
-  /// Of a run that was started with `--controlled`.
+  /// Only for a run that was started with `--controlled`.
   struct Control {
     bool paused = false;
     std::uint64_t pauses = 0;
@@ -69,7 +69,7 @@ struct Snapshot {
   std::optional<Control> control;
 };
 
-/// What came of a command.
+/// The result of a command.
 struct CommandAnswer {
   std::int64_t id = 0;
   std::string error;       ///< empty: done
@@ -96,11 +96,11 @@ using ControlLine = std::variant<Snapshot, CommandAnswer, PieceHead, SceneHead, 
 /// the controller may be of another version. nullopt: it is none.
 [[nodiscard]] std::optional<ControlLine> read_control_line(std::string_view line);
 
-/// Without their memory, which those who follow a run take from its recording.
+/// Without the memory, which clients that follow a run take from its recording.
 [[nodiscard]] nlohmann::json json_of(const std::vector<Snapshot::Subsystem>& subsystems);
 [[nodiscard]] nlohmann::json json_of(const std::vector<Snapshot::Channel>& channels);
 
-/// What a client may ask for.
+/// The commands of a client.
 namespace command {
 struct Recording {};
 struct Scene {

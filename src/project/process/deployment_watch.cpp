@@ -15,7 +15,7 @@ namespace tessera::project {
 namespace {
 
 constexpr std::chrono::milliseconds look_period{500};
-/// Until a socket at which nobody listens is tried again: a process that is stopped may keep us waiting.
+/// The time until a socket without a listener is tried again: a stopped process may delay the connection.
 constexpr std::chrono::seconds pause_after_refusal{5};
 constexpr std::size_t longest_control_line = std::size_t{16} << 20U;
 
@@ -51,7 +51,7 @@ struct ProcessOfSocket {
   bool is_gone = false;  ///< no process has the number
 };
 
-/// What the process says decides, if the name of the socket is too short for the system's or says another.
+/// The report of the process decides, if the name of the socket is too short for the system's or differs.
 bool may_be_of(std::string_view socket, const std::string& system) {
   return has_shortened_name(socket) || socket.starts_with(system + ".");
 }
@@ -128,7 +128,7 @@ void DeploymentWatch::look_for_sockets() {
   }
 }
 
-/// What is known of a process that has said nothing.
+/// The state of a process that has sent nothing.
 void DeploymentWatch::note_found(const std::string& socket, Connected& one,
                                  WatchedProcess::State state) const {
   const ProcessOfSocket known = process_of_socket(socket, system_);

@@ -35,8 +35,7 @@ struct Exit {
 /// The same in a process group of its own, which Ctrl-C does not reach. When `stop` becomes true
 /// (it is checked ten times a second), the program gets SIGINT, and SIGKILL five seconds later.
 /// started: receives the process id.
-///
-/// Threads: any number at a time. Of the output only the last 64 kB are kept.
+/// Threads: any number at a time. Only the last 64 kB of the output are kept.
 [[nodiscard]] Exit capture_apart(const Command& command, const std::atomic<bool>& stop,
                                  const std::function<void(std::string_view)>& each_line = {},
                                  const std::function<void(pid_t)>& started = {});

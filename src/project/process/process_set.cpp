@@ -101,7 +101,7 @@ void ProcessSet::stop_in_spite_of_exceptions() {
   const auto try_to = [](auto what) {
     try {
       what();
-    } catch (const std::exception&) {  // the first one is told
+    } catch (const std::exception&) {  // only the first one is reported
     }
   };
   try_to([&] { stop_all(0, SIGTERM); });
@@ -193,7 +193,7 @@ void ProcessSet::obey(int signal) {
   });
 }
 
-/// Once more means that somebody is impatient: a controller that hangs ends then.
+/// A second signal is impatience: a controller that hangs ends then.
 void ProcessSet::stop_all(int signal, int sent) {
   if (!std::exchange(stopping_, true)) {
     stopped_by_ = signal;

@@ -15,7 +15,7 @@
 
 namespace tessera::project {
 
-/// What one start of a process has come to.
+/// The result of one start of a process.
 struct ProcessEnd {
   std::size_t process = 0;
   unsigned start = 1;  ///< 1 for the first
@@ -24,7 +24,7 @@ struct ProcessEnd {
   bool asked = false;  ///< it had been asked to stop before
 };
 
-/// What happens when a process ends by itself and has failed.
+/// The reaction to a process that ends by itself with a failure.
 struct FailurePolicy {
   bool restarts = false;  ///< it is started again, after a pause that doubles
   bool stops_all = true;  ///< it is not started again: the others are stopped too
@@ -43,7 +43,7 @@ class ProcessSetListener {
   virtual void said(std::size_t process, std::string_view line) = 0;
   /// again_in: it is started again after that time; nullopt: it is not.
   virtual void ended(const ProcessEnd& end, std::optional<std::chrono::milliseconds> again_in) = 0;
-  /// All are asked to stop. signal: which somebody sent; 0: because one has failed.
+  /// All are asked to stop. signal: the received one; 0: because one process has failed.
   virtual void stopping(int signal) = 0;
   /// Processes that have been asked to stop a while ago and still run.
   virtual void waits_for(const std::vector<std::size_t>& processes) = 0;

@@ -16,7 +16,7 @@ double seconds_since(WatchedProcess::Clock::time_point time) {
   return std::chrono::duration<double>(WatchedProcess::Clock::now() - time).count();
 }
 
-/// What one subsystem waits for, if it waits for several: what it waited for first.
+/// The wait of one subsystem; among several waits, the earliest.
 using Waits = std::map<std::string, WaitingStep>;
 
 Waits waits_of(const DeploymentWatch& deployment, double least_s) {
@@ -41,7 +41,7 @@ Waits waits_of(const DeploymentWatch& deployment, double least_s) {
   return all;
 }
 
-/// What the waiting process itself knows of the other one.
+/// The waiting process's own knowledge of the other one.
 const Snapshot::Link* link_of(const DeploymentWatch& deployment, const WaitingStep& step) {
   const WatchedProcess* waiting = deployment.find(step.process);
   if (waiting == nullptr) return nullptr;

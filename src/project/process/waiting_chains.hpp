@@ -19,16 +19,16 @@ struct WaitingStep {
   [[nodiscard]] std::string text() const;
 };
 
-/// Who waits for whom, from a subsystem that nobody waits for (or one of a circle) to the one that does not
+/// A chain of waits, from a subsystem that no other waits for (or one of a circle) to the one that does not
 /// wait itself.
 struct WaitingChain {
   std::vector<WaitingStep> steps;
-  /// What is known of the last one that is waited for: "gate is gone", "gate.board runs 'grant'".
+  /// The state of the last one that is waited for: "gate is gone", "gate.board runs 'grant'".
   std::string end;
 };
 
 /// All chains of waits of at least `least_s`, the longest waits first. Shorter ones are part of usual work.
-/// Each subsystem follows the wait that it began first; a subsystem at which several chains meet is told in each.
+/// Each subsystem follows its earliest wait; a subsystem at which several chains meet is in each of them.
 [[nodiscard]] std::vector<WaitingChain> waiting_chains(const DeploymentWatch& deployment, double least_s = 1);
 
 }  // namespace tessera::project

@@ -69,7 +69,7 @@ Draft draft_of(diagnostics::Diagnostics& text, const fs::path& project) {
   draft.known = spec::parse_what_is_known(text);
   draft.is_model = draft.known && !text.has_errors();
   if (!draft.is_model) return draft;
-  // What is wrong with a driver does not change the net.
+  // A mistake in a driver does not change the net.
   if (!project.empty()) find_messages(*draft.known, project, text);
   judge_models(*draft.known, text);
   draft.nets = build_what_is_possible(*draft.known, text);

@@ -78,7 +78,7 @@ struct Nets {
 /// "holds", "violated", "unknown"
 [[nodiscard]] const char* name_of(verify::Verdict verdict);
 
-/// What may pass on to generation.
+/// A model that may pass on to generation.
 struct VerificationGate {
   std::string timeout = "10s";     ///< for the verdicts
   bool accept_violations = false;  ///< a violated net may pass, too
@@ -88,8 +88,8 @@ struct Verified {
   Specification specification;
   verify::VerifiedNet net;
 };
-/// The whole pipeline: read, models_are_sound, build, verdicts. Only a net without violations gets through,
-/// unless the gate is open. What is unknown is told of and gets through.
+/// The whole pipeline: read, models_are_sound, build, verdicts. Only a net without violations passes, unless
+/// the gate is open. An unknown verdict is reported and passes.
 [[nodiscard]] std::optional<Verified> run_pipeline(const std::filesystem::path& given,
                                                    const VerificationGate& gate, Listener& listener);
 

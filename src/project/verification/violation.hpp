@@ -22,10 +22,10 @@ namespace tessera::project {
 [[nodiscard]] std::string headline(const verify::PropertyResult& property);
 
 /// The run, step by step, and the channels at its end. A net of the five layers is described subsystem by
-/// subsystem. Of a long run, only the last part is shown.
+/// subsystem. Only the last part of a long run is shown.
 [[nodiscard]] std::string run_text(const net::Net& judged, const verify::PropertyResult& property);
 
-/// The headline, who waits for whom, and the run if there is one.
+/// The headline, the waiting subsystems, and the run if there is one.
 [[nodiscard]] std::string text_of(const net::Net& judged, const verify::PropertyResult& property);
 
 }  // namespace tessera::project

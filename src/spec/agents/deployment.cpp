@@ -277,7 +277,7 @@ class DeploymentReader {
 
   /// A model of the author says how two sides share one memory; over a network there are two.
   void check_models() {
-    std::map<std::uint32_t, bool> told;  // per line: a channel of fleets is told of once
+    std::map<std::uint32_t, bool> told;  // per line: a channel of fleets is reported once
     for (const Channel& channel : model_.channels) {
       if (channel.model == none || !model_.crosses_processes(channel)) continue;
       if (!told.emplace(channel.span.line, true).second) continue;

@@ -6,7 +6,7 @@
 
 namespace tessera::spec {
 
-/// What every subsystem sees.
+/// The names that every subsystem sees.
 struct SystemScope {
   const Types& types;
   const std::vector<Parameter>& parameters;  ///< of the system

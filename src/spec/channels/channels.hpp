@@ -11,13 +11,13 @@
 
 namespace tessera::spec {
 
-/// What the checks of the wiring must know besides the channels themselves.
+/// The facts that the checks of the wiring need besides the channels themselves.
 struct WiringExcuses {
   std::set<std::pair<Index, Index>> inputs;  ///< (instance, input) left without a source by the end of a
                                              ///< fleet, or by a channel with a mistake in it
   std::set<Index> instances;                 ///< a channel with a mistake leads to some input of it
   std::set<Index> agents;                    ///< a channel with a mistake leads to some subsystem of it
-  bool everything = false;                   ///< a channel with a mistake leads nobody knows where
+  bool everything = false;                   ///< a channel with a mistake has unknown ends
   bool outputs = false;                      ///< a channel with a mistake begins somewhere
 };
 

@@ -7,13 +7,13 @@
 
 namespace tessera::spec {
 
-/// Where the bytes of a scalar's text stand in the file, also if the text takes several lines or has escapes.
+/// The positions of a scalar's bytes in the file, also if the text takes several lines or has escapes.
 class Positions {
  public:
   Positions(const Node& text, const Diagnostics& source);
 
-  /// Of `length` bytes from `offset`, at most to the end of their line; the span of the whole scalar if the
-  /// text is not in the file as YAML gives it.
+  /// The span of `length` bytes from `offset`, at most to the end of their line; the span of the whole scalar
+  /// if the text is not in the file as YAML gives it.
   [[nodiscard]] Span part(std::size_t offset, std::size_t length) const;
 
  private:

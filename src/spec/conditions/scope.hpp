@@ -8,7 +8,7 @@
 
 namespace tessera::spec {
 
-/// What the conditions of one subsystem may name.
+/// The names that the conditions of one subsystem may use.
 struct ConditionScope {
   SubsystemKind kind;
   const std::vector<Field>& inputs;

@@ -78,7 +78,7 @@ class Cutter {
     return token(Token::Kind::text, std::min(end_of_name(end + 1), text_.size()));
   }
 
-  /// What C++ takes for a number includes its suffix; a unit may follow after blanks.
+  /// A number of C++ includes its suffix; a unit may follow after blanks.
   Token number() {
     std::size_t end = position_;
     for (char before = '\0';

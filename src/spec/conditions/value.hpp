@@ -9,7 +9,7 @@
 
 namespace tessera::spec {
 
-/// What is known about the value of a part of a condition before it is compiled.
+/// The facts about the value of a part of a condition before it is compiled.
 struct Value {
   enum class Kind : std::uint8_t {
     unknown,  ///< left to the compiler

@@ -12,7 +12,7 @@ namespace tessera::spec {
 /// Errors: E102, E104, E204, E205, E206 wrong keys and values.
 [[nodiscard]] CoppeliaServer read_coppelia(const Entry& entry, Diagnostics& out);
 
-/// What belongs to a world of MuJoCo has no meaning beside `coppelia`.
+/// Keys of a MuJoCo world have no meaning beside `coppelia`.
 ///
 /// Errors: E107 a second world; E102 the keys track, models, checks and measures.
 void refuse_beside_coppelia(const Section& simulation, Diagnostics& out);

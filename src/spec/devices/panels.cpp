@@ -60,7 +60,7 @@ bool is_whole(const Type& type) {
   return !is_bool(type) && type.scalar != Scalar::float32 && type.scalar != Scalar::float64;
 }
 
-/// Of integers as far as a double counts them one by one.
+/// The limits of integers that a double represents exactly.
 std::pair<double, double> range_of(Scalar scalar) {
   constexpr double most = 9007199254740992.0;
   switch (scalar) {

@@ -20,7 +20,7 @@ using Point = std::array<double, 3>;
 
 constexpr Index most_things = 10'000;
 
-/// Who an entry is about.
+/// The subject of an entry.
 struct Members {
   std::string name;
   bool is_agent = false, indexed = false;

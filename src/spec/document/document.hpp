@@ -8,7 +8,7 @@
 
 #include "diagnostics/diagnostics.hpp"
 
-/// YAML as a tree whose every part knows its position in the text. Internal to the room.
+/// YAML as a tree whose every part knows its position in the text. Internal to the module.
 namespace tessera::spec {
 
 using diagnostics::Diagnostics;

@@ -11,7 +11,7 @@ namespace {
 
 using diagnostics::quoted;
 
-/// Where to complain about a value: at itself if it is text, else at its key.
+/// The position for a complaint about a value: the value itself if it is text, else its key.
 Span span_of(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
 
 std::string found(const Node& node) {

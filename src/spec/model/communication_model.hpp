@@ -61,7 +61,7 @@ struct CommunicationModel {
   diagnostics::Span span;
 };
 
-/// What ModelSide::waits says. Precondition: at most `most_shared_places` of them. O(2^shared *
+/// The contents of ModelSide::waits. Precondition: at most `most_shared_places` of them. O(2^shared *
 /// transitions).
 [[nodiscard]] bool waits_without_peer(const CommunicationModel& model, const ModelSide& side);
 

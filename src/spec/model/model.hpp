@@ -110,7 +110,7 @@ struct Expression {
   Span span;
   std::vector<Reference> references{};  ///< in the order of the text; what could not be understood is absent
 };
-/// What the expression names.
+/// The elements that the expression names.
 [[nodiscard]] inline const std::vector<Reference>& references(const Expression& expression) {
   return expression.references;
 }
@@ -304,7 +304,8 @@ struct Property {
 /// An option of a driver: `pin: 4`, `radius: 33 mm`, `device: /dev/ttyUSB0`, `inverted: true`.
 struct DriverOption {
   std::variant<bool, double, std::string> value;
-  /// Of a number; empty: none. For a C++ class as written; for the world the base unit of the number.
+  /// The unit of a number; empty: none. For a C++ class as written; for the world the base unit of the
+  /// number.
   std::string unit;
   bool is_list = false;  ///< of a device of the world; then `value` means nothing
   std::vector<DriverOption> list{};

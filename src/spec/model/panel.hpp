@@ -8,7 +8,7 @@
 
 namespace tessera::spec {
 
-/// What an operator moves to give one field of a real buffer its value.
+/// The control with which an operator gives one field of a real buffer its value.
 struct PanelControl {
   enum class Kind : std::uint8_t {
     button,       ///< true while it is held

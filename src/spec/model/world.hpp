@@ -11,7 +11,7 @@
 #include "checks/checks.hpp"
 #include "diagnostics/diagnostics.hpp"
 
-/// What `simulation:` says of the world itself.
+/// The settings of the world itself in `simulation:`.
 namespace tessera::spec {
 
 /// One model that is placed in the simulated world: a robot of an agent, or a thing.
@@ -25,7 +25,7 @@ struct ModelPlacement {
   std::string pose;     ///< keyframe of the model; empty: none
   std::string scatter;  ///< site of the world in which the place is drawn from the seed; empty: none
   double apart_m = 0;   ///< least distance of scattered models
-  /// What is drawn from the seed: "box.mass" between the two numbers.
+  /// A value that is drawn from the seed: "box.mass" between the two numbers.
   std::map<std::string, std::pair<double, double>> vary;
   diagnostics::Span span;
 };
@@ -38,7 +38,7 @@ struct Track {
   double footprint_m = 0.008;
 };
 
-/// What a simulated run is judged by.
+/// The checks and measures of a simulated run.
 struct WorldCheck {
   checks::Check check;
   diagnostics::Span span;  ///< of the formula

@@ -40,8 +40,8 @@ struct BaseQuantity {
 /// A number of any quantity, with or without a unit. Errors: E205 an unknown unit.
 [[nodiscard]] std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
                                                             Diagnostics& out);
-/// What a unit of a length, an angle, a time, a rate or a speed ("m/s") is in m, rad, s, Hz or m/s. nullopt:
-/// there is no such unit.
+/// The value of a unit of a length, an angle, a time, a rate or a speed ("m/s") in m, rad, s, Hz or m/s.
+/// nullopt: there is no such unit.
 [[nodiscard]] std::optional<double> si_factor(std::string_view unit);
 /// A quantity in the base unit of its kind: m, rad, s, Hz, m/s. nullopt: there is no such unit.
 struct SiQuantity {

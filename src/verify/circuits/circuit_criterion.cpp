@@ -195,7 +195,7 @@ class Judgement {
     group.cause = cause;
     std::vector<Edge> circuit = drawing_.graph.path(edge.to, edge.from, filter);
     circuit.push_back(edge);
-    // An edge leads from what is waited for to who waits; told from the one who waits.
+    // An edge leads from the awaited subsystem to the waiting one; the text starts with the waiting one.
     std::ranges::reverse(circuit);
     for (const Edge& step : circuit)
       if (step.channel.valid())

@@ -9,12 +9,12 @@
 
 namespace tessera::verify {
 
-/// One subsystem waits at a channel for what another one has to do there first.
+/// One subsystem waits at a channel for an action of another one.
 struct Wait {
   SubsystemFlowId subsystem;
   ChannelFlowId channel;
   Side side = Side::receive;    ///< send: waits for the acknowledgement; receive: for a value
-  SubsystemFlowId waiting_for;  ///< none: nobody uses the other end
+  SubsystemFlowId waiting_for;  ///< none: no behaviour uses the other end
 };
 
 /// Subsystems that are joined by channels at which one of them may have to wait.
@@ -43,7 +43,7 @@ struct CircuitReport {
   Answer goes_on = Answer::unknown;
   Answer deadlock_free = Answer::unknown;
   Answer channels_flow = Answer::unknown;
-  std::vector<ChannelFlowId> dry;  ///< channels that can reach a state from which nothing is received again
+  std::vector<ChannelFlowId> dry;  ///< channels that can reach a state after which no value is ever received
   std::vector<ChannelFlowId> unclear;  ///< channels that this analysis cannot decide
 };
 

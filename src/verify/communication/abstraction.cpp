@@ -16,7 +16,7 @@ using net::Condition;
 using net::PlaceId;
 using net::TransitionId;
 
-/// What is known about a place that behaviours leave through initial conditions.
+/// The facts about a place that behaviours leave through initial conditions.
 struct Exit {
   bool certain = false;  ///< one of its conditions holds
   bool entered = false;  ///< something leads to it

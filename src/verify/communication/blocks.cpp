@@ -33,7 +33,7 @@ std::uint8_t memory_of(const net::Place& place) {
   }
 }
 
-/// What a step does, apart from where its token comes from.
+/// The effect of a step, apart from the source of its token.
 struct Move {
   PlaceId to;
   std::uint8_t takes, gives;

@@ -213,7 +213,7 @@ class Start {
   std::vector<net::TransitionId> upper_;
 };
 
-/// Numbers the channels that are used and gathers who holds which end, and how.
+/// Numbers the used channels and collects the holders of both ends, with their modes.
 class Channels {
  public:
   explicit Channels(const Steps& steps)

@@ -7,7 +7,7 @@
 
 #include "net/net.hpp"
 
-/// Which subsystems communicate with each other, as the flat net that is executed says it.
+/// The subsystems that communicate with each other, from the executed flat net.
 namespace tessera::verify {
 
 enum class Side : std::uint8_t { send, receive };
@@ -22,7 +22,7 @@ struct Communication {
   Side side = Side::send;
   bool blocking = false;
   bool timeout = false;    ///< only of a blocking side
-  bool own_model = false;  ///< by a model of the author: what it waits for is not known
+  bool own_model = false;  ///< by a model of the author: its waits are unknown
   bool operator==(const Communication&) const = default;
 };
 
@@ -78,7 +78,7 @@ enum class Assume : std::uint8_t {
 
 struct CommunicationResult {
   std::optional<CommunicationStructure> structure;
-  std::string why_not;  ///< without a structure: the first thing that the five layers do not have
+  std::string why_not;  ///< without a structure: the first element that the five layers do not have
 };
 
 /// Finds out from the net what each subsystem communicates, and in which order. It reads the net, not the

@@ -51,7 +51,7 @@ class Explainer {
     return true;
   }
 
-  /// Goes on until those are settled for whom the ones wait that are stuck for ever already.
+  /// Goes on until the peers of subsystems that are stuck for ever already are settled.
   void settle(const std::set<net::SubsystemId>& stopped) {
     const Waits waits = here();
     for (const net::SubsystemId subsystem : stopped)
@@ -107,7 +107,7 @@ class Explainer {
     }
   }
 
-  /// Brings a subsystem that cannot go on for ever to where it stops, and concerns those whom it waits for.
+  /// Brings a subsystem that cannot go on for ever to its stop, and adds the subsystems that it waits for.
   void follow(net::SubsystemId subsystem) {
     const std::vector<TransitionId> transitions = here().transitions(subsystem);
     const Aftermath::Markings stops = opposite(after_.can_fire(transitions));

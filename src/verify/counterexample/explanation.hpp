@@ -5,7 +5,7 @@
 #include "net/net.hpp"
 #include "verify/subsystem_at_end.hpp"
 
-/// The end of a run to a violation, and who waits for whom there. Only waits that last for ever are named.
+/// The end of a run to a violation, and the waits there. Only waits that last for ever are named.
 namespace tessera::verify {
 
 struct Explanation {

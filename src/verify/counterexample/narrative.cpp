@@ -20,7 +20,7 @@ struct Deed {
   std::string behaviour;          ///< in which it happens; empty: between behaviours
   std::string text;               ///< empty: belongs to the deed before
   std::string done;               ///< replaces text once a deed of the same block without text follows
-  std::string alone = "goes on";  ///< replaces an empty text if no deed before is told with it
+  std::string alone = "goes on";  ///< replaces an empty text if no earlier deed is told with it
   net::BlockId block{};
   std::string transition;   ///< as drawn
   bool then_waits = false;  ///< for an acknowledgement
@@ -186,7 +186,7 @@ class Sentence {
   std::vector<Clause> clauses_;
 };
 
-/// The layers above: who starts and who ends.
+/// The layers above: starts and ends of the system and its agents.
 std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
   constexpr std::size_t shown = 4;
   std::string system;
@@ -212,7 +212,7 @@ std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
   return text;
 }
 
-/// What the network between processes does.
+/// The transitions of the network between processes.
 std::string medium_text(const net::Net& net, std::span<const TransitionId> run) {
   using Role = net::TransitionRole;
   std::string text;

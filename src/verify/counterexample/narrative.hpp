@@ -12,8 +12,8 @@ namespace tessera::verify {
 struct Act {
   std::size_t first = 0, last = 0;  ///< numbers of firings of the run, counted from 1
   std::string who;                  ///< "robot.control"; "" for the layers above
-  /// What the subsystem does, in the words of the specification, with the local names of transitions:
-  /// "in follow: computes (t1), sends motion (t1, t2), waits for the acknowledgement".
+  /// The actions of the subsystem in the words of the specification, with the local names of transitions: "in
+  /// follow: computes (t1), sends motion (t1, t2), waits for the acknowledgement".
   std::string text;
   std::uint32_t line = 0;  ///< of the specification, where the stretch begins; 0: none
 };

@@ -171,8 +171,8 @@ class RoundRemoval {
 
 // ---------------------------------------------------------------------------------------------- grouped
 
-/// What must come before what: firings that touch a place keep their order at it, so that it never holds two
-/// tokens in the new order if it did not in the old.
+/// The required order: firings that touch a place keep their order at it, so that it never holds two tokens
+/// in the new order if it did not in the old.
 std::vector<std::vector<std::size_t>> followers(const net::Net& net, const Run& run,
                                                 std::vector<std::size_t>& waiting_for) {
   std::vector<std::vector<std::size_t>> after(run.size());

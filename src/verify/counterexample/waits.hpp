@@ -20,7 +20,7 @@ class Waits {
   [[nodiscard]] bool moves(net::SubsystemId subsystem) const;
   /// Has the subsystem started and ended?
   [[nodiscard]] bool has_ended(net::SubsystemId subsystem) const;
-  /// What a subsystem without an enabled transition waits for: "a.control waits for a value of
+  /// The waits of a subsystem without an enabled transition: "a.control waits for a value of
   /// b.control.y->a.control.x from b.control", or that none of its initial conditions held.
   [[nodiscard]] std::vector<SubsystemAtEnd> waits_of(net::SubsystemId subsystem) const;
   /// "a.control has ended"
@@ -35,7 +35,7 @@ class Waits {
   [[nodiscard]] std::vector<net::TransitionId> giving(net::SubsystemId subsystem, std::uint32_t place) const;
   /// "a.control goes on and receives ... no more", for a reader and a place that its reads need.
   [[nodiscard]] SubsystemAtEnd takes_no_more(net::SubsystemId reader, std::uint32_t place) const;
-  /// What a subsystem no longer does if it never puts a token into the place: "a.control goes on and sends
+  /// The action that a subsystem omits if it never puts a token into the place: "a.control goes on and sends
   /// ... no more".
   [[nodiscard]] SubsystemAtEnd gives_no_more(net::SubsystemId giver, std::uint32_t place) const;
 
@@ -49,7 +49,7 @@ class Waits {
   [[nodiscard]] std::size_t subsystems() const { return transitions_.size(); }
 
  private:
-  /// What a subsystem waits for at a channel, or gives there.
+  /// The token that a subsystem waits for at a channel, or gives there.
   using Good = SubsystemAtEnd::Awaited;
 
   /// The subsystem that waits does not know what is on the way: places of a medium stand for what a

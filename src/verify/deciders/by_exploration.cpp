@@ -60,7 +60,7 @@ Finding safe(const NetUnderAssumption& given, const explore::Limits& limits) {
   return finding;
 }
 
-/// Extends the run, whose violation is final, and adds who waits for whom at its end.
+/// Extends the run, whose violation is final, and adds the waits at its end.
 void explain(Finding& finding, const net::Net& net) {
   Explanation explanation = explained(net, std::move(finding.trace));
   finding.trace = std::move(explanation.run);

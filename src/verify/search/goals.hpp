@@ -22,8 +22,8 @@ struct Goal {
 };
 
 /// One answer for each goal, up to the first answer that is `stop_at` (nullopt: all). Later answers are
-/// `unknown` without a reason. Only the parts of the reduced net that a goal concerns are explored. Of parts
-/// and goals that are equal except for the agents, only one is explored.
+/// `unknown` without a reason. Only the parts of the reduced net that a goal concerns are explored. Among
+/// parts and goals that are equal except for the agents, only one is explored.
 [[nodiscard]] std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
                                      std::optional<Found::Kind> stop_at, const Reducing& how,
                                      const explore::Limits& limits);

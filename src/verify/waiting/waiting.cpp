@@ -9,8 +9,8 @@
 namespace tessera::verify {
 namespace {
 
-/// Why nothing is known of the group: a behaviour after which it may be that nothing follows, or a channel of
-/// which only its net tells who waits for what.
+/// Why nothing is known of the group: a behaviour may have no successor, or the waits at a channel depend on
+/// its own net.
 std::string unfit(const CommunicationStructure& structure, const CircuitGroup& group) {
   for (const SubsystemFlowId subsystem : group.subsystems)
     for (const BehaviourFlow& behaviour : structure[subsystem].behaviours) {
@@ -86,8 +86,7 @@ std::vector<bool> flowing_channels(const CommunicationStructure& structure,
   for (std::uint32_t index = 0; index < structure.channels.size(); ++index) {
     const ChannelFlowId id{index};
     const ChannelFlow& channel = structure[id];
-    // Where the sender may take its value back and the reader may pass by, the two can keep
-    // missing each other.
+    // If the sender may take its value back and the reader may pass by, the two can keep missing each other.
     const bool meet = waits_to_receive(channel) || !channel.send_timeout;
     flows.push_back(uses_for_ever(channel.receiver, id, Side::receive) &&
                     (channel.always_readable || (meet && uses_for_ever(channel.sender, id, Side::send))));

@@ -64,7 +64,7 @@ class WaitingCycleSearch {
   std::vector<Stops> stops_of_;           // per subsystem
   std::vector<int> at_;                   // per stop: a subsystem is stuck there
   std::vector<int> stuck_;                // per subsystem
-  std::vector<SubsystemFlowId> partner_;  // per stop; none: nobody uses the other end
+  std::vector<SubsystemFlowId> partner_;  // per stop; none: no behaviour uses the other end
   std::vector<bool> deserts_;             // per stop: the partner need not come back
   std::map<Stops, int> one_of_;
   std::vector<Wait> suspected_;

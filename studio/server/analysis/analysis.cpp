@@ -72,14 +72,14 @@ Analysis analyse(const std::string& name, const std::string& text, const std::fi
 
 std::shared_ptr<const Analysis> Analyses::of(const std::string& text) {
   const std::filesystem::path project = std::filesystem::absolute(file_).parent_path();
-  // The same text means something else when a message that it names has changed.
+  // The same text has another meaning when a message definition that it names has changed.
   const std::string revision = revision_of(text) + project::state_of_messages(project);
   std::promise<std::shared_ptr<const Analysis>> promise;
   {
     std::unique_lock lock(mutex_);
     const auto found = std::ranges::find(kept_, revision, &Kept::revision);
     if (found != kept_.end()) {
-      // Possibly another thread is still at work on it.
+      // Another thread may still be working on it.
       const std::shared_future<std::shared_ptr<const Analysis>> analysis = found->analysis;
       lock.unlock();
       return analysis.get();

@@ -15,7 +15,7 @@
 
 namespace tessera::server {
 
-/// Everything that is known about a text, even if it has errors.
+/// The complete analysis of a text, even of one with errors.
 struct Analysis {
   std::shared_ptr<const std::string> json;  ///< the message `analysis` of docs/studio.md
   /// Set only if the text has no errors:
@@ -24,18 +24,17 @@ struct Analysis {
   std::optional<net::Net> net;
   std::vector<net::Property> properties;  ///< of the author; none if one of them is wrong
   std::string net_hash;
-  /// What is known of a text with errors.
+  /// The part of the model that is known although the text has errors.
   std::optional<spec::Model> partial;
 };
 
-/// name: of the file, for messages. project: its folder, with the messages of ROS 2; empty: none are looked
-/// up.
+/// name: of the file, for messages. project: its folder, with the messages of ROS 2; empty: it looks up none.
 ///
 /// Threads: any.
 [[nodiscard]] Analysis analyse(const std::string& name, const std::string& text,
                                const std::filesystem::path& project = {});
 
-/// The last few analyses by their texts, because several browsers, and several requests of one, ask about the
+/// The last few analyses by their texts, because several browsers, and several requests of one, concern the
 /// same text. Each text is analysed once.
 ///
 /// Threads: any.

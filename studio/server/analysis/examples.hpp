@@ -13,7 +13,7 @@ namespace tessera::server {
 
 struct Begun {
   std::vector<std::string> files;  ///< that were copied
-  std::vector<std::string> kept;   ///< of the same name, that were there already and stay as they are
+  std::vector<std::string> kept;   ///< existing files of the same name, which were kept
   std::string error;               ///< empty: it was copied
 };
 

@@ -9,12 +9,12 @@
 
 namespace tessera::server {
 
-/// What the editor of the page asks about a text (docs/studio.md, `POST /api/language`).
+/// The answers to the editor's questions about a text (docs/studio.md, `POST /api/language`).
 ///
 /// Threads: any.
 class LanguageAnswers {
  public:
-  /// schema: spec.schema.json. If it cannot be read, there is nothing to complete and to explain.
+  /// schema: spec.schema.json. If it cannot be read, there are no completions and explanations.
   explicit LanguageAnswers(const std::string& schema);
 
   void handle(const httplib::Request& request, httplib::Response& response) const;

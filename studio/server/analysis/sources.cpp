@@ -62,7 +62,7 @@ Sources::Added Sources::add(const spec::Model& model, const std::string& subsyst
 
 namespace {
 
-/// Where a behaviour has its name; nullopt: there is none of that name.
+/// The position of a behaviour's name; nullopt: there is no such behaviour.
 std::optional<language::Position> name_of_behaviour(const language::Document& document,
                                                     const std::string& subsystem, const std::string& name) {
   const language::Index& index = document.index();
@@ -74,8 +74,8 @@ std::optional<language::Position> name_of_behaviour(const language::Document& do
   return std::nullopt;
 }
 
-/// Makes those edits of a file that surely mean the name. The last one comes first, so that the others stay
-/// where they are.
+/// Makes those edits of a file that certainly concern the name. The last one comes first, so that the
+/// positions of the others stay valid.
 std::string edited(std::string text, std::vector<language::TextEdit> edits, const std::string& path) {
   std::ranges::sort(edits, std::greater{}, [](const language::TextEdit& edit) { return edit.range; });
   for (const language::TextEdit& edit : edits)
@@ -101,7 +101,8 @@ std::vector<language::Source> code_of(const fs::path& project) {
 Sources::Renamed Sources::rename(const std::string& text, const language::Grammar& grammar,
                                  const std::string& subsystem, const std::string& from,
                                  const std::string& function) const {
-  // The specification as it was when the function had its name. Only then is the function known as that of a behaviour.
+  // The specification with the old name of the function. Only then is the function known as that of a
+  // behaviour.
   const language::Document now(text, grammar);
   const auto here = name_of_behaviour(now, subsystem, function);
   if (!here) return {{}, "there is no behaviour " + subsystem + "." + function};

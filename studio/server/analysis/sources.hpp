@@ -38,8 +38,8 @@ class Sources {
     std::vector<std::string> files;  ///< that were changed, relative to the project
     std::string error;               ///< empty: all of them were written
   };
-  /// Gives the function `from` the name that its behaviour has now, wherever src/ and test/ use it. text: the
-  /// specification. The rest of each file stays as it is.
+  /// Renames the function `from` to the present name of its behaviour, wherever src/ and test/ use it. text:
+  /// the specification. The rest of each file stays as it is.
   [[nodiscard]] Renamed rename(const std::string& text, const language::Grammar& grammar,
                                const std::string& subsystem, const std::string& from,
                                const std::string& function) const;

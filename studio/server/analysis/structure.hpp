@@ -6,7 +6,7 @@
 
 namespace tessera::server {
 
-/// The system as roboticists draw it: agents, subsystems, behaviours, buffers, channels, with the lines of
+/// The system in the terms of robotics: agents, subsystems, behaviours, buffers, channels, with the lines of
 /// the specification (docs/studio.md, `structure`).
 ///
 /// model: may come from a text with errors (spec::parse_what_is_known).

@@ -22,8 +22,8 @@ namespace {
 
 using nlohmann::json;
 
-/// As `tessera verify --json` writes it; of a property with a run also the indices of its transitions (those
-/// beyond the net's stand for "no initial condition holds") and the run told in words.
+/// The result of `tessera verify --json`. A property with a run also has the indices of its transitions
+/// (those beyond the net's stand for "no initial condition holds") and the run in words.
 json result_json(const Analysis& analysis, const verify::Report& report) {
   json result = project::report_json(*analysis.net, &*analysis.pages, report);
   for (std::size_t index = 0; index < report.properties.size(); ++index) {

@@ -8,8 +8,8 @@
 
 namespace tessera::server {
 
-/// The subsystems that can fire nothing in a marking and have not ended, and whom they wait for. They may go
-/// on once another subsystem has acted: this is about now, not for ever.
+/// The subsystems that cannot fire in a marking and have not ended, and the subsystems that they wait for.
+/// They may go on once another subsystem has acted: the result concerns this marking only.
 ///
 /// marked: the places that hold a token; numbers beyond the net's are ignored.
 /// Threads: pure. Linear in the net times its subsystems.

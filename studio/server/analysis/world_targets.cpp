@@ -27,7 +27,7 @@ constexpr std::array kinds{KindOfDriver{"sensor", "sensors"},        KindOfDrive
                            KindOfDriver{"weld", "equalities"},       KindOfDriver{"mocap", "bodies"},
                            KindOfDriver{"place", "bodies"},          KindOfDriver{"colour", "geoms"}};
 
-/// "laser" of "robot[3]/laser", if robot[3] is an agent.
+/// "laser" for "robot[3]/laser", if robot[3] is an agent.
 std::string as_in_drivers(const std::string& name, const spec::Model& model) {
   const std::size_t slash = name.find('/');
   if (slash == std::string::npos) return name;
@@ -36,7 +36,7 @@ std::string as_in_drivers(const std::string& name, const spec::Model& model) {
   return of_agent ? name.substr(slash + 1) : name;
 }
 
-/// Whether a body can be moved by drivers of that kind.
+/// Whether drivers of that kind can move a body.
 bool is_moved_by(const json& entry, const std::string& kind) {
   return (kind != "mocap" && kind != "place") || entry.value("moved_by", "") == kind;
 }

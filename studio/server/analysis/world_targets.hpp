@@ -8,9 +8,9 @@
 
 namespace tessera::server {
 
-/// What drivers in the simulated world may name, by their kind: {"actuator": ["wheel_left"], ...}. Elements of the
-/// placed model of an agent have the names that its drivers use, without the agent. {}: there is no world of
-/// MuJoCo. Problem: the world cannot be opened.
+/// The names that drivers can use in the simulated world, by their kind: {"actuator": ["wheel_left"], ...}.
+/// Elements in the placed model of an agent have the names that its drivers use, without the agent. {}: there
+/// is no MuJoCo world. Problem: the world cannot be opened.
 ///
 /// Threads: any.
 [[nodiscard]] Result<nlohmann::json> world_targets(const spec::Model& model,

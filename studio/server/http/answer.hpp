@@ -29,22 +29,22 @@ void answer_packed(const httplib::Request& request, httplib::Response& response,
 void answer_error(httplib::Response& response, int status, std::string_view error,
                   std::string_view hint = {});
 
-/// The body of a request: an object with members of known types. What is wrong with it goes into the
-/// response.
+/// The body of a request: an object with members of known types. Mistakes in it go into the response.
 class RequestBody {
  public:
   RequestBody(const httplib::Request& request, httplib::Response& response);
-  /// false: it is no object, or a member asked for was missing or of another type; the response says so.
+  /// false: it is no object, or a required member is missing or of another type; the response says so.
   [[nodiscard]] bool good() const { return good_; }
 
   [[nodiscard]] std::string text(const char* name);
   [[nodiscard]] std::string text_or(const char* name, std::string otherwise);
   [[nodiscard]] std::optional<double> number(const char* name);
   [[nodiscard]] bool flag(const char* name);
-  /// Collects a member (numbers from 0 up) of the objects in a list of at most 10,000; skips objects without.
+  /// Collects a member (numbers from 0 up) of the objects in a list of at most 10,000; skips objects without
+  /// it.
   [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
   [[nodiscard]] std::vector<std::string> texts(const char* name);
-  /// An object of numbers and truth values; nullopt: there is none.
+  /// An object of numbers and truth values; nullopt: it is none.
   [[nodiscard]] std::optional<std::map<std::string, std::variant<double, bool>>> inputs(const char* name);
 
  private:

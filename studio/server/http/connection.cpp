@@ -48,7 +48,7 @@ bool Connection::fill() {
   return true;
 }
 
-/// After the head, there may be a body.
+/// A body may follow the head.
 void Connection::look_for_end_of_head() {
   constexpr std::string_view end = "\r\n\r\n";
   for (std::size_t at = 0; at < filled_ && ends_head_ < end.size(); ++at) {

@@ -10,7 +10,7 @@
 namespace tessera::server {
 
 /// The bytes of one connection. Reading ends for good at the deadline of the request or when the request is
-/// too long. Writing ends when the client takes nothing for too long.
+/// too long. Writing ends when the client accepts no data for too long.
 class Connection final : public httplib::Stream {
  public:
   /// ended: a descriptor that becomes readable when the server ends.
@@ -40,7 +40,7 @@ class Connection final : public httplib::Stream {
   int ended_;
   Clock::time_point deadline_;
   std::size_t left_;           ///< bytes that may still be read
-  std::size_t ends_head_ = 0;  ///< how many of the four bytes that end the head have just been read
+  std::size_t ends_head_ = 0;  ///< how many of the four bytes that end the head were just read
   std::array<char, 8192> buffer_{};
   std::size_t next_ = 0, filled_ = 0;
   bool readable_ = true;

@@ -17,9 +17,9 @@ class Events {
  public:
   class Subscription {
    public:
-    /// Waits for events, then a little for more, and returns the text of all of them. If nothing
-    /// happens for ten seconds, it returns a comment, so that a dead connection is noticed. Empty:
-    /// there will be no more events.
+    /// Waits for events, then a little for more, and returns the text of all of them. After ten seconds
+    /// without an event it returns a comment, so that a dead connection is noticed. Empty: there will be no
+    /// more events.
     [[nodiscard]] std::string next();
 
    private:

@@ -14,7 +14,7 @@ namespace {
 constexpr std::size_t longest_path = 512;
 constexpr std::string_view bearer = "Bearer ";
 
-/// Takes the same time wherever the texts differ.
+/// Takes the same time for every position of the first difference.
 bool same(std::string_view given, std::string_view wanted) {
   if (given.size() != wanted.size()) return false;
   unsigned difference = 0;
@@ -45,7 +45,7 @@ std::optional<Refusal> RequestGuard::refuse(const httplib::Request& request) con
     return Refusal{403, "this address is not the studio's",
                    "open http://127.0.0.1:" + port_ + "; through a tunnel, with the same port at both ends"};
   if (!comes_from_here(request)) return Refusal{403, "requests of other pages are not answered", ""};
-  // Bodies that would be decompressed, assembled or read without end.
+  // Refuses bodies that would be decompressed, assembled or read without end.
   if (request.has_header("Transfer-Encoding")) return Refusal{411, "a body needs a Content-Length", ""};
   if (request.has_header("Content-Encoding")) return Refusal{415, "a body must not be compressed", ""};
   if (request.has_header("Range")) return Refusal{416, "there are no parts of an answer", ""};

@@ -11,21 +11,21 @@ namespace tessera::server {
 /// 128 random bits, as 32 hexadecimal digits.
 [[nodiscard]] std::string random_token();
 
-/// Why a request is refused.
+/// The reason for which a request is refused.
 struct Refusal {
   int status = 403;
   std::string error, hint;
 };
 
-/// Decides who may request what. Every process on this machine may load the page itself; everything under
-/// /api/ needs the token of this start. A foreign page in the same browser is recognised by its Origin, and
-/// a foreign name that resolves to this machine by the Host.
+/// Decides which requests are allowed. Every process on this machine may load the page itself; everything
+/// under /api/ needs the token of this start. The Origin reveals a foreign page in the same browser, and the
+/// Host a foreign name that resolves to this machine.
 ///
 /// Threads: any.
 class RequestGuard {
  public:
   RequestGuard(int port, std::string token) : port_(std::to_string(port)), token_(std::move(token)) {}
-  /// nullopt: it may pass.
+  /// nullopt: it is allowed.
   [[nodiscard]] std::optional<Refusal> refuse(const httplib::Request& request) const;
 
  private:

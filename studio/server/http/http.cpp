@@ -22,7 +22,7 @@ constexpr int backlog = 256;
 constexpr std::string_view too_many =
     "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nRetry-After: 1\r\nConnection: close\r\n\r\n";
 
-/// The current connection gets no worker: answers that and closes it.
+/// The current connection gets no worker: sends this answer and closes it.
 thread_local bool refusing = false;
 
 /// Workers and a bounded queue. A task that does not fit into the queue is called at

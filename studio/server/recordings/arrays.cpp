@@ -14,7 +14,7 @@ using nlohmann::json;
 
 namespace {
 
-/// Shorter arrays are values like others.
+/// Shorter arrays are sent like other values.
 constexpr std::size_t fewest = 2;
 
 /// "float64[32]"
@@ -71,7 +71,7 @@ class ArrayPart {
     const auto change = values_->follow(entry);
     if (time_ns > span_.to_ns) return false;
     if (!change) return true;
-    // What was before the span is shown at its beginning; in it, all that has changed comes at one time.
+    // The values before the span are shown at its beginning; within it, all changes are shown at one time.
     const bool is_due = time_ns >= std::max(due_ns_, span_.from_ns);
     if (is_due && arrays_.has_changed()) show(std::max(last_ns_, span_.from_ns));
     arrays_.take(*change);

@@ -8,7 +8,7 @@
 
 namespace tessera::server {
 
-/// Where the tokens of a net are while a recorded run goes on.
+/// The marking of a net during a recorded run.
 class MarkingTracker {
  public:
   /// The initial marking. net: must outlive it.

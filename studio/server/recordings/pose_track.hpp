@@ -13,8 +13,8 @@
 
 namespace tessera::server {
 
-/// Follows the poses in a recording, in any number of segments, and makes frames of them for a page: other
-/// ones than those recorded, because a page may begin anywhere and does not get all of them.
+/// Follows the poses in a recording, in any number of segments, and makes frames of them for a page. They
+/// differ from the recorded frames, because a page may begin anywhere and does not get all of them.
 ///
 /// Threads: one at a time.
 class PoseTrack {
@@ -27,17 +27,17 @@ class PoseTrack {
   /// {"hash", "bodies": [[name, agent]...]}; null: the recording has no poses.
   [[nodiscard]] const nlohmann::json& scene() const { return scene_; }
   [[nodiscard]] bool has_one_robot() const { return robot_.has_value(); }
-  /// Where the only robot is, seen from above; nullopt: there are none or several, or the last entry taken had no
-  /// poses of it.
+  /// The pose of the only robot, seen from above; nullopt: there is no robot or there are several, or the
+  /// last entry had no poses of it.
   [[nodiscard]] std::optional<replay::RobotPoint> take_point() { return std::exchange(point_, std::nullopt); }
   /// A frame (tessera/poses.hpp), base64, and its time.
   struct Frame {
     std::int64_t time_ns = 0;
     std::string bytes;
   };
-  /// What has changed since the last frame; nullopt: nothing, or the poses are not known now.
+  /// The changes since the last frame; nullopt: there are none, or the poses are unknown now.
   [[nodiscard]] std::optional<Frame> next_frame();
-  /// The same poses as after the last frame, with its number, for a page that has not got the frames before.
+  /// The same poses as after the last frame, with its number, for a page that lacks the frames before.
   [[nodiscard]] std::optional<Frame> last_whole() const;
 
  private:

@@ -1,4 +1,4 @@
-// What runs have reached of a net, for the page.
+// The parts of a net that runs have reached, for the page.
 #include <map>
 #include <stdexcept>
 #include <string_view>

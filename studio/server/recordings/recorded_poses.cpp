@@ -1,4 +1,4 @@
-// What Recordings says of the poses in a recording.
+// The poses in a recording, for Recordings.
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -26,7 +26,7 @@ class PosePart {
   [[nodiscard]] bool add(const Recording::Entry& entry) {
     if (entry.event.kind() != Event::Kind::poses) return true;
     if (entry.event.time_ns > span_.to_ns) return false;
-    // Poses before the span are shown as they are at its beginning.
+    // Poses before the span are shown at its beginning.
     if (entry.event.time_ns >= span_.from_ns) show();
     track_.take(entry);
     if (entry.event.time_ns < span_.from_ns) return true;

@@ -29,8 +29,8 @@ class RecordingStream {
   [[nodiscard]] bool begins() const { return begins_; }
   /// Whether more can be read at once.
   [[nodiscard]] bool more() const { return more_; }
-  /// Whether a segment was damaged, or the end of the last one is missing: it was cut off,
-  /// or is still being written.
+  /// Whether a segment was damaged, or the end of the last one is missing: it was cut off, or is still being
+  /// written.
   [[nodiscard]] bool is_cut() const { return damaged_ || (reader_ && is_cut(*reader_)); }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
 
@@ -45,8 +45,8 @@ class RecordingStream {
   std::uint64_t bytes_ = 0;
 };
 
-/// Reads a recording from its oldest part on for as long as `part` wants more: part.begin(header) at each segment,
-/// part.add(entry) -> bool, and part.end(complete): whether the recording was read to its end.
+/// Reads a recording from its oldest part on for as long as `part` needs more: part.begin(header) at each
+/// segment, part.add(entry) -> bool, and part.end(complete): whether the recording was read to its end.
 /// Throws std::runtime_error if the file is no recording.
 template <class Part>
 void read_part(const std::filesystem::path& file, Part& part) {

@@ -42,7 +42,7 @@ class NetNames {
   Ids<net::TransitionId> transitions_;
 };
 
-/// What a run has reached of the net so far.
+/// The part of the net that a run has reached so far.
 ///
 /// Threads: any.
 class Reached {
@@ -60,11 +60,10 @@ class Reached {
   replay::FiringCounts counts_;
 };
 
-/// Follows a run by its recording: which transitions fired, where the tokens are,
-/// and what the buffers hold.
+/// Follows a run by its recording: the firings, the marking, and the values of the buffers.
 class RecordingTail {
  public:
-  /// net, reached: must outlive this object. reached: nullptr if nobody asks.
+  /// net, reached: must outlive this object. reached: nullptr: not needed.
   RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached = nullptr);
 
   static constexpr std::size_t most_firings = 2000, largest_value = 4096;
@@ -73,9 +72,9 @@ class RecordingTail {
     std::uint64_t dropped = 0;  ///< firings that are not listed; they came before the listed ones
     std::vector<std::pair<std::int64_t, std::uint32_t>> firings;  ///< time, transition of the net
     std::vector<replay::RobotPoint> path;                         ///< of the only robot (PoseTrack)
-    /// path and value of parameters that the run was given, or has taken since
+    /// path and value of parameters that were given to the run, or that it has taken since
     std::vector<std::pair<std::string, std::string>> parameters;
-    bool lacks_parameters = false;  ///< it begins in a later segment: what was taken before is not known
+    bool lacks_parameters = false;  ///< it begins in a later segment: parameters taken before are unknown
     /// the marking is that with which a segment began, so it does not follow from the firings alone
     bool jumped = false;
     bool more = false;  ///< there may be more already
@@ -88,7 +87,7 @@ class RecordingTail {
   [[nodiscard]] PoseTrack& poses() { return poses_; }
   /// Whether the end of the recording is missing so far.
   [[nodiscard]] bool is_cut() const { return stream_.is_cut(); }
-  /// Of the net that is recorded; nullopt: nothing has been read.
+  /// The hash of the recorded net; nullopt: no header has been read.
   [[nodiscard]] std::optional<std::string> net_hash() const {
     return segment_ ? std::optional(segment_->recording->net_hash) : std::nullopt;
   }
@@ -111,12 +110,12 @@ class RecordingTail {
   NetNames names_;
   RecordingStream stream_;
   std::optional<Segment> segment_;
-  nlohmann::json values_ = nlohmann::json::object();  // of segments before, not taken yet
+  nlohmann::json values_ = nlohmann::json::object();  // from earlier segments, not taken yet
   MarkingTracker tokens_;
   PoseTrack poses_;
   ArrayTrack arrays_;
   Reached* reached_;
-  std::vector<net::TransitionId> fired_;  // since reached_ was told
+  std::vector<net::TransitionId> fired_;  // since the last report to reached_
   std::vector<net::PlaceId> marked_;
 };
 

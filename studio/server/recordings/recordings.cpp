@@ -93,7 +93,7 @@ class ValueSeries {
   [[nodiscard]] json take() { return std::move(series_); }
 
  private:
-  static constexpr std::size_t most_scalars = 16;  // per value: longer lists are no curves
+  static constexpr std::size_t most_scalars = 16;  // per value: longer lists get no curves
 
   void show(std::uint32_t buffer, std::int64_t time_ns) {
     const replay::ValueTrack::Value value = track_->value(buffer);
@@ -154,7 +154,7 @@ class Content {
   }
 
   [[nodiscard]] json take(bool is_cut) {
-    // Threads write one after the other; an observer wants the order of time.
+    // Threads write one after the other; an observer needs the order of time.
     if (!is_ordered_) std::ranges::stable_sort(firings_, {}, &decltype(firings_)::value_type::first);
     content_["marking"] = marking();
     content_["firings"] = std::move(firings_);
@@ -180,7 +180,7 @@ class Content {
     const bool known = event.subject < transitions_.size() && transitions_[event.subject].valid();
     if (event.time_ns > span_.to_ns) return;
     if (event.time_ns >= span_.from_ns) {
-      // If there is no more room for values, the next part begins.
+      // If the limit of values is reached, the next part begins.
       if (known && firings_.size() < Recordings::most_firings && values_.complete())
         firings_.emplace_back(event.time_ns, transitions_[event.subject].value);
       else
@@ -212,7 +212,7 @@ class Content {
   json content_;
 };
 
-/// The name of the track of a run, from its summary; null: there was none, or it is not known.
+/// The name of the track of a run, from its summary; null: there is none, or it is not known.
 json track_of(const fs::path& summary) {
   const json read = json::parse(GrowingFile(summary).more(), nullptr, /*allow_exceptions=*/false);
   const json track = read.is_object() ? read.value("track", json()) : json();
@@ -238,7 +238,7 @@ std::map<std::string, fs::path> Recordings::files() const {
     for (const fs::path& run : entries_of(root / "runs"))
       if (is_plain(run, fs::file_type::directory))
         add(run.filename().string(), run / project::file_names::recording);
-    // A link to one of the runs, or the folder of a version before this.
+    // A link to one of the runs, or the folder of an earlier version.
     if (is_plain(root / "last", fs::file_type::directory))
       add("last", root / "last" / project::file_names::recording);
   }

@@ -13,9 +13,8 @@
 
 namespace tessera::server {
 
-/// The recordings in a project: that of the last `tessera simulate` or `run`, those of the studio's
-/// runs, and *.tsr beside the specification. The segments that are left of a recording with a
-/// limit count as one recording.
+/// The recordings in a project: that of the last `tessera simulate` or `run`, those of the studio's runs, and
+/// *.tsr beside the specification. The existing segments of a recording with a limit count as one recording.
 ///
 /// Threads: any.
 class Recordings {
@@ -45,8 +44,8 @@ class Recordings {
   /// nullopt: no recording has that name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> arrays(const std::string& name, Span span) const;
   static constexpr std::size_t most_array_bytes = 4'000'000;
-  /// What the recorded run has reached of the net of the specification: docs/studio.md. nullopt: no recording
-  /// has that name. Throws std::runtime_error if it cannot be read, or is of another net.
+  /// The part of the specification's net that the recorded run has reached: docs/studio.md. nullopt: no
+  /// recording has that name. Throws std::runtime_error if it cannot be read, or is of another net.
   [[nodiscard]] std::optional<std::string> coverage(const std::string& name) const;
   /// The glTF file of the scene beside a recording; nullopt: none has it.
   [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
@@ -61,7 +60,7 @@ class Recordings {
     std::int64_t bytes = 0, modified_ns = 0;  ///< of the newest file
     nlohmann::json summary;
   };
-  mutable std::mutex mutex_;  ///< of what follows
+  mutable std::mutex mutex_;  ///< guards the following members
   mutable std::map<std::filesystem::path, KnownSummary> known_;
 };
 

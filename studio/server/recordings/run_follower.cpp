@@ -69,7 +69,7 @@ std::vector<PathPoint> RunFollower::add_firings(News& news) {
   return std::move(batch.path);
 }
 
-/// at_once: also those that would be told a little later.
+/// at_once: also values that could wait a little.
 void RunFollower::add_values(News& news, bool at_once) {
   if (!at_once && Clock::now() - values_told_ < between_values) return;
   json values = recording_.take_changed_values(at_once ? SIZE_MAX : most_values);

@@ -15,8 +15,8 @@
 
 namespace tessera::server {
 
-/// Puts together what is known of a running controller: firings and values from its recording, the robot's
-/// path, and the snapshots of its control socket. Ready to be sent.
+/// Collects the state of a running controller: firings and values from its recording, the robot's path, and
+/// the snapshots of its control socket. The results are ready to be sent.
 class RunFollower {
  public:
   /// reached: gets what the run reaches of the net; must outlive this object.
@@ -26,23 +26,23 @@ class RunFollower {
     nlohmann::json firings, values, arrays, pose, poses,
         subsystems;               ///< data of the events; null: nothing new
     nlohmann::json scene;         ///< of the event; null: no new one
-    nlohmann::json whole_poses;   ///< with `poses`: {"t", "frame"} for a page that begins now
+    nlohmann::json whole_poses;   ///< with `poses`: {"t", "frame"} for a new page
     std::vector<PathPoint> path;  ///< new points of the path
     std::vector<std::pair<std::string, std::string>> parameters;  ///< RecordingTail::Batch::parameters
     bool lacks_parameters = false;                                ///< RecordingTail::Batch::lacks_parameters
     std::optional<std::vector<std::uint32_t>> marking;
     std::int64_t time_ns = 0;
-    std::uint64_t total_firings = 0;  ///< that were read so far; 0: no new ones
+    std::uint64_t total_firings = 0;  ///< firings read so far; 0: no new ones
     bool has_state = false, paused = false;
     bool rested = false;  ///< the run has come to rest, perhaps again
     std::string broke_at;
     bool more = false;  ///< there is more to read at once
   };
-  /// snapshot: of the control socket, if there is a new one. It is reported after everything has been read
-  /// that the run had recorded by then.
+  /// snapshot: of the control socket, if there is a new one. It is reported after everything that the run had
+  /// recorded by then.
   /// last: nothing is kept for later.
   [[nodiscard]] News poll(std::optional<project::Snapshot> snapshot, bool last);
-  /// Until it is worth while to look again.
+  /// The time until the next look is worthwhile.
   static void rest();
 
  private:

@@ -7,7 +7,7 @@
 
 namespace tessera::server {
 
-/// A number, bool or text; "inf", "-inf" or "nan" where JSON has no number.
+/// A number, bool or text; "inf", "-inf" or "nan" for numbers that JSON does not have.
 [[nodiscard]] nlohmann::json json_of(const ValueLayout::Scalar& scalar);
 
 /// A number, bool, text, list, or {field: value}. null: the bytes do not encode such a value.

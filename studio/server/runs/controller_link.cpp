@@ -44,9 +44,9 @@ bool ControllerLink::say(const std::string& line) const { return connection_ && 
 
 bool ControllerLink::is_process(std::int64_t id) const { return connection_ && connection_->is_process(id); }
 
-/// Reads what has arrived so far.
+/// Reads the data that has arrived so far.
 void ControllerLink::hear() {
-  constexpr std::size_t most = std::size_t{64} << 20U;  // the limit of what makes sense
+  constexpr std::size_t most = std::size_t{64} << 20U;  // more than any controller sends
   using Received = project::ControlConnection::Received;
   Received received = Received::bytes;
   while (connection_ && received == Received::bytes) {
@@ -64,7 +64,7 @@ void ControllerLink::understand() {
     std::optional<project::ControlLine> line =
         project::read_control_line(std::string_view(heard_).substr(taken, end - taken));
     std::size_t bytes = 0;
-    if (!line) {  // of another version, or nonsense
+    if (!line) {  // from another version, or malformed
     } else if (auto* snapshot = std::get_if<project::Snapshot>(&*line)) {
       snapshot_ = std::move(*snapshot);
     } else if (auto* answer = std::get_if<project::CommandAnswer>(&*line)) {

@@ -32,20 +32,20 @@ class ControllerLink {
   bool connect(const std::filesystem::path& socket, bool own);
   /// Whether the other end is that process of this machine, and not the end of a tunnel.
   [[nodiscard]] bool is_process(std::int64_t id) const;
-  /// The last snapshot that has come; nullopt: none since the last call. Does not wait.
+  /// The newest snapshot; nullopt: none since the last call. Does not wait.
   [[nodiscard]] std::optional<project::Snapshot> snapshot();
-  /// What the controller's recording holds besides what was asked for before, as it was after the last
-  /// `snapshot`. Waits for it a tenth of a second; without bytes, but with `more`: it is on its way.
+  /// The part of the controller's recording since the last call, as of the last `snapshot`. Waits for it a
+  /// tenth of a second; without bytes, but with `more`: it is on its way.
   [[nodiscard]] GrowingRecording::Piece recording();
-  /// Asks for the scene of the controller's world, piece by piece: call it again and again. The whole scene,
-  /// once it has come; empty: there is none. Does not wait.
+  /// Requests the scene of the controller's world, piece by piece: call it again and again. Returns the whole
+  /// scene once it has arrived; empty: there is none. Does not wait.
   [[nodiscard]] std::optional<std::string> scene();
-  /// nullopt: done. Waits for the connection, at most a minute, and five seconds for the answer. Meanwhile somebody
-  /// has to call connect and snapshot.
+  /// nullopt: done. Waits for the connection, at most a minute, and five seconds for the answer. Meanwhile
+  /// another thread has to call connect and snapshot.
   [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
   /// Whether it is connected.
   [[nodiscard]] bool is_open();
-  /// Who was connected to has closed, or `close` was called.
+  /// Whether the other end has closed the connection, or `close` was called.
   [[nodiscard]] bool is_over();
   /// Whether the controller has said that its run is over. If not, and is_over, the connection was lost.
   [[nodiscard]] bool has_ended() const { return ended_; }
@@ -62,7 +62,7 @@ class ControllerLink {
   std::string heard_;
   std::optional<project::Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
-  std::optional<GrowingRecording::Piece> piece_;  ///< messages behind it wait until it is taken
+  std::optional<GrowingRecording::Piece> piece_;  ///< later messages wait until it is taken
   std::string scene_;
   bool scene_asked_ = false, scene_complete_ = false;
   /// guards the members below, and writing to and closing the connection
@@ -73,8 +73,8 @@ class ControllerLink {
   bool open_ = false, over_ = false;
 };
 
-/// Names in tessera::monitor_folder() of sockets where a process listens: controllers on this machine,
-/// and ends of tunnels to others.
+/// Names in tessera::monitor_folder() of sockets where a process listens: controllers on this machine, and
+/// ends of tunnels to others.
 [[nodiscard]] std::vector<std::string> listening_sockets();
 
 }  // namespace tessera::server

@@ -89,7 +89,7 @@ void DeploymentFollower::follow_new_ones() {
       followed.recording = std::make_unique<RunFollower>(
           RecordingStream::of_file(file, GrowingRecording::From::newest), analysis_, &reached_);
   }
-  // Another start has taken its place.
+  // Another start has replaced it.
   for (auto at = followed_.begin(); at != followed_.end();) {
     if (there.contains(at->first)) {
       ++at;
@@ -139,9 +139,9 @@ void DeploymentFollower::read_recordings(News& news) {
   news.firings["marking"] = *news.marking;
 }
 
-/// Each process changes the marking from the initial one by what it fires; the changes add up, in whatever
-/// order they came. What the network between them does is not recorded: of a place of a channel between
-/// processes, the marking is what one end knows.
+/// Each process changes the marking from the initial one by its firings; the order of these changes does not
+/// matter. The transitions of the network between them are not recorded: for a place of a channel between
+/// processes, the marking is that of one end.
 std::vector<std::uint32_t> DeploymentFollower::joint_marking() const {
   std::map<std::uint32_t, std::size_t> holds;
   std::size_t followed = 0;

@@ -15,11 +15,12 @@
 
 namespace tessera::server {
 
-/// Puts together what is known of all processes of a deployed system on this machine: what their control
-/// sockets tell, and the firings and values of their recordings. Ready to be sent. The processes do not notice.
+/// Collects the state of all processes of a deployed system on this machine: the snapshots of their control
+/// sockets, and the firings and values of their recordings. The results are ready to be sent. The processes
+/// are not affected.
 ///
-/// Times are those of the process that was found first; those of the others are moved by the difference of
-/// their clocks, as it was seen when they were found. So they agree within some milliseconds.
+/// Times are those of the process that was found first; those of the others are shifted by the difference of
+/// their clocks, measured when they were found. So they agree within some milliseconds.
 ///
 /// Threads: one.
 class DeploymentFollower {
@@ -33,11 +34,11 @@ class DeploymentFollower {
     std::int64_t time_ns = 0;
     std::uint64_t total_firings = 0;
   };
-  /// Waits for something new for some milliseconds.
+  /// Waits some milliseconds for new data.
   [[nodiscard]] News poll();
-  /// Whether some process runs, or did a moment ago: one that has failed may be started again.
+  /// Whether some process runs, or did a moment ago: a process that has failed may be started again.
   [[nodiscard]] bool is_going_on() const;
-  /// Why there is nothing to see. Only while no process was found.
+  /// Why there is no data. Only while no process was found.
   [[nodiscard]] std::string why_nothing() const;
 
  private:
@@ -45,7 +46,7 @@ class DeploymentFollower {
   /// One start of a process.
   struct Followed {
     std::unique_ptr<RunFollower> recording;  ///< nullptr: it cannot be read here
-    std::vector<std::uint32_t> marked;       ///< by what this process has fired
+    std::vector<std::uint32_t> marked;       ///< the effect of this process's firings
     std::uint64_t firings = 0;
     std::int64_t behind_ns = 0;  ///< its clock is so much behind that of the first
   };
@@ -64,7 +65,7 @@ class DeploymentFollower {
   std::map<std::string, Followed> followed_;  ///< by the name of the socket
   std::optional<Clock::time_point> first_began_;
   std::int64_t time_ns_ = 0;
-  std::uint64_t gone_firings_ = 0;  ///< of starts that are followed no more
+  std::uint64_t gone_firings_ = 0;  ///< of starts that are no longer followed
   Clock::time_point seen_, read_{}, marking_told_{}, told_{}, subsystems_told_{};
 };
 

@@ -68,7 +68,7 @@ std::optional<std::vector<std::string>> names_at(const std::vector<std::uint32_t
   return names;
 }
 
-/// For the controller, which knows names. nullopt: the net has no such place or transition.
+/// For the controller, which uses names. nullopt: the net has no such place or transition.
 std::optional<project::ControlCommand> breakpoints_of(const RunControl& wanted, const net::Net& net) {
   auto places = names_at(wanted.places, net.places());
   auto transitions = names_at(wanted.transitions, net.transitions());
@@ -77,7 +77,7 @@ std::optional<project::ControlCommand> breakpoints_of(const RunControl& wanted, 
   return project::command::Breakpoints{std::move(*places), std::move(*transitions), std::move(*conditions)};
 }
 
-/// nullopt: there is no such command, or it is one of breakpoints.
+/// nullopt: there is no such command, or it sets breakpoints.
 std::optional<project::ControlCommand> plain_command_of(const RunControl& wanted) {
   using namespace project::command;
   const std::string& what = wanted.command;
@@ -85,7 +85,7 @@ std::optional<project::ControlCommand> plain_command_of(const RunControl& wanted
   if (what == "resume") return Resume{};
   if (what == "step_firing") return StepFiring{};
   if (what == "step_iteration") return StepIteration{wanted.subsystem};
-  if (what == "speed") return Speed{wanted.speed.value_or(-1)};  // which the controller refuses
+  if (what == "speed") return Speed{wanted.speed.value_or(-1)};  // the controller refuses -1
   return std::nullopt;
 }
 
@@ -98,7 +98,7 @@ json read_summary(const std::filesystem::path& file) {
 
 }  // namespace
 
-/// What is said while a controller is made, line by line to the browsers; the last lines are why it failed.
+/// Reports the lines of the build to the browsers; the last lines say why it failed.
 class Run::RunListener final : public project::Listener {
  public:
   explicit RunListener(const Run& run) : run_(run) {}
@@ -273,7 +273,7 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
   link_.close();
 }
 
-/// true: there is more to tell at once.
+/// true: there is more to report at once.
 bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last) {
   RunFollower::News news = follower.poll(std::move(snapshot), last);
   std::optional<State> changed;
@@ -338,11 +338,11 @@ std::optional<Problem> Run::control(const RunControl& wanted) {
     return std::nullopt;
   }
   if (is_building()) return Problem{"the controller is still being made"};
-  // Any controller takes values of parameters, also one on the steady clock.
+  // Every controller takes values of parameters, also one on the steady clock.
   if (wanted.command == "set" && request_.kind != RunRequest::Kind::deployment)
     return link_.command(project::command::Set{wanted.path, wanted.text});
   if (wanted.command == "panel" && request_.kind != RunRequest::Kind::deployment) {
-    // What an operator asks for now is not to happen later.
+    // A request of an operator must not take effect later.
     if (!link_.is_open()) return Problem{"the controller does not listen yet"};
     return link_.command(project::command::Panel{wanted.path, wanted.who, wanted.inputs});
   }

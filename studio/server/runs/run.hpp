@@ -41,7 +41,7 @@ struct RunRequest {
   bool records_all = false;  ///< also values of more than 4 KiB, such as pictures
 };
 
-/// What is asked of a run that goes on; each command reads its own members.
+/// A command to a running run; each command reads its own members.
 struct RunControl {
   std::string command;
   std::string subsystem;        ///< of step_iteration
@@ -54,7 +54,7 @@ struct RunControl {
 };
 
 /// A controller from generation to its end, in threads of its own: made, started, followed by its recording.
-/// One that is attached to is only followed; it goes on when this ends.
+/// An attached controller is only followed; it goes on when this object ends.
 ///
 /// Threads: any.
 class Run {
@@ -70,7 +70,7 @@ class Run {
   [[nodiscard]] bool over() const;
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
-  /// What it has reached of the net so far: docs/studio.md.
+  /// The part of the net that it has reached so far: docs/studio.md.
   [[nodiscard]] nlohmann::json coverage() const {
     return reached_.coverage(*analysis_->pages, *analysis_->net);
   }
@@ -117,7 +117,7 @@ class Run {
   nlohmann::json outcome_, values_ = nlohmann::json::object(), verdicts_, pose_, subsystems_, scene_, poses_,
                            deployment_;
   replay::Thinned<PathPoint> path_{5000};
-  std::string glb_;  ///< of scene_; empty: it is beside the recording, or has not come yet
+  std::string glb_;  ///< of scene_; empty: it is beside the recording, or has not arrived yet
   RunParameters parameters_;
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;

@@ -1,5 +1,5 @@
-// Runs that somebody else has started, and that are only followed: one controller, or all processes of a deployed
-// system.
+// Runs that were started elsewhere, and that are only followed: one controller, or all processes of a
+// deployed system.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -14,15 +14,15 @@ namespace tessera::server {
 
 using nlohmann::json;
 
-/// Why what runs there cannot be shown on this net; nullopt: it can.
+/// Why that controller cannot be shown on this net; nullopt: it can.
 std::optional<Problem> Run::why_not_attachable(const project::Snapshot& snapshot) const {
   if (snapshot.net_hash == analysis_->net_hash) return std::nullopt;
   return Problem{fmt::format("the controller runs another net (of the system {}) than the specification here",
                              snapshot.system)};
 }
 
-/// The controller's recording when it is a file within the project; else an empty path. The end of a tunnel
-/// names a file of another machine, where this one may have an old one.
+/// The controller's recording if it is a file within the project; otherwise an empty path. The end of a
+/// tunnel names a file of another machine, and this one may have an old file of that name.
 std::filesystem::path Run::readable_recording(const project::Snapshot& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.recording.value_or(""), missing);

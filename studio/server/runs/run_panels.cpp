@@ -18,7 +18,7 @@ json json_of(const spec::PanelControl& control) {
           {"whole", control.whole}};
 }
 
-/// Of each real buffer the first.
+/// The first entry of each real buffer.
 void add_panels(const spec::Model& model, const std::vector<spec::Driver>& drivers, json& all) {
   for (const spec::Driver& driver : drivers) {
     const std::string path = model.driver_path(driver);
@@ -39,7 +39,7 @@ json panels_of(const spec::Model& model, const RunRequest& request) {
   json all = json::array();
   if (request.kind == Kind::deployment) return all;
   const bool simulated = request.kind == Kind::simulate || !request.world.empty();
-  // Nobody knows which drivers a controller has that somebody else started.
+  // The drivers of a controller that was started elsewhere are unknown.
   const bool attached = request.kind == Kind::attach;
   if (!simulated) add_panels(model, model.drivers, all);
   if ((simulated || attached) && model.simulation) add_panels(model, model.simulation->drivers, all);

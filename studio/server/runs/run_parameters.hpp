@@ -11,8 +11,8 @@
 
 namespace tessera::server {
 
-/// The parameters of a run and what they hold: what the specification says, what the run was given, and what
-/// it has taken since.
+/// The parameters of a run and their values: from the specification, from the start of the run, and taken
+/// since.
 class RunParameters {
  public:
   explicit RunParameters(const spec::Model& model);
@@ -21,7 +21,7 @@ class RunParameters {
   /// names no parameter changes nothing.
   void set(std::string_view path, const std::string& value);
 
-  /// Nothing is known of what they hold.
+  /// Makes all values unknown.
   void forget();
 
   /// [{"path", "type", "unit", "minimum", "maximum", "initial", "value", "differs"}] of docs/studio.md. Those

@@ -32,7 +32,7 @@ class Runs {
   [[nodiscard]] Started start(RunRequest request);
   [[nodiscard]] nlohmann::json list() const;
   [[nodiscard]] std::shared_ptr<Run> find(const std::string& id) const;
-  /// The glTF file of a scene that came through a tunnel; nullopt: none has come.
+  /// The glTF file of a scene that came through a tunnel; nullopt: there is none.
   [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
   /// Ends all runs and waits until they have ended.
   void stop_all();

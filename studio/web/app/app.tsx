@@ -54,7 +54,7 @@ export function App() {
   );
 }
 
-/** Keys that mean the same everywhere on the page. */
+/** Keys that have the same meaning everywhere on the page. */
 function useShortcuts(): void {
   const studio = useStudio();
   useEffect(() => {

@@ -1,6 +1,6 @@
 import { Component, type ReactNode } from "react";
 
-/** A part of the page that fails shows the error and can be drawn again; the text beside it stays. */
+/** A part of the page that shows its error if it fails, and can be drawn again; the text beside it stays. */
 export class Boundary extends Component<{ children: ReactNode }, { problem: string | null }> {
   override state = { problem: null as string | null };
 

@@ -24,7 +24,7 @@ export function Centre() {
   const beside = panes.length > 1;
   // The structure view has no named panes.
   const named = beside && view === "net";
-  // That of a single pane is as wide as the window: see WholePlayer.
+  // The view of a single pane is as wide as the window: see WholePlayer.
   const players = beside
     ? panes.map((pane, at) => (
         <Player key={pane.id} pane={pane} beside={pane.replay ? named : true} fixed={sameTime && at === 1} />
@@ -58,7 +58,7 @@ function Nets({ players }: { players: React.ReactNode[] }) {
   const panes = useStore(studio.scene.store, (all) => all.panes);
   const beside = panes.length > 1;
   const drawn = panes.flatMap((pane, at): DrawnPane[] => {
-    // A run, a game or a recording is drawn with the net that it had when it began.
+    // A run, a game or a recording is drawn with its net at the beginning.
     const net = pane.track?.net ?? (desk.mode === "edit" ? edited : desk.net);
     if (!net) return [];
     const head = beside && <PaneHead pane={pane} title={title(pane)} />;

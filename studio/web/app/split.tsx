@@ -6,11 +6,11 @@ interface Sizes {
   right: number;
 }
 
-/** What was chosen before; the others leave the drawing room in a narrow window. */
+/** The widths that the user chose before; otherwise the drawing keeps its space in a narrow window. */
 function keptSizes(): Partial<Sizes> {
   return JSON.parse(localStorage.getItem(kept) ?? "{}") as Partial<Sizes>;
 }
-/** In a window of so many pixels. The text leaves the drawing and the side panel 780 of them. */
+/** The widths for a window of so many pixels. The text leaves the drawing and the side panel 780 of them. */
 const usual: Record<keyof Sizes, (width: number) => number> = {
   left: (width) => Math.min(420, Math.max(220, width - 780)),
   right: (width) => Math.min(320, width * 0.32),

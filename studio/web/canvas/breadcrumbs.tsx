@@ -4,7 +4,8 @@ import { layerTitle, pageName } from "../model/net/labels";
 import type { NetModel } from "../model/net/net";
 
 /**
- * The path from the system to the current page. A click on a part flies there. Beside it: fold and unfold.
+ * The path from the system to the current page, and buttons to fold and unfold. A click on a part flies
+ * there.
  */
 export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
   const studio = useStudio();

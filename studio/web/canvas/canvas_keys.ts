@@ -18,10 +18,10 @@ interface KeyContext {
 
 const directions: Record<string, Direction> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
 
-/** Handles a key on the drawing; false: the key has no meaning there. */
+/** Handles a key on the drawing; false: the key has no function there. */
 export function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
   const { net, sheets, selected, current, studio, stage, flow } = context;
-  // Keys of the browser, and of buttons within the drawing, keep their meaning.
+  // Keys of the browser, and of buttons within the drawing, keep their function.
   if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLButtonElement) return false;
   const direction = directions[event.key];
   if (direction) {

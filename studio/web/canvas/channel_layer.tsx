@@ -4,11 +4,11 @@ import { roundedPath } from "../model/net/geometry";
 import { channelLabel, channelPath, withoutIndex, type Channel, type Structure } from "../model/structure/structure";
 import { isNext, type StructureDrawing } from "../model/structure/structure_graph";
 
-/** How a channel is shown besides its modes. */
+/** The appearance of a channel besides its modes. */
 export interface ChannelLook {
   selected: string | null;
   complaints: ReadonlyMap<string, { severity: "error" | "warning" }>;
-  /** Indices of the channels at which somebody is stuck. */
+  /** Indices of the channels at which a subsystem is stuck. */
   stuck: ReadonlySet<number>;
 }
 
@@ -19,7 +19,7 @@ const spoken = (channel: Channel) => {
   return `${modes}${timeout ? ` ${timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
 };
 
-/** What the letters of a label say. */
+/** The text of a label. */
 const meaning = ({ send, receive, model, timeout }: Channel) =>
   model
     ? `It works as the communication model ${model} says.`
@@ -28,8 +28,8 @@ const meaning = ({ send, receive, model, timeout }: Channel) =>
       `${timeout ? `, at most ${timeout}` : ""}.`;
 
 /**
- * The channels of the structure: solid if an end waits, dashed if none does. Labels name the modes of both ends.
- * All of it comes from the same layout as the boxes, so a channel ends where its buffer is drawn.
+ * The channels of the structure: solid if an end waits, dashed if none does. Labels name the modes of both
+ * ends. All of it comes from the same layout as the boxes, so a channel ends where its buffer is drawn.
  */
 export function ChannelLayer({
   structure,
@@ -132,7 +132,7 @@ export const ChannelTip = () => (
       >
         <path className="tip" d="M0 0L10 4L0 8L2.5 4Z" />
       </marker>
-      {/* Of the lines between agents, seen from afar. */}
+      {/* For the lines between agents, seen from afar. */}
       <marker
         id="trunk-tip"
         viewBox="0 0 10 8"

@@ -1,2 +1,4 @@
-/** Of a sheet with more nodes, only those in the window and around it are drawn, unless they are dots. */
+/**
+ * If a sheet has more nodes than this, only those in and around the window are drawn, unless they are dots.
+ */
 export const crowd = 600;

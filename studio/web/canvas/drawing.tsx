@@ -151,7 +151,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
   );
 }
 
-/** Where the names of agents stand: above their nets, in up to 1.6 times their size. */
+/** The positions of the names of agents: above their nets, in up to 1.6 times their size. */
 function namesOf(net: NetModel, sheets: Sheets): Box[] {
   return net.children(0).flatMap((page) => {
     const { path, name } = net.page(page);

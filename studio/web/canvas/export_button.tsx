@@ -8,7 +8,7 @@ import type { NetModel } from "../model/net/net";
 import { filmPage } from "./film_page";
 import { asPng, download, takeFirstPicture, takePicture } from "./picture";
 
-/** Buttons that save the visible part as a file. film: also what is played on it. */
+/** Buttons that save the visible part as a file. film: also a film of what is played on it. */
 export function ExportButtons({ name, film }: { name: string; film?: boolean }) {
   const studio = useStudio();
   const [busy, setBusy] = useState(false);

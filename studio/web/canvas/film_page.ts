@@ -4,7 +4,7 @@ import type { Film } from "../model/run/film";
 
 const escaped = (text: string) => text.replace(/[&<>"]/g, (one) => `&#${one.charCodeAt(0)};`);
 
-/** svg: the drawing, as a first picture (`takePicture`). accent, soft: colours of what runs. */
+/** svg: the drawing, as a first picture (`takePicture`). accent, soft: colours of active elements. */
 export function filmPage(film: Film, svg: string, accent: string, soft: string): string {
   // "<" could end the script element.
   const data = JSON.stringify(film).replaceAll("<", "\\u003c");
@@ -53,7 +53,7 @@ button, select { font: inherit; min-width: 44px; padding: 4px 10px; }
 .page .token.inside { display: none; }
 .page.folded.occupied > .token.inside { display: inline; }`;
 
-// Plain JavaScript of any browser of the last years.
+// Plain JavaScript for any recent browser.
 const player = `"use strict";
 const film = JSON.parse(document.getElementById("film").textContent);
 const byId = (id) => document.getElementById(id);

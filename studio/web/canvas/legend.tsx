@@ -26,7 +26,7 @@ function Line({ dash, wide = 1.5 }: { dash?: string; wide?: number }) {
   );
 }
 
-/** Says what the symbols of a drawing mean. */
+/** Explains the symbols of a drawing. */
 export function Legend({ of }: { of: "net" | "structure" }) {
   return (
     <details className="legend nodrag nopan">

@@ -9,11 +9,11 @@ const still = matchMedia("(prefers-reduced-motion: reduce)");
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 
 /**
- * Greys all but those who have to do with a standstill, and draws who waits for whom. Flies to them once when
- * it is asked for.
+ * Greys everything except the subsystems of a standstill, and draws which of them waits for which. Flies to
+ * them once on request.
  *
- * boxOf: where a subsystem is drawn; undefined: not yet, or not at all. names: where names of others stand, which are
- * left readable.
+ * boxOf: the box of a subsystem; undefined: not drawn, or not yet. names: the boxes of other names, which
+ * stay readable.
  */
 export function LensOverlay({
   whole,
@@ -60,7 +60,7 @@ interface DrawnProps {
 }
 
 function Drawn({ shown, whole, boxes, drawn, zoom }: DrawnProps) {
-  // Lines and letters have the same size on screen, however near the drawing is.
+  // Lines and letters have the same size on screen at every zoom.
   const unit = 1 / zoom;
   const far = 4000;
   const outside = { x: whole.x - far, y: whole.y - far, width: whole.width + 2 * far, height: whole.height + 2 * far };

@@ -1,4 +1,4 @@
-/** A view of the page as one SVG that stands on its own, for a paper or a report. */
+/** A view of the page as one self-contained SVG, for a paper or a report. */
 
 const svg = "http://www.w3.org/2000/svg";
 const kept = [
@@ -27,12 +27,12 @@ export interface Picture {
   height: number;
 }
 
-/** Classes that a film gives and takes. */
+/** Classes that a film adds and removes. */
 const changing = ["fired", "enabled", "occupied", "runs", "selected"];
 
 /**
- * The part of `areas` (elements with a flow in each) that is visible now.
- * moves: it is the first picture of a film, so what comes and goes stays in it, hidden, with its classes.
+ * The part of `areas` (elements with a flow in each) that is visible now. moves: it is the first picture of a
+ * film, so elements that appear and disappear stay in it, hidden, with their classes.
  */
 export function takePicture(areas: readonly Element[], moves = false): Picture {
   const frames = areas.map((area) => area.getBoundingClientRect());
@@ -57,7 +57,7 @@ export function takePicture(areas: readonly Element[], moves = false): Picture {
   return { text: new XMLSerializer().serializeToString(root), width, height };
 }
 
-/** The first picture of a film: nothing in it has fired or runs. */
+/** The first picture of a film: no element has fired or is running. */
 export function takeFirstPicture(area: Element): Picture {
   const lit = changing.flatMap((name) => [...area.getElementsByClassName(name)].map((element) => ({ element, name })));
   area.classList.add("still");
@@ -142,7 +142,7 @@ function addBox(style: CSSStyleDeclaration, box: DOMRect, scale: number, to: Ele
   to.append(rect);
 }
 
-/** A name in several lines, of which those that do not fit are left out, as on the screen. */
+/** A name in several lines. Lines that do not fit are left out, as on the screen. */
 function addLines(element: Element, style: CSSStyleDeclaration, scale: number, to: Element, frame: DOMRect): void {
   const bottom = element.getBoundingClientRect().bottom;
   const lines: { text: string; box: DOMRect }[] = [];

@@ -5,8 +5,8 @@ import type { Look } from "../live/camera";
 import type { Sheet } from "../model/net/geometry";
 
 /**
- * Uses the view of the other panes, or else shows the whole drawing. Nothing is drawn before that,
- * because it would be drawn twice.
+ * Uses the view of the other panes, or else shows the whole drawing. Before that, it draws nothing, because
+ * it would be drawn twice.
  */
 export function useSharedView(root: Sheet | undefined): boolean {
   const { camera } = useStudio();

@@ -15,7 +15,7 @@ export interface SheetData extends Record<string, unknown> {
   open: string;
   folded: string;
   /**
-   * How near the sheet is: 2 means that lines and letters would be four times too large, -1 that they are
+   * The distance of the sheet: 2 means that lines and letters would be four times too large, -1 that they are
    * small, -3 that they are dots.
    */
   near: number;
@@ -28,7 +28,7 @@ export interface SheetData extends Record<string, unknown> {
 }
 export type SheetNode = Node<SheetData, "sheet">;
 
-/** The net of one page. Its symbols carry the numbers by which tokens are put on them. */
+/** The net of one page. Its symbols carry the numbers by which tokens are placed on them. */
 export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
   const studio = useStudio();
   const ref = useRef<SVGSVGElement>(null);

@@ -39,7 +39,10 @@ export function useNodes(
   }, [net, sheets, visible, window, selected, flags, stage]);
 }
 
-/** The window with some space around it, in units of the sheet: "x,y,width,height". It changes seldom while one moves. */
+/**
+ * The window with some space around it, in units of the sheet: "x,y,width,height". It changes seldom during a
+ * move.
+ */
 function clipOf({ x, y, scale }: Placed, window: Box): string {
   const along = (from: number, length: number) => {
     const step = 2 ** (Math.ceil(Math.log2(length)) - 1);

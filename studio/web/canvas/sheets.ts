@@ -8,8 +8,8 @@ import { elk } from "./elk";
 const many = 24;
 
 /**
- * The sheets of each net that is drawn, and a number that grows when a sheet has arrived. Folding one
- * member of a fleet folds all of them.
+ * The sheets of each net that is drawn, and a number that grows when a sheet has arrived. Folding one member
+ * of a fleet folds all of them.
  */
 export function useSheets(nets: readonly NetModel[]): { of: (net: NetModel) => Sheets; version: number } {
   const studio = useStudio();

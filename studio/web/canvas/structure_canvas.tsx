@@ -34,8 +34,8 @@ import { AgentNode, DeviceNode, SubsystemNode } from "./structure_nodes";
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
 
 /**
- * Shows all of a drawing, with its channels, which lead around its boxes: until somebody moves it. Returns what is to be
- * called then.
+ * Shows all of a drawing, with the channels around its boxes, until the user moves it. Returns the function
+ * to call after a move.
  */
 function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
   const flow = useReactFlow();
@@ -49,7 +49,7 @@ function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
     const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
     void flow.fitBounds(box, { duration: 0, padding: 0.03 });
   }, [size, whole, flow]);
-  // Moves of this page have no event.
+  // Moves that the page itself makes have no event.
   return (event) => void (moved.current ||= event !== null);
 }
 
@@ -66,7 +66,9 @@ const nothing: Drawn = {
   drawing: { width: 1, height: 1, boxes: new Map(), wires: [], labels: new Map() },
 };
 
-/** The drawing of the last structure that is laid out. Its boxes stay where they are until the next one is. */
+/**
+ * The drawing of the last structure with a layout. Its boxes stay in place until the next layout is ready.
+ */
 function useDrawn(structure: Structure): Drawn {
   const [drawn, setDrawn] = useState(nothing);
   useEffect(() => {
@@ -75,7 +77,7 @@ function useDrawn(structure: Structure): Drawn {
     return () => void (wanted = false);
   }, [structure]);
   const update = useUpdateNodeInternals();
-  // A buffer that moved within its box takes its handle along.
+  // A buffer that has moved within its box moves its handle, too.
   useEffect(() => update([...drawn.drawing.boxes.keys()]), [drawn, update]);
   return drawn;
 }
@@ -116,7 +118,7 @@ function nodesOf({ structure, drawing }: Drawn, selected: string | null, complai
 
 const none: readonly Box[] = [];
 
-/** Where the names of agents and subsystems stand: in the middle of their boxes if these have no other text. */
+/** The positions of the names of agents and subsystems: in the middle of boxes without other text. */
 function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): Box[] {
   const middle = (box: Box): Box => {
     const height = Math.min(box.height, 40 / zoom);
@@ -133,7 +135,7 @@ function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): B
   ]);
 }
 
-/** What is meant by a click: an element, or the line of a channel. */
+/** The element, or the line of a channel, that a click selects. */
 const pathOf = (target: Element) =>
   target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
 
@@ -158,7 +160,7 @@ function wiresOf({ structure, drawing }: Drawn): Edge[] {
     });
 }
 
-/** Agents as roboticists draw them. A channel is made by dragging from an output to an input. */
+/** Agents in the form that robotics uses. Dragging from an output to an input makes a channel. */
 export function StructureCanvas() {
   return (
     <ReactFlowProvider>
@@ -188,22 +190,19 @@ function Drawing() {
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
     const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
-    studio.draft.edit(
-      addChannel(structure, from, to, { send: "non_blocking", receive: "non_blocking", timeout: "" }),
-      "edit",
-    );
+    studio.draft.edit(addChannel(structure, from, to, { send: "non_blocking", receive: "non_blocking", timeout: "" }), "edit");
     studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
   const detail = detailAt(zoom);
-  // Where subsystems are not drawn, their agent stands for them.
+  // If subsystems are not drawn, their agent replaces them.
   const boxOf = (path: string) => drawing.boxes.get(detail === "agents" ? path.split(/[.[]/)[0]! : withoutIndex(path));
   const dragged = useRef(false);
-  // The click that ends a drag is not meant for the element below it.
+  // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
   const click = (event: MouseEvent) => dragged.current || select(pathOf(event.target as Element));
-  /** Flies to an agent, or to a subsystem in which it is. */
+  /** Flies to an agent, or to a subsystem in it. */
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);
     const box = path === null ? undefined : drawing.boxes.get(path.split(".").slice(0, 2).join("."));

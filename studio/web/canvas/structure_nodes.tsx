@@ -29,7 +29,7 @@ const Name = ({ of }: { of: string }) =>
     </Fragment>
   ));
 
-/** The number of lines of a name that fills its box; it changes seldom while one zooms. */
+/** The number of lines of a name that fills its box; it changes seldom during a zoom. */
 const useLines = (height: number, letters: number) =>
   ({ "--lines": useFlow(({ transform }) => linesIn(height, transform[2], letters)) }) as CSSProperties;
 

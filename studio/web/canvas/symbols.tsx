@@ -177,22 +177,25 @@ function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open
   );
 }
 
-/** Widths in pixels of boxes in which a cut name stands, and the room beside it. */
+/** Widths in pixels of boxes with a cut name, and the space beside it. */
 const cutWidths = [40, 56, 76, 100, 130, 170, 220];
 const rim = 10;
 /** The width of a letter, as a part of its height. */
 const letter = 0.62;
-/** From line to line, as a part of their height. */
+/** The distance of lines, as a part of the height of a letter. */
 const pitch = 1.15;
 
-/** The name in the middle of a page, in the lines that let it be largest; cut where the whole name is too small. */
+/**
+ * The name in the middle of a page, broken into the lines that allow the largest letters; cut if the whole
+ * name is too small.
+ */
 function ClosedName({ page, box, child }: { page: Page; box: Box; child: number }) {
   const name = pageName(page);
   const middle = { x: box.x + box.width / 2, textAnchor: "middle" as const };
   const fitting = (lines: string[]) => {
     const longest = Math.max(4, ...lines.map(({ length }) => length)) * letter;
     const size = Math.min(34, (box.width - 30) / longest, (box.height - 12) / (lines.length * pitch + 1.6));
-    // Far away, letters grow to their ten pixels as long as they fit into the frame.
+    // Far away, letters grow to their ten pixels if they fit into the frame.
     const largest = Math.min((box.width - 12) / longest, (box.height - 8) / (lines.length * pitch));
     return { lines, size, more: largest / size };
   };
@@ -201,7 +204,7 @@ function ClosedName({ page, box, child }: { page: Page; box: Box; child: number 
   const centre = box.y + box.height / 2;
   const below = centre + size / 3 + ((lines.length - 1) * size * pitch) / 2;
   const style = { "--u": size, "--more": more } as CSSProperties;
-  // Pixels that the box has on the screen when the whole name becomes readable.
+  // The width in pixels at which the whole name becomes readable.
   const whole = (10 / (size * more)) * box.width;
   return (
     <g className="closed-name">
@@ -257,7 +260,7 @@ interface ArcsProps {
   clip: string;
 }
 
-/** Whether a box is in the part that is drawn. */
+/** Whether a box is in the drawn part. */
 export function within(clip: string): (box: Box) => boolean {
   if (!clip) return () => true;
   const [x, y, width, height] = clip.split(",").map(Number) as [number, number, number, number];

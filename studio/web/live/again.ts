@@ -1,11 +1,11 @@
-/** The request of a run that is made again from its beginning, and shown from a moment on. */
+/** The request for a run that is made again from its beginning, and shown from some time on. */
 
 import type { StartRequest } from "./protocol";
 
-/** Of a simulated run that is given no other. */
+/** The default for a simulated run. */
 const defaultTime = "600s";
 
-/** at: seconds. A run that had ended there, since its time was over, gets as much time again. */
+/** at: seconds. A run that has used up its duration gets the same duration again. */
 export function againFrom(request: StartRequest, at: number, paused: boolean): StartRequest {
   const end = secondsOf(request.for ?? defaultTime);
   const more = end !== null && at >= end ? { for: `${at + end}s` } : {};

@@ -50,7 +50,7 @@ export function shareToken(token: string, taken: (token: string) => void): void 
 
 type Body<Name extends keyof Requests> = Requests[Name] extends { body: infer Given } ? Given : undefined;
 interface Details<Name extends keyof Requests> {
-  /** What stands for JOB, RUN or NAME in the address. */
+  /** The values of JOB, RUN or NAME in the address. */
   of?: string;
   query?: Requests[Name] extends { query?: infer Given } ? Given : undefined;
   body?: Body<Name>;
@@ -58,7 +58,7 @@ interface Details<Name extends keyof Requests> {
   keepalive?: boolean;
 }
 
-/** Where a request goes: "/api/runs/7/control" of "POST /api/runs/RUN/control". */
+/** The address of a request: "/api/runs/7/control" for "POST /api/runs/RUN/control". */
 function addressOf(name: string, of: string, query: object): string {
   const path = name.replace(/^[A-Z]+ /, "").replace(/(?<=\/)[A-Z]+(?=\/|\.|$)/, encodeURIComponent(of));
   const asked = new URLSearchParams(Object.entries(query)).toString();
@@ -102,19 +102,19 @@ export class Api {
   spec = () => this.ask("GET /api/spec");
   save = (text: string, revision: string) => this.ask("PUT /api/spec", { body: { text, revision } });
   check = (text: string) => this.ask("POST /api/check", { body: { text } });
-  /** What may stand at a place of a text, and what a word there means. */
+  /** The possible completions at a position of a text, and the meaning of a word there. */
   language = (question: LanguageQuestion) => this.ask("POST /api/language", { body: question });
   /** properties: empty: all. */
   verify = (text: string, timeout = "30s", properties: string[] = []) =>
     this.ask("POST /api/verify", { body: { text, timeout, properties } });
-  /** Who can fire nothing in a marking. */
+  /** The subsystems that cannot fire in a marking. */
   waits = (text: string, marking: { place: number }[]) => this.ask("POST /api/waits", { body: { text, marking } });
   functions = (text: string) => this.ask("POST /api/functions", { body: { text } });
   addFunction = (text: string, subsystem: string, name: string) =>
     this.ask("POST /api/functions/add", { body: { text, subsystem, function: name } });
   renameFunction = (text: string, subsystem: string, from: string, name: string) =>
     this.ask("POST /api/functions/rename", { body: { text, subsystem, from, function: name } });
-  /** What drivers in the simulated world may name, by their kinds. */
+  /** The names that drivers in the simulated world can use, by their kinds. */
   worldTargets = (text: string) => this.ask("POST /api/world", { body: { text } });
   source = (file: string) => this.ask("GET /api/sources", { query: { file } });
   saveSource = (file: string, text: string, revision: string) => this.ask("PUT /api/sources", { body: { file, text, revision } });
@@ -124,7 +124,7 @@ export class Api {
   stopVerify = (job: string) => this.ask("DELETE /api/verify/JOB", { of: job });
   start = (request: RunRequest) => this.ask("POST /api/runs", { body: request });
   control = (run: string, request: ControlRequest) => this.ask("POST /api/runs/RUN/control", { of: run, body: request });
-  /** The same for a page that may be about to be closed. */
+  /** The same for a page that may be about to close. */
   lastControl = (run: string, request: ControlRequest) =>
     this.ask("POST /api/runs/RUN/control", { of: run, body: request, keepalive: true });
   runs = () => this.ask("GET /api/runs");
@@ -132,15 +132,15 @@ export class Api {
   controllers = () => this.ask("GET /api/controllers");
   run = (run: string) => this.ask("GET /api/runs/RUN", { of: run });
   recordings = () => this.ask("GET /api/recordings");
-  /** As much of it as is sent at once; from a moment on. */
+  /** A part of a recording from a time on, as much as is sent at once. */
   recording = (name: string, from?: number) =>
     this.ask("GET /api/recordings/NAME", { of: name, query: from === undefined ? {} : { from: String(from) } });
   /** The scans and pictures of a recording between two times. */
   arrays = (name: string, from: number, to: number) =>
     this.ask("GET /api/recordings/NAME/arrays", { of: name, query: { from: String(from), to: String(to) } });
-  /** Which devices of the simulated world give scans and pictures. */
+  /** The devices of the simulated world that give scans and pictures. */
   views = () => this.ask("GET /api/views");
-  /** What a recording has reached of the net of the specification; and a run, so far. */
+  /** The parts of the specification's net that a recording, or a run so far, has reached. */
   coverage = (name: string) => this.ask("GET /api/recordings/NAME/coverage", { of: name });
   runCoverage = (run: string) => this.ask("GET /api/runs/RUN/coverage", { of: run });
   /** The poses of a recording between two times. */
@@ -154,7 +154,7 @@ export class Api {
     if (!answer.ok) throw new ApiError(answer.status, "The file of this world is not there.");
     return answer.arrayBuffer();
   }
-  /** The floor with that name, or that of the specification; nothing when there is no picture of it. */
+  /** The floor with that name, or that of the specification; undefined if there is no picture of it. */
   async floor(chosen: string | null | undefined): Promise<Floor | null> {
     try {
       const own = (await this.project()).simulation?.track;

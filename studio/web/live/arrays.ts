@@ -2,12 +2,12 @@ import { count } from "../model/sorted";
 import { message } from "./draft";
 import type { ArraysEvent, ArraysRow, RecordedArrays as Answer } from "./protocol";
 
-/** The numbers of a buffer as a recording holds them; null: not recorded, or too large to be sent. */
+/** The numbers of a buffer in a recording; null: not recorded, or too large to be sent. */
 export type Bytes = Uint8Array | null;
 
 /** The arrays that devices gave: scans and pictures. */
 export interface Arrays {
-  /** Grows when there is something new. */
+  /** Grows with each new array. */
   readonly version: number;
   /** Undefined: none so far, or not loaded yet. The same object until there is another value. */
   at(path: string, time: number): Bytes | undefined;
@@ -16,7 +16,7 @@ export interface Arrays {
 const decoded = (text: string | null): Bytes =>
   text === null ? null : Uint8Array.from(atob(text), (letter) => letter.charCodeAt(0));
 
-/** Of a run that goes on: the newest ones. */
+/** For a running run: the newest arrays. */
 export class LiveArrays implements Arrays {
   version = 0;
   private readonly latest = new Map<string, string | null>();
@@ -32,13 +32,13 @@ export class LiveArrays implements Arrays {
 
   at(path: string): Bytes | undefined {
     const text = this.latest.get(path);
-    // Decoded when somebody looks.
+    // Decoded at the first use.
     if (text !== undefined && !this.known.has(path)) this.known.set(path, decoded(text));
     return this.known.get(path);
   }
 }
 
-/** Nanoseconds that are loaded behind a time that is asked for. */
+/** Nanoseconds that are loaded after a requested time. */
 const ahead = 4e9;
 
 interface Part {
@@ -47,7 +47,7 @@ interface Part {
   rows: readonly ArraysRow[];
 }
 
-/** Of a recording, of which a part is loaded at a time. */
+/** For a recording, of which one part is loaded at a time. */
 export class RecordedArrays implements Arrays {
   version = 0;
   private part: Part = { from: 0, until: -1, rows: [] };

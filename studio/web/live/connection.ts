@@ -62,7 +62,7 @@ export class Connection {
       });
   }
 
-  /** A broken stream does not tell why; a plain request does. */
+  /** A broken stream gives no reason; a plain request does. */
   private async broken(): Promise<void> {
     this.source?.close();
     const attempt = this.store.get().attempt + 1;

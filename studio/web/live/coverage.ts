@@ -5,7 +5,7 @@ import type { Pane, Scene } from "./scene";
 import type { Runner } from "./runner";
 import { Store } from "./store";
 
-/** Milliseconds between two questions about a run that goes on. */
+/** Milliseconds between two requests for a running run. */
 const pause = 2000;
 
 const kept = "tessera.coverage";
@@ -17,7 +17,7 @@ export interface CoverageState {
   known: ReadonlyMap<string, Coverage | { problem: string }>;
 }
 
-/** Shades on the drawings what the run or the recording of each pane has never reached. */
+/** Shades on the drawings the elements that the run or the recording of each pane has never reached. */
 export class Coverages {
   readonly store: Store<CoverageState>;
   private timer: ReturnType<typeof setTimeout> | undefined;
@@ -58,7 +58,7 @@ export class Coverages {
     return this.scene.store.get().panes.filter(({ track }) => track !== null);
   }
 
-  /** Asks for what is not known, and again for a run that goes on. */
+  /** Requests missing data, and again for a running run. */
   private async look(): Promise<void> {
     clearTimeout(this.timer);
     const asked = (this.asked += 1);

@@ -3,7 +3,7 @@ import type { DeploymentSeen, LinkSeen, ProcessSeen } from "./protocol";
 import type { Runner } from "./runner";
 import { Store } from "./store";
 
-/** What is seen of all processes of a deployed system while they are watched together. */
+/** The state of all processes of a deployed system that are watched together. */
 export class Deployment {
   readonly store = new Store<{ seen: DeploymentSeen | null }>({ seen: null });
 
@@ -18,7 +18,7 @@ export class Deployment {
   }
 }
 
-/** Whether something is wrong with a process, the worst first: 0 is best. */
+/** The severity of a process's problem; 0: there is none. */
 export function trouble(process: ProcessSeen): number {
   if (process.state === "gone") return 5;
   if (process.state === "silent") return 4;
@@ -29,7 +29,7 @@ export function trouble(process: ProcessSeen): number {
 
 export const lossOf = (link: LinkSeen): number => (link.signs === 0 ? 0 : link.signs_lost / link.signs);
 
-/** Links in trouble come first: those that are cut, then those that lose most. */
+/** Links with problems come first: those that are cut, then those that lose most. */
 export function worstFirst(links: readonly LinkSeen[]): LinkSeen[] {
   const rank = (link: LinkSeen) => (link.reachable ? lossOf(link) : 2);
   return [...links].sort((one, other) => rank(other) - rank(one));

@@ -4,13 +4,13 @@ import { message, type Draft } from "./draft";
 import type { SubsystemAtEnd } from "./protocol";
 import { Store } from "./store";
 
-/** Who is stuck, as the drawings show it. */
+/** The subsystems of a standstill, for the drawings. */
 export interface Stuck {
   title: string;
   atEnd: readonly SubsystemAtEnd[];
   /** Subsystems that cannot go on. */
   stuck: readonly string[];
-  /** They, and whom they wait for: all that is not grey. */
+  /** These subsystems and those that they wait for: everything that is not grey. */
   concerned: readonly string[];
   waits: readonly Wait[];
 }
@@ -22,7 +22,7 @@ export interface LensState {
   problem: string;
 }
 
-/** The lens that shows who is stuck: in the net and in the structure, until it is closed. */
+/** The lens that shows the stuck subsystems, in the net and in the structure, until it is closed. */
 export class Lens {
   readonly store = new Store<LensState>({ shown: null, request: 0, problem: "" });
 
@@ -40,7 +40,7 @@ export class Lens {
     this.store.set({ shown: null, problem: "" });
   }
 
-  /** Asks who can do nothing in a marking: of a run that has stopped, or stands still. */
+  /** Requests the subsystems that cannot go on in a marking: of a run that has stopped, or stands still. */
   async look(marking: Int32Array): Promise<void> {
     const marked = [...marking.entries()].flatMap(([place, tokens]) => (tokens > 0 ? [{ place }] : []));
     try {

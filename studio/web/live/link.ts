@@ -6,14 +6,14 @@ export interface Moment {
   time: number;
 }
 
-/** What an address says: `#view=structure&panel=verify&at=robot.control&recording=run.trec&t=1.5`. */
+/** The content of an address: `#view=structure&panel=verify&at=robot.control&recording=run.trec&t=1.5`. */
 export interface Linked extends Partial<Pick<ViewState, "view" | "panel" | "selected">> {
   moment?: Moment;
 }
 
 const views: readonly View[] = ["net", "structure", "fleet"];
 
-/** The part of an address after the #, with what is not known left out. */
+/** The part of an address after the #, without unknown keys. */
 export function readLink(hash: string): Linked {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
   const view = views.find((one) => one === given.get("view"));

@@ -6,18 +6,18 @@ import { Store } from "./store";
 import { neutralInputs, padInputs, released, type Inputs, type Pad } from "../model/run/panel_inputs";
 
 export interface OperatorState {
-  /** By path: the panels that this page operates, and what their controls give. */
+  /** By path: the panels that this page operates, and the values of their controls. */
   inputs: ReadonlyMap<string, Inputs>;
-  /** By path: why the controller refuses. */
+  /** By path: the reason of the controller's refusal. */
   problems: ReadonlyMap<string, string>;
 }
 
-/** How often inputs are repeated, in milliseconds: several times while one counts. */
+/** The period of repeated inputs in milliseconds: several within the life of an input. */
 const repetition = (panels: Iterable<PanelShown>) => Math.min(80, ...[...panels].map(({ stale_s }) => stale_s * 250));
 
 /**
- * Operates panels of the running controller. It repeats the inputs as long as the page is looked at. Once the
- * page is hidden or closed, or an input is refused, it lets go, and the controller's panel is neutral.
+ * Operates panels of the running controller. It repeats the inputs while the page is visible. Once the page
+ * is hidden or closed, or an input is refused, it lets go, and the controller's panel becomes neutral.
  */
 export class Operator {
   readonly store = new Store<OperatorState>({ inputs: new Map(), problems: new Map() });
@@ -37,7 +37,7 @@ export class Operator {
     });
   }
 
-  /** Lets go when the page is hidden or closed; springs back when it is not looked at. */
+  /** Lets go when the page is hidden or closed; releases held controls when it loses the focus. */
   watch(page: Document, frame: Window): void {
     page.addEventListener("visibilitychange", () => page.visibilityState === "hidden" && this.letGoOfAll());
     frame.addEventListener("pagehide", () => this.letGoOfAll());
@@ -71,7 +71,7 @@ export class Operator {
     for (const path of [...this.store.get().inputs.keys()]) this.letGo(path);
   }
 
-  /** Nobody holds keys and buttons any more. */
+  /** Releases all keys and buttons. */
   release(): void {
     for (const [path, held] of this.store.get().inputs) this.move(path, released(this.panels.get(path)!.controls, held));
   }
@@ -118,7 +118,7 @@ export class Operator {
     } finally {
       this.asking.delete(path);
     }
-    // What was moved meanwhile is not to wait for the next repetition.
+    // A change made meanwhile must not wait for the next repetition.
     if (this.store.get().inputs.get(path) !== held) void this.send(path);
   }
 

@@ -23,7 +23,7 @@ export type ArraysRow = [number, Arrays];
 export type VerifyEvent = VerifyStarted | VerifyProgress | VerifyEnd;
 
 /**
- * What the server of `tessera studio` and its page say to each other (docs/studio.md).
+ * The messages between the server of `tessera studio` and its page (docs/studio.md).
  * studio/web/scripts/protocol.mjs makes the types of the page from it; the tests of the server validate every
  * answer and event.
  */
@@ -32,8 +32,8 @@ export interface StudioProtocol {
   events: Events;
 }
 /**
- * What the page asks: by method and path, with JOB, RUN and NAME for one of them. A refusal (status 400 and
- * above) is a Refusal.
+ * The requests of the page: by method and path, with JOB, RUN and NAME for one of them. A refusal (status 400
+ * and above) is a Refusal.
  */
 export interface Requests {
   "GET /api/project": { status: 200; answer: Project };
@@ -42,7 +42,7 @@ export interface Requests {
   "PUT /api/spec": {
     body: {
       text: string;
-      /** Of the text that was changed. */
+      /** The revision of the text that was changed. */
       revision: string;
     };
     status: 200;
@@ -50,7 +50,7 @@ export interface Requests {
   };
   /** Saves nothing. */
   "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
-  /** What is known of a text, even with errors; null: it is not YAML. */
+  /** The known part of a text, even with errors; null: it is not YAML. */
   "POST /api/structure": { body: { text: string }; status: 200; answer: StructureShown | null };
   /** About a text as it is typed; saves nothing. */
   "POST /api/language": { body: LanguageQuestion; status: 200; answer: LanguageAnswer };
@@ -69,7 +69,7 @@ export interface Requests {
     /** Sockets on which a controller listens. */
     answer: string[];
   };
-  /** Who can fire nothing in a marking. */
+  /** The subsystems that cannot fire in a marking. */
   "POST /api/waits": { body: { text: string; marking: { place: number }[] }; status: 200; answer: { at_end: SubsystemAtEnd[] } };
   /** The C++ functions of the behaviours. */
   "POST /api/functions": { body: { text: string }; status: 200; answer: FunctionShown[] };
@@ -85,7 +85,7 @@ export interface Requests {
     status: 200;
     answer: { files: string[] };
   };
-  /** What drivers in the simulated world of a text may name. */
+  /** The names that drivers in the simulated world of a text can use. */
   "POST /api/world": {
     body: { text: string };
     status: 200;
@@ -107,7 +107,7 @@ export interface Requests {
     body: {
       file: string;
       text: string;
-      /** Of the text that was changed. */
+      /** The revision of the text that was changed. */
       revision: string;
     };
     status: 200;
@@ -200,7 +200,7 @@ export interface Project {
   server_start: string;
   examples_hint: string;
   worlds: { name: string; tracks: string[] }[];
-  /** Of `deploy:`; empty: all agents run in one. */
+  /** The processes of `deploy:`; empty: all agents run in one. */
   processes: string[];
   /** Null: the specification names no world. */
   simulation: { world: string; track: { image: string; metres_per_pixel: number } | null } | null;
@@ -234,7 +234,7 @@ export interface Saved {
   revision: string;
   analysis: Analysis;
 }
-/** What is known of a text, even with errors. */
+/** The known part of a text, even with errors. */
 export interface StructureShown {
   system: string;
   agents: AgentShown[];
@@ -319,13 +319,13 @@ export interface LanguageQuestion {
   character: number;
   ask: "completion" | "meaning" | "definition";
 }
-/** What was not asked for is empty or null. */
+/** Parts that were not requested are empty or null. */
 export interface LanguageAnswer {
   proposals: Proposal[];
   meaning: Meaning | null;
   definition: TextPosition | null;
 }
-/** What may stand at the cursor. */
+/** The possible texts at the cursor. */
 export interface Proposal {
   kind: "key" | "word" | "type" | "name" | "example";
   label: string;
@@ -340,7 +340,7 @@ export interface TextPosition {
   line: number;
   character: number;
 }
-/** Of the word at the cursor, in Markdown. */
+/** The meaning of the word at the cursor, in Markdown. */
 export interface Meaning {
   text: string;
   from: TextPosition;
@@ -383,7 +383,7 @@ export interface Verdict {
   /** Markings that were visited. */
   states: number;
   warning: boolean;
-  /** Who waits for what at the end of the run. */
+  /** The waits at the end of the run. */
   waits: string[];
   behaviours: { path: string; line: number }[];
   /** The run that shows the verdict. */
@@ -405,11 +405,11 @@ export interface TracedFiring {
   page?: string;
   line?: number;
 }
-/** What a subsystem does where a run has stopped or no longer goes on as it should. */
+/** The state of a subsystem where a run has stopped or no longer goes on as it should. */
 export interface SubsystemAtEnd {
   path: string;
   state: "waits" | "no_successor" | "ended" | "gives_no_more" | "takes_no_more";
-  /** What it waits for, or gives no more. */
+  /** The token that it waits for, or no longer gives. */
   awaited: "nothing" | "value" | "acknowledgement" | "memory";
   /** no_successor: the one that was left. */
   behaviour: string;
@@ -426,12 +426,12 @@ export interface VerifyProblem {
 }
 export interface Nothing {}
 export interface FunctionShown {
-  /** Of an agent or a template: "walker.control". */
+  /** The path of an agent or a template: "walker.control". */
   subsystem: string;
   function: string;
   /** unclear: only the linker can tell. */
   state: "defined" | "unclear" | "missing";
-  /** Where it is or would be: src/control.cpp */
+  /** The existing or proposed file: src/control.cpp */
   file: string;
   line: number | null;
   /** The function to begin with. */
@@ -449,14 +449,14 @@ export interface StartRequest {
   /** Simulated seconds a second; 0: as fast as possible. */
   speed?: number;
   paused?: boolean;
-  /** Of simulate: as fast as possible up to this second of the run; `speed` and `paused` count from then on. */
+  /** For simulate: as fast as possible up to this second of the run; `speed` and `paused` apply from then on. */
   skip_to?: number;
-  /** What is recorded; all: also values of more than 4 KiB, such as pictures. */
+  /** The recorded values; all: also values of more than 4 KiB, such as pictures. */
   values?: "small" | "all";
 }
 export interface AttachRequest {
   kind: "attach";
-  /** Of the controller to watch: one of `/api/controllers`. */
+  /** The socket of the controller to watch: one of `/api/controllers`. */
   socket: string;
 }
 /** Watches all processes of the deployed system that run on this machine. */
@@ -501,7 +501,7 @@ export interface RunInfo {
   subsystems: SubsystemsSeen | null;
   /** Null unless all processes of a deployed system are watched. */
   deployment: DeploymentSeen | null;
-  /** By property; null: somebody else made the controller, or it is not made yet. */
+  /** By property; null: the controller was made elsewhere, or it is not made yet. */
   verdicts: { [k: string]: VerdictName } | null;
   outcome: Outcome | null;
   /** The floor picture that the run was started with; null: that of the specification. */
@@ -521,7 +521,7 @@ export interface ParameterShown {
   unit: string;
   minimum: number | null;
   maximum: number | null;
-  /** What the specification says. */
+  /** The value of the specification. */
   initial: string;
   /** Null: not known, since the beginning of the recording is gone. */
   value: string | null;
@@ -530,7 +530,7 @@ export interface ParameterShown {
 }
 /** Controls that an operator moves, behind a real buffer of the controller. */
 export interface PanelShown {
-  /** Of the real buffer: `robot.console.drive`. */
+  /** The path of the real buffer: `robot.console.drive`. */
   path: string;
   /** An input counts for so long. */
   stale_s: number;
@@ -560,7 +560,7 @@ export interface Pose {
 /** The bodies that move in a simulated world, and the file of the world: GET /api/scenes/HASH.glb. */
 export interface SceneShown {
   hash: string;
-  /** Name, and agent that has it; empty: none, or nobody knows. */
+  /** Name, and agent that owns it; empty: none, or unknown. */
   bodies: [string, string][];
 }
 export interface PoseFrame {
@@ -575,7 +575,7 @@ export interface SubsystemsSeen {
   subsystems: Subsystem[];
   channels: Channel[];
 }
-/** What a subsystem does now, and did so far. */
+/** The present state of a subsystem, and its counts so far. */
 export interface Subsystem {
   path: string;
   /** The one that runs, or ran last; null: no transition function was called yet. */
@@ -591,7 +591,7 @@ export interface Subsystem {
   period_s: number;
   /** When the last transition function was called; negative: not yet. */
   called_at_s: number;
-  /** What the last call took. */
+  /** Duration of the last call. */
   call_s: number;
   longest_call_s: number;
   /**
@@ -622,14 +622,14 @@ export interface DeploymentSeen {
 export interface ProcessSeen {
   name: string;
   agents: string[];
-  /** silent: it tells nothing any more; gone: it has died; absent: it was not found on this machine. */
+  /** silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine. */
   state: "running" | "silent" | "ended" | "gone" | "absent";
   /** It has been in this state for so long. */
   since_s: number | null;
   /** Its machine; empty: not known. */
   host: string;
   pid: number | null;
-  /** Of its own clock. */
+  /** By its own clock. */
   time_s: number | null;
   /** Why an emergency stop stands. */
   emergency: string | null;
@@ -644,7 +644,7 @@ export interface ProcessSeen {
     ended: boolean;
   }[];
 }
-/** What `process` knows of `peer` (control_socket.schema.json); times are ages in seconds. */
+/** The knowledge that `process` has of `peer` (control_socket.schema.json); times are ages in seconds. */
 export interface LinkSeen {
   process: string;
   peer: string;
@@ -668,7 +668,7 @@ export interface WaitingChain {
   /** Why the last one that is waited for does not act; may be empty. */
   end: string;
 }
-/** What a controller says at its end: its summary.json. */
+/** The result of a controller at its end: its summary.json. */
 export interface Outcome {
   simulated_s: number;
   wall_s: number;
@@ -693,7 +693,7 @@ export interface Outcome {
 }
 export interface CheckOutcome {
   name: string;
-  /** What it demands. */
+  /** The demand of the check. */
   text: string;
   verdict: "held" | "failed" | "open";
   /** When it failed first, or when it came. */
@@ -711,7 +711,7 @@ export interface MeasureOutcome {
   /** `m/s`. Missing: it has none, or it is not known. */
   unit?: string;
 }
-/** What a run has reached of the net, as `tessera simulate --coverage` counts it. */
+/** The part of the net that a run has reached, as counted by `tessera simulate --coverage`. */
 export interface Coverage {
   behaviours: Share;
   places: Share;
@@ -719,9 +719,9 @@ export interface Coverage {
   conditions: Share;
   /** Places and transitions that no run can reach. They are left out. */
   unreachable: number;
-  /** What seems not to be reached may have been. */
+  /** Events are missing, so parts listed as not reached may have been reached. */
   lacks_events: boolean;
-  /** What was not reached: behaviours by path, places and transitions by index. */
+  /** The parts that were not reached: behaviours by path, places and transitions by index. */
   missing: {
     behaviours: string[];
     places: number[];
@@ -738,17 +738,17 @@ export interface Share {
 }
 export interface ControlRequest {
   command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "set" | "panel" | "breakpoints";
-  /** Of `speed`. */
+  /** For `speed`. */
   value?: number;
-  /** Of `step_iteration`: its path; absent: any. */
+  /** For `step_iteration`: its path; absent: any. */
   subsystem?: string;
-  /** Of `set`: a parameter, as `tessera set` names it. Of `panel`: a real buffer. */
+  /** For `set`: a parameter, as `tessera set` names it. For `panel`: a real buffer. */
   path?: string;
-  /** Of `set`: its new value, in the unit of the parameter. */
+  /** For `set`: its new value, in the unit of the parameter. */
   text?: string;
-  /** Of `panel`: tells operators apart. */
+  /** For `panel`: tells operators apart. */
   operator?: string;
-  /** Of `panel`: values by field; what is missing is neutral. Absent: the operator lets go of the panel. */
+  /** For `panel`: values by field; missing fields are neutral. Absent: the operator lets go of the panel. */
   inputs?: { [k: string]: number | boolean };
   /** Instead of those before. */
   breakpoints?: Breakpoint[];
@@ -768,7 +768,7 @@ export interface Recording {
   net_hash: string;
   system: string;
   subsystems: string[];
-  /** Places that hold a token before the first firing; null: those of the net; none: nobody knows. */
+  /** Places that hold a token before the first firing; null: those of the net; none: unknown. */
   marking: number[] | null;
   firings: FiringRow[];
   /** Firings that are not in this part, but after it. */
@@ -776,7 +776,7 @@ export interface Recording {
   /** By path of the scalar. */
   values: { [k: string]: Sample[] };
   path: PathRow[];
-  /** The floor picture; null: none, or nobody knows. */
+  /** The floor picture; null: none, or unknown. */
   track: string | null;
   /** Null: it was recorded without poses. */
   scene: SceneShown | null;
@@ -810,9 +810,9 @@ export interface Views {
 }
 /** A device of the simulated world whose values can be looked at. */
 export interface WorldView {
-  /** Of the real buffer. */
+  /** The path of the real buffer. */
   path: string;
-  /** Of the buffer: float64[32]. */
+  /** The type of the buffer: float64[32]. */
   type: string;
   kind: "scan" | "camera" | "depth" | "labels";
   /** That carries a scan; empty: it does not move. */
@@ -826,11 +826,11 @@ export interface WorldView {
   to?: number;
   /** In m. */
   reach?: number;
-  /** Of a picture. */
+  /** For a picture. */
   width?: number;
   height?: number;
 }
-/** What the server tells, by the name of the event. */
+/** The events of the server, by name. */
 export interface Events {
   hello: Hello;
   spec: SpecEvent;
@@ -893,7 +893,7 @@ export interface FiringsEvent {
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
-  /** So many fired before those that are told. */
+  /** The number of firings before the listed ones. */
   dropped: number;
   /** All firings of the run so far, those of this event included. */
   total: number;
@@ -901,7 +901,7 @@ export interface FiringsEvent {
   /** Places that hold a token after the batch. */
   marking?: number[];
 }
-/** What a controller says of itself. */
+/** The report of a controller about itself. */
 export interface SubsystemsEvent {
   /** Names the run. */
   run: string;
@@ -910,7 +910,7 @@ export interface SubsystemsEvent {
   subsystems: Subsystem[];
   channels: Channel[];
 }
-/** What all processes of a deployed system tell of themselves and of each other. */
+/** The state of all processes of a deployed system, and their knowledge of each other. */
 export interface DeploymentEvent {
   /** Names the run. */
   run: string;
@@ -918,10 +918,10 @@ export interface DeploymentEvent {
   t: number;
   processes: ProcessSeen[];
   links: LinkSeen[];
-  /** Who waits for whom for a second or more, the longest first. */
+  /** The chains of waits that have lasted for a second or more, the longest first. */
   waits: WaitingChain[];
 }
-/** Of the buffers that changed since the last such event. */
+/** Values of the buffers that changed since the last such event. */
 export interface ValuesEvent {
   /** Names the run. */
   run: string;
@@ -971,10 +971,10 @@ export interface PosesEvent {
 /** The answer of any request that is refused: status 400 and above. */
 export interface Refusal {
   error: string;
-  /** What could be done; may be empty. */
+  /** A proposed remedy; may be empty. */
   hint: string;
 }
-/** 409 of `PUT /api/spec` and `PUT /api/sources`: the file was changed by somebody else. */
+/** 409 of `PUT /api/spec` and `PUT /api/sources`: another program has changed the file. */
 export interface Conflict {
   /** The file on disk. */
   text: string;

@@ -6,7 +6,7 @@ import { message } from "./draft";
 import type { Verdict } from "./protocol";
 import { Store } from "./store";
 
-/** An edit that was verified: with it, the violations of the cause are gone and nothing that held is lost. */
+/** An edit that was verified: the violations of the cause are gone, and no property that held is violated. */
 export interface Repair {
   title: string;
   meaning: string;
@@ -21,24 +21,24 @@ export interface RepairState {
   found: readonly Repair[];
   /** The text that the edits change. */
   text: string;
-  /** The cause that they mend, by its title. */
+  /** The title of the cause that they mend. */
   cause: string;
   problem: string;
 }
 
-/** Verifications for one search, repairs that are enough to choose from, and edits of one repair. */
+/** Verifications for one search, number of repairs that is enough to choose from, and edits of one repair. */
 const mostTried = 30;
 const enough = 3;
 const mostEdits = 3;
 
-/** An edit, or several of them; how many, and how many of them are timeouts. */
+/** One edit or several; their number, and the number of timeouts among them. */
 type Attempt = Candidate & { edits: number; timeouts: number };
 
 const timeoutsIn = ({ title }: Candidate) => Number(title.startsWith("Give up"));
 
 /**
- * The order of attempts: few edits first. One timeout changes least, but where one is not enough, two sides that gave up
- * at different times seldom meet again, so those that let a side go on at once come first.
+ * The order of attempts: few edits first. One timeout changes least. If one is not enough, two sides that
+ * gave up at different times seldom meet again, so edits that let a side go on at once come first.
  */
 const byHope = (a: Attempt, b: Attempt) => a.edits - b.edits || (a.edits > 1 ? a.timeouts - b.timeouts : 0);
 
@@ -70,7 +70,7 @@ export class Repairs {
     this.store.set(nothing);
   }
 
-  /** text, verdicts: what was verified. */
+  /** text, verdicts: of the verified text. */
   async find(cause: Cause, text: string, verdicts: readonly Verdict[]): Promise<void> {
     const search = ++this.search;
     // An edit that leaves another standstill leads to the edits that mend that one.
@@ -104,8 +104,8 @@ export class Repairs {
   }
 
   /**
-   * The verdicts after an edit. Most edits mend nothing, so the property with the shortest run is asked for first, and
-   * the others only if it holds. null: the text has no net, or the verification failed.
+   * The verdicts after an edit. Most edits mend nothing, so the property with the shortest run is verified
+   * first, and the others only if it holds. null: the text has no net, or the verification failed.
    */
   private async after(
     cause: Cause,
@@ -124,7 +124,7 @@ export class Repairs {
   }
 
   private async verdictsOf(text: string, properties: string[], stopped: () => boolean): Promise<readonly Verdict[] | null> {
-    // Nothing to ask for would mean all of them.
+    // An empty list would mean all properties.
     if (properties.length === 0) return [];
     const { job } = await this.api.verify(text, "10s", properties);
     for (;;) {
@@ -142,7 +142,10 @@ export class Repairs {
 /** The properties that a repair has to mend, the one with the shortest run first. */
 const wantedOf = (cause: Cause) => cause.verdicts.filter(({ warning }) => !warning || cause.warning).map(({ name }) => name);
 
-/** The violations of the cause that are gone; none, if one of them is left or a property that held is lost. */
+/**
+ * The violations of the cause that are gone; none if one of them is left, or if a property that held is
+ * violated.
+ */
 export function mended(cause: Cause, before: readonly Verdict[], after: readonly Verdict[]): string[] {
   const now = new Map(after.map(({ name, verdict }) => [name, verdict]));
   const wanted = wantedOf(cause);

@@ -12,14 +12,14 @@ export interface ReplayState {
   time: number;
   playing: boolean;
   speed: number;
-  /** The requested part of a long recording is on its way. */
+  /** Whether the requested part of a long recording is on its way. */
   loading: boolean;
 }
 
 /** Loads a part of a recording from a time on, as much as is sent at once; null: it could not be loaded. */
 export type Source = (from: number) => Promise<Recording | null>;
 
-/** A marking is stored every so many firings; a jump replays at most that many. */
+/** The number of firings between two stored markings; a jump replays at most that many. */
 const stride = 4096;
 /** Up to this number of firings, the way to a time is shown firing by firing. */
 const near = 2000;
@@ -27,7 +27,7 @@ const near = 2000;
 let made = 0;
 
 /**
- * An open recording with its own stage and its own time. Of a long recording, one part is loaded at a time.
+ * An open recording with its own stage and its own time. A long recording is loaded in parts, one at a time.
  */
 export class Replay {
   readonly id = `recording ${(made += 1)}`;
@@ -85,7 +85,7 @@ export class Replay {
     this.track = this.trackOf(part);
   }
 
-  /** Whether the time is in the part that is loaded. */
+  /** Whether the time is in the loaded part. */
   isHere(time: number): boolean {
     return time >= this.begin && time <= this.end;
   }
@@ -94,8 +94,8 @@ export class Replay {
   private async fetch(): Promise<void> {
     this.store.set({ loading: true });
     for (let tries = 0; !this.isHere(this.wanted!); tries += 1) {
-      // Loads some firings before that time, too, unless there are so many that the part would
-      // not reach the time itself.
+      // Loads some firings before that time, too, unless there are so many that the part would not reach the
+      // time itself.
       const before = tries === 0 ? (this.end - this.begin) / 4 : 0;
       const from = Math.max(this.first, Math.floor(this.wanted! - before));
       const part = await this.source(from);
@@ -166,7 +166,7 @@ export class Replay {
     this.index = index;
   }
 
-  /** What happens from the moment shown on, as far as it is loaded; at its end: all that is loaded. */
+  /** The firings from the shown time on, as far as they are loaded; at the end: all that are loaded. */
   scenes(most: number): Scenes {
     const rest = this.index < this.firings.length;
     const firings = this.firings.slice(rest ? this.index : 0).slice(0, most);

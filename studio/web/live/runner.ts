@@ -27,14 +27,14 @@ import { Store } from "./store";
 import { Track } from "./track";
 import { LiveWorld } from "./world";
 
-/** The events of a run that are taken here. */
+/** The events of a run that this class handles. */
 type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment">;
 
 export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
   return JSON.stringify(one) === JSON.stringify(other);
 }
 
-/** Somebody else has started it. */
+/** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
 const isStarted = (request: RunRequest): request is StartRequest => !isWatched(request);
 
@@ -47,7 +47,7 @@ export class Runner {
   readonly stage = new Stage();
   readonly wishes = new Store<Wishes>({ kind: "simulate", track: "", time: "60s", seed: "1", speed: "1", all: false });
   track: Track | null = null;
-  /** Who else wants all that is known of a run. */
+  /** Further receivers of the state of a run. */
   private readonly informed: ((info: RunInfo) => void)[] = [];
   private asking = false;
   /** Questions whose answers have not arrived; events wait for them. */
@@ -83,8 +83,8 @@ export class Runner {
   }
 
   /**
-   * The events that come while `ask` waits for answers are taken after them: they are of a run whose name
-   * is not known yet, or newer than what is answered.
+   * The events that come while `ask` waits for answers are handled after them: they are of a run whose name
+   * is not known yet, or newer than the answers.
    */
   private async beforeEvents(ask: () => Promise<void>): Promise<void> {
     this.asked += 1;
@@ -134,7 +134,7 @@ export class Runner {
       const { run } = this.store.get();
       try {
         const runs = await this.api.runs();
-        // Whoever starts a run meanwhile follows that one.
+        // A run that is started meanwhile is followed instead.
         if (this.store.get().run === run && (run !== null || !this.active)) await this.followOneOf(runs);
       } catch (error) {
         this.store.set({ problem: message(error) });
@@ -176,7 +176,7 @@ export class Runner {
     this.store.set({ shown: shown && this.track !== null });
   }
 
-  /** By an event, or by all that is known of the run. */
+  /** Called by an event, or with the whole state of the run. */
   private told(info: RunEvent | RunInfo): void {
     const { state, why, outcome, marking, firings } = info;
     this.store.set({ state, why, outcome });
@@ -190,7 +190,7 @@ export class Runner {
       if (info.scene) this.sawScene(info.scene);
       if (info.poses) this.sawPoses(info.poses);
     } else if (state === "ended" || state === "paused") void this.seePath();
-    // Whoever stands has told all that it fired.
+    // A paused run has reported all its firings.
     if (this.track && (state === "ended" || state === "paused")) this.track.known = this.track.end;
     const { breakpoints } = this.store.get();
     if (state === "running" && breakpoints.length > 0)
@@ -208,7 +208,7 @@ export class Runner {
     try {
       track.pathUpTo((await this.api.run(run)).path);
     } catch {
-      // It stays as it was shown.
+      // The display stays as it is.
     }
   }
 
@@ -247,7 +247,7 @@ export class Runner {
   private valued({ t, values }: ValuesEvent | RunInfo): void {
     const { track } = this;
     track?.reached(t);
-    // The requested values may be older than values that came since.
+    // The requested values may be older than values received since.
     track?.values(track.now, values);
   }
 
@@ -272,7 +272,7 @@ export class Runner {
       this.store.set({ behaviours });
   }
 
-  /** It comes again when its file has come through a tunnel. */
+  /** The event is repeated when the file has come through a tunnel. */
   private sawScene({ hash, bodies }: SceneShown): void {
     const { track } = this;
     if (track && track.world?.scene.hash !== hash) track.world = new LiveWorld({ hash, bodies });
@@ -313,7 +313,7 @@ export class Runner {
     await ended;
   }
 
-  /** Returns why the controller refuses the value; empty: it takes it. */
+  /** Returns why the controller refuses the value; empty: it accepts it. */
   async setParameter(path: string, text: string): Promise<string> {
     const { run } = this.store.get();
     if (run === null) return "There is no run.";
@@ -326,8 +326,8 @@ export class Runner {
   }
 
   /**
-   * Shows the speed at once and sends it. Of many changes in a row, as from a
-   * slider, only the latest is sent.
+   * Shows the speed at once and sends it. Among many changes in a row, as from a slider, only the latest is
+   * sent.
    */
   async setSpeed(speed: number): Promise<void> {
     this.store.set({ speed });

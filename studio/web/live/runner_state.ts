@@ -23,12 +23,12 @@ export interface RunnerState {
   problem: string;
   /** Behaviour by path of subsystem, as reported by the controller. */
   behaviours: ReadonlyMap<string, string>;
-  /** The parameters of the run, with what they hold. */
+  /** The parameters of the run, with their values. */
   parameters: readonly ParameterShown[];
   panels: readonly PanelShown[];
   /** The points at which the run pauses. */
   breakpoints: readonly Breakpoint[];
-  /** What it was started with from this page; null: somewhere else. */
+  /** The request with which this page started it; null: it was started elsewhere. */
   request: StartRequest | null;
   /** Whether it has a pane of the drawing; a run continues without one, too. */
   shown: boolean;

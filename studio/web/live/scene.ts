@@ -24,14 +24,14 @@ export interface Comparison {
   time: number;
   differences: readonly Difference[];
   /**
-   * Why they cannot be compared: one of them does not exist yet, or no longer, at that time; or only
-   * samples of the left one are known; or another part of its long recording is loaded.
+   * Why they cannot be compared: one of them does not exist yet, or no longer, at that time; or only samples
+   * of the left one are known; or another part of its long recording is loaded.
    */
   missing: "left" | "right" | "sampled" | "part" | null;
 }
 
 export interface SceneState {
-  /** One, or two side by side. */
+  /** One pane, or two side by side. */
   panes: readonly Pane[];
   /** Whether the right pane shows the same time as the left one. */
   sameTime: boolean;
@@ -58,7 +58,7 @@ export class Scene {
     for (const told of [desk.shown, runner.store, recordings.store]) told.subscribe(() => this.look());
   }
 
-  /** How many recordings fit beside the other panes. */
+  /** The number of recordings that fit beside the other panes. */
   get room(): number {
     return this.runner.store.get().shown ? 1 : 2;
   }
@@ -136,7 +136,7 @@ function compared(left: Track, right: Track, sameTime: boolean): Comparison {
   if (moment > right.end + slack) return { time: moment, differences: [], missing: "right" };
   if (!sameTime && moment > left.known) return { time: moment, differences: [], missing: "left" };
   if (!sameTime && left.dropped > 0) return { time: moment, differences: [], missing: "sampled" };
-  // In a live run, firings become known a little after their time; the marking comes with them.
+  // In a live run, firings arrive a little after their time; the marking comes with them.
   const time = Math.min(moment, left.known);
   return { time, differences: differences(left.timeline, right.timeline, time), missing: null };
 }

@@ -15,10 +15,10 @@ export interface SourcesState {
 /** The C++ functions of the behaviours, in the files of the project. */
 export class Sources {
   readonly store = new Store<SourcesState>({ functions: [], files: new Map(), problem: "" });
-  /** Text of functions that is not saved yet, by "walker.control.follow": it stays while others are looked at. */
+  /** Unsaved text of functions, by "walker.control.follow": it stays while others are shown. */
   readonly unsaved = new Map<string, string>();
   private asked = 0;
-  /** What was last asked or said of a file; answers to what came before are late. */
+  /** The number of the last request about a file; answers to earlier ones are late. */
   private turns = new Map<string, number>();
 
   constructor(
@@ -26,7 +26,7 @@ export class Sources {
     private readonly draft: Draft,
   ) {}
 
-  /** Reads where the functions are. */
+  /** Reads the positions of the functions. */
   async look(): Promise<void> {
     const asked = ++this.asked;
     try {
@@ -50,7 +50,7 @@ export class Sources {
     }
   }
 
-  /** Writes a function that is missing, as it begins. */
+  /** Writes the beginning of a function that is missing. */
   async add({ subsystem, function: name }: FunctionShown): Promise<void> {
     try {
       const { file } = await this.api.addFunction(this.draft.store.get().text, subsystem, name);
@@ -70,7 +70,7 @@ export class Sources {
     }
   }
 
-  /** Saves a source as a whole. false: somebody else has changed it, or it cannot be written. */
+  /** Saves a source as a whole. false: another program has changed it, or it cannot be written. */
   async save(file: string, text: string): Promise<boolean> {
     const known = this.store.get().files.get(file);
     if (!known) return false;

@@ -5,7 +5,7 @@ import { Store } from "./store";
 
 export type StageMode = "edit" | "game" | "trace" | "live" | "recording";
 
-/** What a run has never reached, by the numbers of the net; pages by their paths. */
+/** The elements that a run has never reached, by the numbers of the net; pages by their paths. */
 export interface Unreached {
   places: ReadonlySet<number>;
   transitions: ReadonlySet<number>;
@@ -18,21 +18,21 @@ export interface Unreached {
 const pause = 30;
 
 /**
- * The content of one pane: the marking, and what has just fired. The edited net and the games on it have
- * one stage; the live run and each recording have their own. Listeners are called at most thirty times a
- * second, however many events arrive: more is not visible, and the time is needed for drawing.
+ * The content of one pane: the marking, and the last firings. The edited net and the games on it have one
+ * stage; the live run and each recording have their own. Listeners are called at most thirty times a second,
+ * however many events arrive: more is not visible, and the time is needed for drawing.
  */
 export class Stage {
   mode: StageMode = "edit";
   marking: Marking = new Int32Array();
-  /** For each transition, how often it has fired, and when last (performance.now). */
+  /** For each transition, the number of its firings, and the time of the last (performance.now). */
   counts = new Uint32Array();
   /** Some firings are not reported one by one: the counts are lower bounds. */
   sampled = false;
   firedAt = new Float64Array();
   /** Per page, whether a token is somewhere inside. */
   occupied = new Uint8Array();
-  /** Paths of the subsystems that do something else in the other pane. */
+  /** Paths of the subsystems that run another behaviour in the other pane. */
   differing: ReadonlySet<string> = new Set();
   /** Shaded on the drawing; null: no shade. */
   unreached: Unreached | null = null;

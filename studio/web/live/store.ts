@@ -1,4 +1,4 @@
-/** A value that tells its listeners when it changes. */
+/** A value that notifies its listeners when it changes. */
 export class Store<T extends object> {
   private readonly listeners = new Set<() => void>();
 

@@ -82,7 +82,7 @@ export class Studio {
   readonly view = new Store<ViewState>({
     view: "net",
     panel: "inspect",
-    // In a narrow window, the drawing needs the place.
+    // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
     ...keptView(),
@@ -94,7 +94,7 @@ export class Studio {
     searching: false,
   });
   private serverStart: string | undefined;
-  /** The moment in the address, until its recording is open. */
+  /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
   private linking: ReturnType<typeof setTimeout> | undefined;
 
@@ -128,7 +128,7 @@ export class Studio {
     this.connection.on("hello", (event) => void this.greeted(event.server_start));
   }
 
-  /** Writes into the address what is shown. */
+  /** Writes the shown content into the address. */
   private link(): void {
     const { view, panel, selected } = this.view.get();
     const shown = this.recordings.store.get().open[0];
@@ -145,7 +145,7 @@ export class Studio {
     }, linkPause);
   }
 
-  /** Opens the moment of a recording that an address names. */
+  /** Opens the recording and the time that an address names. */
   private async goTo(moment: Moment): Promise<void> {
     this.wanted = moment;
     const shown = () => this.recordings.store.get().open[0];
@@ -170,7 +170,7 @@ export class Studio {
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
   }
 
-  /** The file's information about the project may be new: its name, its simulated world. */
+  /** The project may have changed with the file: its name, its simulated world. */
   private async describeProject(): Promise<void> {
     try {
       this.project.set({ project: await this.api.project() });
@@ -200,7 +200,7 @@ export class Studio {
     if (selected !== null && view === "net") this.fly(selected);
   }
 
-  /** Shows who is stuck if a violation says so. */
+  /** Shows the stuck subsystems if a violation names them. */
   private verified(verdicts: readonly Verdict[]): void {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(cause.atEnd, cause.title);

@@ -30,12 +30,12 @@ export class Track {
   firings = 0;
   /** The firings that arrived one by one. */
   listed = 0;
-  /** The time that is shown. */
+  /** The shown time. */
   now = 0;
   /** The time up to which the firings are known. */
   known = 0;
   floor: Floor | null = null;
-  /** The simulated world; null: there is none, or nothing is known of it yet. */
+  /** The simulated world; null: there is none, or it is not known yet. */
   world: World | null = null;
   /** Scans and pictures. */
   arrays: Arrays = new LiveArrays();
@@ -49,7 +49,7 @@ export class Track {
     this.series = whole ? new Series(Infinity) : new Series();
   }
 
-  /** The number of firings that are only counted: there were too many to send, or nobody listened. */
+  /** The number of firings that are only counted: there were too many to send, or no page was connected. */
   get dropped(): number {
     return Math.max(0, this.firings - this.listed);
   }
@@ -79,7 +79,7 @@ export class Track {
     this.path = [...rows.map(([t, x, y, heading]) => ({ t, x, y, heading })), ...since];
   }
 
-  /** The number of poses up to the time that is shown. */
+  /** The number of poses up to the shown time. */
   get driven(): number {
     return count(this.path, ({ t }) => t <= this.now);
   }

@@ -36,11 +36,11 @@ export class Verifier {
     private readonly api: Api,
     private readonly draft: Draft,
     connection: Connection,
-    /** Called with the verdicts of each verification that came to its end. */
+    /** Called with the verdicts of each completed verification. */
     private readonly onVerdicts: (verdicts: readonly Verdict[]) => void = () => undefined,
   ) {
     connection.on("verify", (event) => this.told(event));
-    // A stream that broke may have swallowed the end of a job.
+    // If the stream broke, the end of a job may be lost.
     connection.on("hello", () => void this.ask());
   }
 
@@ -92,7 +92,7 @@ export function stuck(verdicts: readonly Verdict[]): string[] {
 /** The firings of a violation as transitions of the net; null when there is none. */
 export function stepsOf({ steps }: Pick<Verdict, "steps">, net: NetModel): number[] | null {
   if (!steps || steps.length === 0) return null;
-  // A last step beyond the net stands for "no initial condition holds": there is nothing to draw of it.
+  // A last step beyond the net means "no initial condition holds": it is not drawn.
   const end = steps.findIndex((step) => step >= net.transitions.length);
   return end < 0 ? steps : steps.slice(0, end);
 }

@@ -3,17 +3,17 @@ import type { Api } from "./api";
 import type { WorldView } from "./protocol";
 import type { Track } from "./track";
 
-/** Asks which devices give scans and pictures; none if the world cannot be asked. */
+/** Requests the devices that give scans and pictures; none if the world does not answer. */
 export async function viewsOf(api: Api): Promise<readonly WorldView[]> {
   try {
     return (await api.views()).views;
   } catch {
-    // The check of the specification says what is wrong with the world.
+    // The check of the specification reports the mistake in the world.
     return [];
   }
 }
 
-/** The scans of a track at its time. Another object stands for other rays. */
+/** The scans of a track at its time. Another object means other rays. */
 export class Scans {
   private shown: { key: unknown[]; rays: readonly Rays[] } = { key: [], rays: [] };
   private readonly bodies: ReadonlyMap<string, number>;

@@ -4,21 +4,21 @@ import { count } from "../model/sorted";
 import { message } from "./draft";
 import type { PoseFrame, RecordedPoses, SceneShown } from "./protocol";
 
-/** The poses at one time. Another object stands for other poses. */
+/** The poses at one time. Another object means other poses. */
 export type Poses = Float32Array;
 
-/** A simulated world: what it looks like, and where its bodies are at a time. */
+/** A simulated world: its appearance, and the poses of its bodies at a time. */
 export interface World {
   readonly scene: SceneShown;
-  /** Why there are no poses; empty: there are. */
+  /** The reason for missing poses; empty: they are there. */
   readonly problem: string;
-  /** Of all robots, as far as they have been seen. */
+  /** The paths of all robots, as far as they are known. */
   readonly paths: Paths;
   /** Null: not known, or not loaded yet. */
   at(time: number): Poses | null;
 }
 
-/** The world of a run that goes on. It is shown as it is now. */
+/** The world of a running run, shown as it is now. */
 export class LiveWorld implements World {
   readonly problem = "";
   readonly paths: Paths;
@@ -44,7 +44,7 @@ export class LiveWorld implements World {
 /** Loads the poses between two times. */
 export type PoseSource = (from: number, to: number) => Promise<RecordedPoses>;
 
-/** Nanoseconds that are loaded before a time that is asked for, and behind it. */
+/** Nanoseconds that are loaded before and after a requested time. */
 const before = 2e9;
 const after = 30e9;
 
@@ -55,7 +55,7 @@ interface Part {
   until: number;
 }
 
-/** The world of a recording, of which a part is loaded at a time. */
+/** The world of a recording, of which one part is loaded at a time. */
 export class RecordedWorld implements World {
   private part: Part = { times: [], poses: [], from: 0, until: -1 };
   private next: Part | null = null;

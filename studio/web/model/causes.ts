@@ -1,6 +1,6 @@
 import { withoutIndex, type Channel } from "./structure/structure";
 
-/** What a subsystem does where a run has stopped, as the server tells it (docs/studio.md). */
+/** The state of a subsystem in a run that has stopped, from the server (docs/studio.md). */
 export interface SubsystemAtEnd {
   path: string;
   state: "waits" | "no_successor" | "ended" | "gives_no_more" | "takes_no_more";
@@ -11,7 +11,7 @@ export interface SubsystemAtEnd {
   text: string;
 }
 
-/** What matters here of a verdict of the server. */
+/** The part of a server's verdict that is needed here. */
 export interface Judged {
   name: string;
   verdict: "holds" | "violated" | "unknown";
@@ -25,7 +25,7 @@ export interface Judged {
   narrative: string | null;
 }
 
-/** An arrow of the chain of waiting: who waits, for whom, and at which channel. */
+/** An arrow of the chain of waiting: the waiting subsystem, the one it waits for, and the channel. */
 export interface Wait {
   who: string;
   whom: string;
@@ -33,7 +33,7 @@ export interface Wait {
   awaited: SubsystemAtEnd["awaited"];
 }
 
-/** What one mistake of a system does: the violations that it explains, and who is stuck. */
+/** The effects of one mistake of a system: the violations that it explains, and the stuck subsystems. */
 export interface Cause {
   title: string;
   /** The violations, the one with a run to show first. */
@@ -41,11 +41,11 @@ export interface Cause {
   atEnd: readonly SubsystemAtEnd[];
   /** Behaviours that never run. */
   dead: readonly { path: string; line: number }[];
-  /** Only a warning: it needs a failure, or the network, to go wrong. */
+  /** Only a warning: it needs a failure or the network to become a problem. */
   warning: boolean;
 }
 
-/** Those who cannot go on, without those that go on or have ended. */
+/** The subsystems that cannot go on, without those that go on or have ended. */
 export const stuckIn = (atEnd: readonly SubsystemAtEnd[]) => [
   ...new Set(atEnd.filter(({ state }) => state === "waits" || state === "no_successor").map(({ path }) => path)),
 ];
@@ -55,10 +55,10 @@ export const waitsIn = (atEnd: readonly SubsystemAtEnd[]): Wait[] =>
     state === "waits" ? from.map((whom) => ({ who: path, whom, channel, awaited })) : [],
   );
 
-/** All that has to do with it: the stuck ones, and whom they wait for. */
+/** All subsystems of the cause: the stuck ones, and those that they wait for. */
 export const concernedIn = (atEnd: readonly SubsystemAtEnd[]) => [...new Set(atEnd.flatMap(({ path, from }) => [path, ...from]))];
 
-/** Those of the waits that lead back to where they began; empty: nobody waits for itself in the end. */
+/** The waits that form a circle; empty: there is no circle. */
 export function circleIn(waits: readonly Wait[]): string[] {
   for (const { who } of waits) {
     const way: string[] = [];
@@ -69,7 +69,7 @@ export function circleIn(waits: readonly Wait[]): string[] {
 }
 const nextOf = (waits: readonly Wait[], who: string) => waits.find((one) => one.who === who)?.whom;
 
-/** Says who is stuck and why, in one sentence. */
+/** Describes the stuck subsystems and the reason, in one sentence. */
 export function titleOf(atEnd: readonly SubsystemAtEnd[]): string {
   const circle = circleIn(waitsIn(atEnd));
   if (circle.length === 1) return `${circle[0]!} waits for itself`;
@@ -101,7 +101,7 @@ const key = ({ path, channel, state }: SubsystemAtEnd) => `${state} ${path} ${ch
 type Ends = Pick<Channel, "from" | "to" | "send" | "receive" | "timeout">;
 const subsystemOf = (path: string) => withoutIndex(path).split(".").slice(0, 2).join(".");
 
-/** Who is stuck, and who waits for them for ever, or for those who do. */
+/** The stuck subsystems, and those that wait for them for ever, directly or not. */
 function heldUp(stuck: readonly string[], channels: readonly Ends[]): ReadonlySet<string> {
   const held = new Set(stuck.map(subsystemOf));
   const waiting = channels.filter(({ timeout }) => !timeout);
@@ -117,8 +117,8 @@ function heldUp(stuck: readonly string[], channels: readonly Ends[]): ReadonlySe
 }
 
 /**
- * Gives the dead behaviours of those who are held up to the cause that holds them up. A verdict that has others, too,
- * stays a cause of its own with these.
+ * Moves the dead behaviours of blocked subsystems to the cause that blocks them. A verdict that also has
+ * others stays a cause of its own with these.
  */
 function withDead(causes: Cause[], channels: readonly Ends[]): Cause[] {
   return causes.reduce<Cause[]>((all, cause) => {
@@ -139,8 +139,9 @@ function withDead(causes: Cause[], channels: readonly Ends[]): Cause[] {
 }
 
 /**
- * Groups violations by what is wrong: those in which the same subsystem waits at the same channel have one cause, and
- * behaviours that never run have the cause that holds up their subsystem. The causes that are no warnings come first.
+ * Groups violations by their cause: those in which the same subsystem waits at the same channel have one
+ * cause, and behaviours that never run have the cause that blocks their subsystem. Causes that are no
+ * warnings come first.
  */
 export function causesOf(verdicts: readonly Judged[], channels: readonly Ends[] = []): Cause[] {
   const causes: { verdicts: Judged[]; keys: Set<string>; warning: boolean }[] = [];
@@ -161,11 +162,11 @@ export function causesOf(verdicts: readonly Judged[], channels: readonly Ends[] 
     const dead = all.flatMap(({ behaviours }) => behaviours);
     return { title: titleOf(atEnd) || deadTitle(dead) || telling[0]!.why, verdicts: telling, atEnd, dead, warning };
   });
-  // Those who are stuck come before those who are held up by them.
+  // Stuck subsystems come before those that they block.
   return withDead([...told.filter(({ atEnd }) => atEnd.length > 0), ...told.filter(({ atEnd }) => atEnd.length === 0)], channels);
 }
 
-/** Shorter runs are easier to follow; none at all is the worst. */
+/** Shorter runs are easier to follow; a missing run is the worst. */
 const runOf = ({ steps }: Judged) => steps?.length ?? Infinity;
 
 const deadTitle = (dead: Cause["dead"]) =>

@@ -1,7 +1,7 @@
 import { layerTitle, pageName } from "./net/labels";
 import type { NetModel, Page, PageNode, PageTransition } from "./net/net";
 
-/** What a drawn element means, in a sentence: shown when the pointer is over it. */
+/** The meaning of a drawn element in a sentence, shown when the pointer is over it. */
 export function help(net: NetModel, path: string): string {
   const element = net.find(path);
   if (!element) return "";

@@ -8,7 +8,10 @@ import type { NetModel } from "../model/net/net";
 
 const words = (name: string) => name.replaceAll("_", " ");
 
-/** A cause of violations: who is stuck, in words and in the drawings, the run that leads there, and what mends it. */
+/**
+ * A cause of violations: the stuck subsystems, in words and in the drawings, the run that leads there, and
+ * repairs.
+ */
 export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }) {
   const studio = useStudio();
   const lens = useStore(studio.lens.store, (all) => all.shown);

@@ -1,7 +1,7 @@
 import { useEffect } from "react";
 import { useStore, useStudio } from "../hooks/use";
 
-/** Reports that the server is gone, and what was done about it. */
+/** Reports that the server is gone, and the reaction of the page. */
 export function ConnectionBanner() {
   const studio = useStudio();
   const { state, attempt } = useStore(studio.connection.store, (all) => all);

@@ -34,7 +34,7 @@ export function Icon({ name }: { name: string }) {
   );
 }
 
-/** A button with an icon; its name is shown when the pointer rests on it. */
+/** A button with an icon; its name appears when the pointer rests on it. */
 export function IconButton({
   name,
   label,
@@ -44,7 +44,7 @@ export function IconButton({
 }: {
   name: string;
   label: string;
-  /** Set if there is more to say than the label. */
+  /** A longer text than the label, if there is one. */
   title?: string;
   disabled?: boolean;
   onClick: () => void;

@@ -12,7 +12,7 @@ const forms = () => import("./forms/every_form");
 const EditForm = lazy(() => forms().then((all) => ({ default: all.EditForm })));
 const SystemForm = lazy(() => forms().then((all) => ({ default: all.SystemForm })));
 
-/** Describes the selected element, and shows what can be changed about it. */
+/** Describes the selected element, and offers its possible changes. */
 export function InspectPanel() {
   const studio = useStudio();
   const structure = useStructure();
@@ -73,7 +73,7 @@ export function InspectPanel() {
   );
 }
 
-/** The subsystem of what is selected, as its memory is named: "robot[3].control". */
+/** The subsystem of the selected element, in the names of its memory: "robot[3].control". */
 function ownerOf(thing: Thing | undefined, selected: string): string {
   if (thing?.kind === "agent" || thing?.kind === "channel") return "";
   return selected.split(".").slice(0, 2).join(".");

@@ -19,7 +19,10 @@ const buffersOf = (structure: Structure): Found[] =>
 /** A net with more agents than this is searched by agents first. */
 const manyAgents = 1000;
 
-/** What a text may mean. In a large fleet: the agents, and the elements of those that its first word or name fits best. */
+/**
+ * The possible meanings of a text. In a large fleet: the agents, and the elements of those that fit its first
+ * word or name best.
+ */
 function candidates(net: NetModel | null, text: string): Found[] {
   if (!net) return [];
   const { agents } = net.elements;

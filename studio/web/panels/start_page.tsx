@@ -5,7 +5,7 @@ import { message } from "../live/draft";
 const empty = (name: string) =>
   `tessera: 1\nsystem: ${name}\nagents:\n  robot:\n    control:\n      rate: 10 Hz\n      behaviours:\n        run: {}\n`;
 
-/** What is shown of an empty specification, or one that is not there: ways to begin. */
+/** The page for an empty or missing specification: ways to begin. */
 export function StartPage() {
   const studio = useStudio();
   const project = useStore(studio.project, (all) => all.project);
@@ -17,7 +17,7 @@ export function StartPage() {
   }, [studio]);
   const name = (project?.folder.split("/").at(-1) ?? "").toLowerCase().replace(/[^a-z0-9_]+/g, "_");
   const beginEmpty = async () => {
-    // A folder may have a name that no system can have, such as a word of C++.
+    // A folder may have a name that no system can have, such as a keyword of C++.
     const { diagnostics } = await studio.api.check(empty(name));
     const is = diagnostics.some(({ severity }) => severity === "error") ? "robot_system" : name;
     studio.draft.edit(empty(is), "edit");

@@ -75,7 +75,7 @@ export function VerifyPanel() {
   );
 }
 
-/** What the ways to a verdict do. */
+/** The methods that lead to a verdict. */
 const methods: Readonly<Record<string, string>> = {
   circuits: "Circuits: no circle of subsystems in which each waits for the next one can come about.",
   "place invariants": "Place invariants: sums of tokens that no transition changes.",

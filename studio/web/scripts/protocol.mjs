@@ -9,7 +9,10 @@ const web = fileURLToPath(new URL("..", import.meta.url));
 const read = (name) => JSON.parse(readFileSync(`${web}../../share/tessera/${name}`, "utf8"));
 const net = "net.schema.json";
 
-/** The schema alone: what it names of other schemas becomes its own, but for the net, which has a file of its own. */
+/**
+ * The schema alone: parts of other schemas that it names become its own, except for the net, which has its
+ * own file.
+ */
 function whole(name) {
   const { $schema, $id, ...schema } = read(name);
   const others = {};
@@ -35,7 +38,7 @@ function whole(name) {
   return { ...own, $defs: { ...own.$defs, ...others } };
 }
 
-/** Comments without what the generator says of itself and of lengths, in lines that are not too long. */
+/** Comments without the generator's notes on itself and on lengths, in lines that are not too long. */
 function tidy(types) {
   const noise = /^(This interface was referenced by .*|via the `definition` .*|@m(in|ax)Items \d+)$/;
   return types.replace(/^( *)\/\*\*\n([^]*?)\*\/\n/gm, (_, indent, inside) => {

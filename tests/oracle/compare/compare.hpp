@@ -11,7 +11,7 @@ struct Disagreement {
   std::string detail;  // for people
 };
 
-/// What was compared.
+/// The compared items.
 struct Comparison {
   bool refused = false;    // the command refuses the specification, for a reason that the oracle sees too
   bool too_large = false;  // for the oracle

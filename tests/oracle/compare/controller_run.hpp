@@ -7,7 +7,7 @@
 namespace oracle {
 
 struct ControllerRun {
-  bool made = false;  // false: refused, for example because nothing takes time
+  bool made = false;  // false: refused, for example because no function takes time
   int firings = 0;
   std::vector<Disagreement> disagreements;
 };

@@ -156,7 +156,7 @@ class Checker {
       if (!blocked(channel, sends)) return complain("waits: it does not wait there for ever: " + text);
       const int other = sends ? channel.receiver : channel.sender;
       const std::string& peer = net_.subsystems[static_cast<std::size_t>(other)].path;
-      // Who waits for what nobody gives waits for none whose end would have to be shown.
+      // A subsystem that waits for a token from nobody has no peer whose end would have to be shown.
       const bool for_nobody = tail.find("nobody") != std::string::npos;
       if (!for_nobody && !settled(other))
         complain("waits: the run stops before " + peer + " is stuck or has ended: " + text);
@@ -165,7 +165,7 @@ class Checker {
           !(tail.substr(6) == peer || tail.substr(6).starts_with(peer + ",") ||
             tail.substr(6).starts_with(peer + " ")))
         complain("waits: the wrong peer: " + text);
-      // Who waits for itself is answered by nobody.
+      // A subsystem that waits for itself has no peer.
       if (for_nobody && channel.sender != channel.receiver && somebody(channel, sends))
         complain("waits: there is somebody: " + text);
       return;
@@ -173,7 +173,7 @@ class Checker {
     complain("waits: not understood: " + text);
   }
 
-  /// Who is waited for is stuck too, has ended, or may go on for ever.
+  /// The awaited peer is stuck too, has ended, or may go on for ever.
   bool settled(int subsystem) const {
     return stuck(subsystem) || judge_.has_ended(end(), subsystem) || for_ever(subsystem);
   }
@@ -193,7 +193,7 @@ class Checker {
       const bool gives = text.find(" gives ") != std::string::npos;
       if (gives && channel.sender == subsystem && never_more(users(channel, true))) return true;
       if (gives) return channel.receiver == subsystem && never_more(users(channel, false));
-      // Who finds nothing to read has received nothing, though it has looked at the channel.
+      // A skipped read receives no value, although it has looked at the channel.
       if (text.find(" receives ") != std::string::npos) return never_more(channel.reads);
       if (text.find(" sends ") != std::string::npos) return never_more(sending(channel));
       return never_more(users(channel, false));

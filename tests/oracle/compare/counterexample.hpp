@@ -1,4 +1,4 @@
-// The runs that the command shows: legal, and ending in what they are said to show.
+// The runs that the command shows: they are legal, and end in the state that they claim to show.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 
 namespace oracle {
 
-/// What a run may be wrong about: one sentence each, beginning with a word for its kind.
+/// The possible mistakes of a run: one sentence each, beginning with a word for its kind.
 using Complaints = std::vector<std::string>;
 
 struct Shown {

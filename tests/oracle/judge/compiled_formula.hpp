@@ -19,7 +19,7 @@ struct CompiledProperty {
   Compiled first, second;
 };
 
-/// What a property says, once for every agent or every `i` it is said of.
+/// The meaning of a property, once for every agent or every `i` that it concerns.
 std::vector<CompiledProperty> compile(const Specification& specification, const FlatNet& net,
                                       const Property& property);
 

@@ -8,7 +8,7 @@
 
 namespace oracle {
 
-/// What may follow when a behaviour has ended in one way.
+/// The possible successors when a behaviour has ended in one way.
 struct Following {
   std::vector<bool> entries;  // of `next`, which of them may be the first that holds
   bool none = false;          // it may be that none holds

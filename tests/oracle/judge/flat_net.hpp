@@ -10,7 +10,7 @@
 
 namespace oracle {
 
-/// What a transition stands for, as far as conditions are concerned.
+/// The meaning of a transition, as far as conditions are concerned.
 enum class Role { plain, t4, t5, t6, next, none };
 
 struct FlatTransition {
@@ -74,7 +74,7 @@ struct FlatNet {
   int place(const std::string& name) const { return place_of.at(name); }
 };
 
-/// Every value that `i` may take for what is written with the index of a fleet: the members' numbers.
+/// All values of `i` for an entry with the index of a fleet: the members' numbers.
 struct Fleet {
   int count = 0;  // 0: a single agent
   bool ring = false;

@@ -51,7 +51,7 @@ bool Judge::sound_pages() const {
           return has_token(marking, page.out) && tokens_in(marking, page.places) > 1;
         })))
       return false;
-    // Nothing enters while something is inside.
+    // No token enters while another is inside.
     std::vector<char> entering(net_.transitions.size());
     for (std::size_t t = 0; t < net_.transitions.size(); ++t) {
       const auto is_inside = [&](int place) { return contains(page.places, place); };
@@ -124,7 +124,7 @@ bool Judge::holds(const Specification& specification, const Property& property) 
 }
 
 bool sound_model(const Model& model) {
-  // Somebody at either side who uses it for ever: `in` and `out` of a side are one place.
+  // A user at either side that never stops: `in` and `out` of a side are one place.
   FlatNet net;
   std::map<std::string, int> shared;
   const auto add = [&](const std::string& name, bool marked) {

@@ -20,7 +20,7 @@ class Judge {
   const FlatNet& net() const { return net_; }
   const ReachabilityGraph& graph() const { return graph_; }
 
-  /// Nothing if the transition is not enabled.
+  /// nullopt if the transition is not enabled.
   std::optional<Marking> fire(int transition, const Marking& marking) const {
     return fired(petri_net_.transitions[static_cast<std::size_t>(transition)], marking);
   }
@@ -31,7 +31,7 @@ class Judge {
   bool exclusive_channels() const;
   bool deadlock_free() const;
   bool sound_pages() const;
-  /// The states in which a subsystem has not ended and fires nothing any more.
+  /// The states in which a subsystem has not ended and can never fire again.
   ReachabilityGraph::States stuck(int subsystem) const;
   bool goes_on() const;
   /// The states from which a channel is never read again, while its reader cannot end; of a channel that is

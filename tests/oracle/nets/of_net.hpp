@@ -25,7 +25,7 @@ enum class Conditions {
 /// The marking after a transition has fired; nullopt if it is not enabled or its condition is never true.
 [[nodiscard]] std::optional<Marking> fired(const tessera::net::Net& net,
                                            tessera::net::TransitionId transition, const Marking& marking);
-/// Where a run leads; nullopt: it cannot be fired.
+/// The marking after a run; nullopt: it cannot be fired.
 [[nodiscard]] std::optional<Marking> replayed(const tessera::net::Net& net,
                                               const std::vector<tessera::net::TransitionId>& run);
 

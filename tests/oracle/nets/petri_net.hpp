@@ -1,4 +1,4 @@
-// A place/transition net and the rule of firing, as the textbook has them. It shares nothing with Tessera.
+// A place/transition net and the textbook's rule of firing. It shares no code with Tessera.
 #pragma once
 
 #include <cstdint>

@@ -38,7 +38,7 @@ Ends random_ends(Random& random, std::uint32_t places, std::uint32_t most_ends, 
   return ends;
 }
 
-/// Whoever goes from one place to another may take from buffers and give to them.
+/// A process that goes from one place to another may take from buffers and give to them.
 void add_step(PetriNet& net, Random& random, std::uint32_t from, std::uint32_t to, std::uint32_t buffers) {
   Ends inputs{{from, 1}}, outputs{{to, 1}};
   for (std::uint32_t buffer = 0; buffer < buffers; ++buffer) {

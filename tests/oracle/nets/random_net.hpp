@@ -23,7 +23,7 @@ using Random = std::mt19937;
 [[nodiscard]] PetriNet random_weighted(Random& random);
 /// Few arcs: at most two on each side of a transition, some of weight 2.
 [[nodiscard]] PetriNet random_sparse(Random& random);
-/// Anything; many are unbounded.
+/// Arbitrary nets; many are unbounded.
 [[nodiscard]] PetriNet random_wild(Random& random);
 
 }  // namespace oracle

@@ -4,7 +4,7 @@
 namespace oracle {
 namespace {
 
-/// Writes formulas over what a net has.
+/// Writes formulas over the elements of a net.
 class Formulas {
  public:
   Formulas(RandomNumbers& random, const Specification& specification)

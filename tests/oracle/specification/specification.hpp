@@ -8,7 +8,7 @@
 
 namespace oracle {
 
-/// What is known of an expression before anything runs.
+/// The static facts about an expression.
 enum class Truth { no, yes, open };
 
 /// `terminal` or `error`: absent, a constant, an expression, or a map of named ones.
@@ -72,7 +72,7 @@ struct Channel {
 struct ModelSide {
   struct Place {
     std::string name;
-    int slot = 0;  // 0: nothing is read or written here
+    int slot = 0;  // 0: no value is read or written here
   };
   struct Transition {
     std::string name;

@@ -2,7 +2,7 @@
 
 namespace crossroads::rover::odometry {
 
-/// Behaviour measure of rover.odometry: what the joints said last, and whether that is still true.
+/// Behaviour measure of rover.odometry: the last state of the joints, and whether it is still valid.
 /// Reads in.joints.
 /// Writes out.place.
 void measure(Context& context, const Inputs& in, Memory& memory, Outputs& out) {

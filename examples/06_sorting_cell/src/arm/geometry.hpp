@@ -13,8 +13,8 @@ struct Angles {
   double shoulder = 0, elbow = 0, wrist = 0;
 };
 
-/// The angles for a cup that points down, `out` m from the axis of the arm and `up` m above the floor. What
-/// is out of reach gives the nearest that is not.
+/// The angles for a cup that points down, `out` m from the axis of the arm and `up` m above the floor. A
+/// point out of reach gives the nearest one within reach.
 inline Angles angles_of(double out, double up) {
   const double height = up + hand - shoulder_up;
   const double distance = std::hypot(out, height);

@@ -3,7 +3,7 @@
 namespace sorting_cell::belt::control {
 namespace {
 
-/// On the belt at a time, so that no more than two orders wait for the arm.
+/// The largest number of boxes on the belt at a time, so that no more than two orders wait for the arm.
 constexpr std::uint32_t most_boxes = 2;
 
 void move(bool runs, const Context& context, Outputs& out) {

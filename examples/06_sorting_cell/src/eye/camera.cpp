@@ -4,7 +4,7 @@
 
 namespace sorting_cell::eye::camera {
 
-/// Behaviour look of eye.camera: what is on the belt in the middle of the picture.
+/// Behaviour look of eye.camera: the box in the middle of the picture, if there is one.
 void look(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   const Sight sight = middle_of_picture({in.picture.data(), in.picture.size()});
   out.reading = {sight.occupied, sight.red, sight.across_m};

@@ -14,8 +14,7 @@ struct Sight {
   double across_m = 0;  ///< from the middle of the belt
 };
 
-/// What is on the belt in the two columns in the middle: the colour that most coloured pixels have, and their
-/// mean row.
+/// The box in the two columns in the middle: the colour that most coloured pixels have, and their mean row.
 inline Sight middle_of_picture(std::span<const std::uint8_t> rgb) {
   constexpr double metres_per_pixel = 2 * 0.63 * 0.26795 / picture_height;  // 0.63 m above boxes, 30 deg
   constexpr std::size_t least = 10;                                         // pixels; a box has 14

@@ -8,7 +8,7 @@
 
 namespace fleet {
 
-/// What a scan tells a rover.
+/// The free space around a rover, from a scan.
 struct Room {
   double free_m = 0;   ///< how far it may drive ahead
   double left_m = 0;   ///< mean distance on the left, in front of it
@@ -16,10 +16,10 @@ struct Room {
 };
 
 /// ranges: all around in equal steps, from behind by the right.
-/// gap_m: what is to stay free, from hull to hull.
+/// gap_m: the distance to keep, from hull to hull.
 ///
-/// A rover only drives ahead, so what is behind it does not count. What is beside it and near stops it, too:
-/// it may be another rover that comes closer.
+/// A rover only drives ahead, so objects behind it do not count. Near objects beside it stop it, too: they
+/// may be other rovers that come closer.
 inline Room room_around(std::span<const float> ranges, double gap_m) {
   constexpr double radius_m = 0.1;
   Room room{10, 0, 0};

@@ -7,7 +7,7 @@
 namespace scout::robot::control {
 namespace {
 
-/// What the scan says; nothing is free if there is no scan, or an old one.
+/// The free space in the scan; no space is free if there is no scan, or an old one.
 Room look(const Context& context, const Inputs& in) {
   const bool known = in.scan.valid && in.scan.known && in.scan.age < std::chrono::milliseconds(300);
   if (!known) return {};

@@ -14,7 +14,7 @@ constexpr Joints at_right{-0.7, -0.1, 1.0};
 
 constexpr double period_s = 0.02;
 
-/// How far the joint that has the longest way has to go.
+/// The largest distance that one of the joints has to move.
 double way(const Joints& from, const Joints& to) {
   return std::max(
       {std::abs(to.yaw - from.yaw), std::abs(to.shoulder - from.shoulder), std::abs(to.elbow - from.elbow)});

@@ -6,7 +6,7 @@ namespace convoy::rover::control {
 namespace {
 
 constexpr double period_s = 0.05;       // 20 Hz
-constexpr double start_distance_m = 2;  // from one rover to the next, when nobody has driven
+constexpr double start_distance_m = 2;  // from one rover to the next, at the start
 
 void drive(const Context& context, Memory& memory, Outputs& out, double speed) {
   memory.driven += speed * period_s;

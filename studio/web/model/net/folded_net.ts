@@ -1,6 +1,6 @@
 import type { FlatPlace, FlatTransition, FoldedNet, Operation, Page, Shape } from "./net_json";
 
-/** A list whose elements are made when they are asked for. */
+/** A list whose elements are made at their first use. */
 export class List<T> implements Iterable<T> {
   private readonly made = new Map<number, T>();
 
@@ -31,12 +31,12 @@ export const joined = (path: string, name: string) => (path && name ? `${path}.$
 
 const byName = (all: readonly { name: string }[]) => new Map(all.map(({ name }, index) => [name, index]));
 
-/** A shape, with what is asked for again and again. */
+/** A shape, with its frequently used parts. */
 class Kind {
   readonly pages: ReadonlyMap<string, number>;
   readonly places: ReadonlyMap<string, number>;
   readonly transitions: ReadonlyMap<string, number>;
-  /** Input arcs one after the other: place, weight; and for each transition where its arcs begin. */
+  /** All input arcs in a row: place, weight; and for each transition the begin of its arcs. */
   readonly inputs: Int32Array;
   readonly begins: Int32Array;
   readonly marked: readonly [number, number][];
@@ -71,21 +71,21 @@ class Kind {
 }
 
 /**
- * The elements of a net whose agents come folded: those that are alike share one shape. An element of an
- * agent is made of its shape when it is looked at, so a net of ten thousand agents opens as fast as one of ten.
+ * The elements of a net whose agents come folded: equal agents share one shape. An element of an agent is
+ * made from its shape at its first use, so a net of ten thousand agents opens as fast as one of ten.
  */
 export class FoldedElements {
   readonly pages: List<Page>;
   readonly places: List<FlatPlace>;
   readonly transitions: List<FlatTransition>;
-  /** The number of the first place of a channel; those follow until the end. */
+  /** The number of the first place of a channel; the others follow until the end. */
   readonly firstFused: number;
   readonly pageByPath: Names;
   readonly placeByName: Names;
   readonly transitionByName: Names;
   private readonly kinds: readonly Kind[];
   private readonly kindOf: readonly Kind[];
-  /** For each agent and for the end the numbers of the first ones. */
+  /** For each agent and for the end, the numbers of its first elements. */
   private readonly firsts: Record<"pages" | "places" | "transitions" | "subsystems", Int32Array>;
   /** The first place of each channel. */
   private readonly memories: Int32Array;
@@ -291,7 +291,7 @@ export class FoldedElements {
     return [...own, ...agents.flatMap((agent) => this.range("pages", agent))];
   }
 
-  /** The pages that are the same as that one, in all agents of its shape. */
+  /** The corresponding pages in all agents of its shape. */
   twins(page: number): number[] {
     const agent = this.agentAt(this.firsts.pages, page);
     if (agent < 0) return [page];
@@ -299,7 +299,7 @@ export class FoldedElements {
     return this.kindOf.flatMap((kind, other) => (kind === this.kindOf[agent] ? [this.firsts.pages[other]! + at] : []));
   }
 
-  /** The numbers of all that an agent has of something; -1: the system's own. */
+  /** The numbers of all elements of a kind in an agent; -1: the system's own. */
   range(what: "pages" | "places" | "transitions", agent: number): number[] {
     const [first, end] = [this.firsts[what][agent] ?? 0, this.firsts[what][agent + 1]!];
     return Array.from({ length: end - first }, (_, at) => first + at);
@@ -335,7 +335,7 @@ export class FoldedElements {
     return found;
   }
 
-  /** Transitions whose condition may fall either way, up to that many. */
+  /** Transitions whose condition can be true or false, up to that many. */
   free(most: number): number[] {
     const isFree = (index: number) => this.transitions.at(index)!.condition?.truth === "free";
     const found: number[] = [];

@@ -28,7 +28,8 @@ export function fire(net: NetModel, marking: Marking, transition: number, times:
 }
 
 /**
- * The smallest marking with which a run can have begun: the tokens that it takes before it puts any there.
+ * The smallest marking with which a run can have begun: the tokens that it takes from a place before it puts
+ * any there.
  */
 export function markingBefore(net: NetModel, run: Iterable<number>): Marking {
   const before: Marking = new Int32Array(net.places.length);
@@ -90,7 +91,7 @@ export class Walk {
     return true;
   }
 
-  /** To the marking after `position` steps. */
+  /** Moves to the marking after `position` steps. */
   seek(position: number): void {
     while (this.position < position && this.forward());
     while (this.position > position && this.back());

@@ -34,14 +34,14 @@ export function conditionText(transition: PageTransition, limit = 26): string {
   return `[${text.length > limit ? `${text.slice(0, limit - 1)}…` : text}]`;
 }
 
-/** A name in so many lines of much the same length, broken after underscores; fewer if it has fewer parts. */
+/** Breaks a name after underscores into so many lines of similar length; fewer if it has fewer parts. */
 export function nameLines(name: string, most: number): string[] {
   const parts = name.split(/(?<=_)/);
   const lines: string[] = [];
   for (let left = Math.min(most, parts.length); left > 0; left -= 1) {
     const share = parts.join("").length / left;
     let line = parts.shift()!;
-    // As near to its share as possible, and a part is left for each further line.
+    // Each line is as near to its share as possible and leaves a part for each further line.
     while (parts.length >= left && (left === 1 || line.length + parts[0]!.length / 2 <= share)) line += parts.shift()!;
     lines.push(line);
   }

@@ -3,8 +3,8 @@ import { conditionText, operationText } from "./labels";
 import type { NetModel, Page } from "./net";
 
 /**
- * Layout of one page at a time. A page has the same size on its parent's sheet whatever is inside. So a
- * change inside a page moves nothing outside, and equal pages are laid out only once.
+ * The layout of one page at a time. A page has the same size on its parent's sheet whatever is inside. So a
+ * change inside a page moves no element outside, and equal pages are laid out only once.
  */
 
 export interface ElkNode {
@@ -30,7 +30,7 @@ export type Elk = (graph: ElkNode) => Promise<ElkNode>;
 /** The size of an open page on its parent's sheet, by its layer. */
 export const openSize: Record<Page["layer"], { width: number; height: number }> = {
   system: { width: 800, height: 600 },
-  agent: { width: 420, height: 290 }, // as its subsystems ask, see agentSize
+  agent: { width: 420, height: 290 }, // depends on its subsystems, see agentSize
   subsystem: { width: 400, height: 290 },
   behaviour: { width: 230, height: 330 },
   communication: { width: 190, height: 150 },
@@ -48,7 +48,7 @@ function symbolSize(net: NetModel, page: Page, node: number, folded: Folded): { 
   return net.page(child).layer === "agent" ? agentSize(net, child, folded) : openSize[net.page(child).layer];
 }
 
-/** An agent has the shape of the row of its subsystems, which changes within them do not affect. */
+/** An agent has the shape of the row of its subsystems; changes within them do not affect it. */
 function agentSize(net: NetModel, agent: number, folded: Folded): { width: number; height: number } {
   const inside = fan(net, net.page(agent), folded);
   const width = Math.min(620, Math.max(260, inside.width * 0.42));
@@ -134,8 +134,8 @@ function fan(net: NetModel, page: Page, folded: Folded): Sheet {
 }
 
 /**
- * Straight lines down in one row. In a grid, a lane beside each column, at `lane` from its middle; arcs
- * reach folded pages at their sides.
+ * Straight lines down in one row. In a grid, a lane beside each column, at `lane` from its middle; arcs reach
+ * folded pages at their sides.
  */
 function fanRoutes(sheet: Sheet, transition: Page["transitions"][number], at: number, lane: number): Route[] {
   const rod = sheet.transitions[at]!;

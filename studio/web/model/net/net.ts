@@ -28,8 +28,8 @@ export interface Element {
 }
 
 /**
- * The net with the relations in it: by path, and from drawn elements to flat ones and back. A large net
- * opens without a pass over all of it: an element is made when it is looked at.
+ * The net with the relations in it: by path, and from drawn elements to flat ones and back. A large net opens
+ * without a pass over all of it: an element is made at its first use.
  */
 export class NetModel {
   readonly pages: List<Page>;

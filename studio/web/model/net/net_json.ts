@@ -28,9 +28,9 @@ export interface Page {
   nodes: PageNode[];
   transitions: PageTransition[];
 }
-/** Where an element comes from. */
+/** The origin of an element. */
 export interface Span {
-  /** Of the specification, from 1; 0: none. */
+  /** In the specification, from 1; 0: none. */
   line: number;
   column: number;
   length: number;
@@ -43,7 +43,7 @@ export interface PageNode {
   tokens: number;
   operation: Operation | null;
 }
-/** What happens when a token comes to a place. */
+/** The operation that a token starts in a place. */
 export interface Operation {
   kind: "transition_function" | "next_iteration" | "write" | "read";
   subject: number | null;
@@ -54,7 +54,7 @@ export interface PageTransition {
   inputs: number[];
   outputs: number[];
   condition: Condition | null;
-  /** What it is for, besides its condition; null: nothing more. */
+  /** Its role besides its condition; null: none. */
   role:
     | "start"
     | "end"
@@ -71,7 +71,7 @@ export interface PageTransition {
     | null;
   span: Span;
 }
-/** What a transition waits for. */
+/** The condition of a transition. */
 export interface Condition {
   kind: "go_on" | "terminal" | "error" | "next" | "elapsed";
   truth: "free" | "always" | "never";
@@ -148,8 +148,8 @@ export interface NetPart {
   transitions: FlatTransition[];
 }
 /**
- * What agents that are alike have. Names are without the agent's; numbers count from the first one of the agent.
- * A place beyond `places` (also as `fusion` of a node) is one of `memory`. A channel is one of the agent's.
+ * The contents of equal agents. Names are without the agent's; numbers count from the first one of the agent. A
+ * place beyond `places` (also as `fusion` of a node) is one of `memory`. A channel is one of the agent's.
  */
 export interface Shape {
   pages: Page[];

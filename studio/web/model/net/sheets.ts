@@ -96,7 +96,7 @@ export class Sheets {
         const sheet = this.get(node.page);
         return sheet ? [this.within(at, node.page, index, sheet)] : [];
       });
-      // If one sheet is legible, its neighbours that nearly are so are shown, too.
+      // If one sheet is legible, neighbours that are nearly legible are shown, too.
       const enough = inside.some((one) => one.scale * window.zoom >= legible) ? 0.8 * legible : legible;
       for (const one of inside) if (one.scale * window.zoom >= enough) visit(one);
     };

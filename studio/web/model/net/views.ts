@@ -1,4 +1,4 @@
-/** A device of a simulated world whose values can be looked at. */
+/** A device of a simulated world whose values can be shown. */
 export interface View {
   kind: "scan" | "camera" | "depth" | "labels";
   from?: number;
@@ -7,7 +7,7 @@ export interface View {
   height?: number;
 }
 
-/** A scan as it is now: rays on a body. */
+/** The present state of a scan: rays on a body. */
 export interface Rays {
   /** Index of the body; -1: it does not move. */
   body: number;
@@ -25,7 +25,7 @@ const readers = {
   float64: [8, (data: DataView, at: number) => data.getFloat64(at, true)],
 } as const;
 
-/** The numbers of a buffer of the type "float64[32]"; null: the bytes are not of it. */
+/** The numbers of a buffer of the type "float64[32]"; null: the bytes do not have that type. */
 export function numbersOf(type: string, bytes: Uint8Array): Float32Array | null {
   const [, element, length] = /^(\w+)\[(\d+)\]$/.exec(type) ?? [];
   const reader = readers[element as keyof typeof readers];
@@ -34,7 +34,7 @@ export function numbersOf(type: string, bytes: Uint8Array): Float32Array | null 
   return Float32Array.from({ length: Number(length) }, (_, at) => reader[1](data, at * reader[0]));
 }
 
-/** As the device makes them: both ends included; a full circle has no two rays in one direction. */
+/** The angles that the device uses: both ends included; a full circle has no two rays in one direction. */
 export function anglesOf({ from = -Math.PI, to = Math.PI }: View, rays: number): Float32Array {
   if (rays === 1) return Float32Array.of((from + to) / 2);
   const isCircle = Math.abs(Math.abs(to - from) - 2 * Math.PI) < 1e-6;
@@ -42,7 +42,7 @@ export function anglesOf({ from = -Math.PI, to = Math.PI }: View, rays: number):
   return Float32Array.from({ length: rays }, (_, at) => from + at * step);
 }
 
-/** Red, green, blue, opacity of each pixel; null: the numbers are not those of such a picture. */
+/** Red, green, blue, opacity of each pixel; null: the numbers are not such a picture. */
 export function pixelsOf(view: View, numbers: Float32Array): Uint8ClampedArray<ArrayBuffer> | null {
   const { kind, width = 0, height = 0 } = view;
   const pixels = width * height;
@@ -53,7 +53,7 @@ export function pixelsOf(view: View, numbers: Float32Array): Uint8ClampedArray<A
   return picture;
 }
 
-/** What is near is bright. Where nothing is seen, the distance is the largest by far. */
+/** Near points are bright. Pixels without an object have by far the largest distance. */
 function greyOf(depths: Float32Array): (at: number) => number[] {
   let near = Infinity;
   let end = 0;
@@ -66,7 +66,7 @@ function greyOf(depths: Float32Array): (at: number) => number[] {
   };
 }
 
-/** 0 is the world itself, or nothing. */
+/** 0 is the world itself, or no object. */
 function labelColour(label: number): number[] {
   if (label === 0) return [24, 28, 32];
   const hue = (label * 137.5) % 360;

@@ -1,4 +1,4 @@
-/** A run as data that plays without the studio: what its drawing shows at each firing. */
+/** A run as data that plays without the studio: the state of its drawing at each firing. */
 
 import type { Marking } from "../net/game";
 import type { NetModel } from "../net/net";
@@ -13,22 +13,22 @@ export interface Film {
   fired: number[];
   /** Tokens at the beginning, of places of the drawing, and inside its pages: page p is the place -1 - p. */
   start: [place: number, tokens: number][];
-  /** What each transition does to them. */
+  /** The effect of each transition on them. */
   effects: Record<number, [place: number, change: number][]>;
   names: Record<number, string>;
   /** The behaviour that each subsystem of the drawing runs after so many firings. */
   running: [firings: number, page: number, behaviour: string][];
 }
 
-/** What a drawing shows, by the numbers of the net. */
+/** The content of a drawing, by the numbers of the net. */
 export interface Drawn {
   places: ReadonlySet<number>;
   pages: ReadonlySet<number>;
-  /** Pages with room for the behaviour that runs; those of subsystems have one. */
+  /** Pages that can show the running behaviour; those of subsystems have one. */
   subsystems: readonly number[];
 }
 
-/** More make a file that no browser likes to open. */
+/** More firings make a file too large for browsers. */
 export const mostFirings = 50_000;
 
 export function drawnIn(svg: string): Drawn {
@@ -47,9 +47,9 @@ export interface Scenes {
   /** The marking before the first firing. */
   from: Marking;
   firings: readonly number[];
-  /** Of each firing, in nanoseconds; null: a run without times. */
+  /** For each firing, in nanoseconds; null: a run without times. */
   times: readonly number[] | null;
-  /** Of the first moment, in nanoseconds. */
+  /** Time of the first moment, in nanoseconds. */
   begin: number;
 }
 

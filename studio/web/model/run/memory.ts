@@ -2,15 +2,15 @@ import { withoutIndex } from "../structure/structure";
 
 /** A value that a subsystem remembers. */
 export interface Remembered {
-  /** As the values of a run name it: "robot[3].control.memory.at.x". */
+  /** The name of the value in a run: "robot[3].control.memory.at.x". */
   path: string;
-  /** "at.x"; of a member of a fleet with the member: "robot[3]: at.x". */
+  /** "at.x"; in a fleet with the member: "robot[3]: at.x". */
   label: string;
 }
 
 /**
  * The memory of a subsystem among the values of a run. In the structure, a fleet is drawn once, as
- * `robot.control`: then it is that of all members, one after the other.
+ * `robot.control`: then it is the memory of all members, one after the other.
  */
 export function memoryOf(paths: readonly string[], subsystem: string): Remembered[] {
   const found: Remembered[] = [];

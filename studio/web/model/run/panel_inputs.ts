@@ -1,4 +1,4 @@
-/** What the controls of an operator's panel give (docs/drivers.md, Teleoperation). */
+/** The values of the controls of an operator's panel (docs/drivers.md, Teleoperation). */
 
 export interface ControlShape {
   field: string;
@@ -12,10 +12,13 @@ export interface ControlShape {
 export type Inputs = Readonly<Record<string, number | boolean>>;
 
 const isStick = ({ control }: ControlShape) => control === "stick_x" || control === "stick_y";
-/** Those that go back by themselves when nobody holds them. */
+/** The controls that return to neutral when they are released. */
 export const springsBack = (control: ControlShape) => isStick(control) || control.control === "button";
 
-/** False, zero, or the number of the range that is next to zero: as the controller has it without an operator. */
+/**
+ * False, zero, or the number of the range that is nearest to zero: the controller uses the same without an
+ * operator.
+ */
 export function neutralOf({ minimum, maximum }: ControlShape): number | boolean {
   return minimum === null || maximum === null ? false : Math.min(Math.max(0, minimum), maximum);
 }
@@ -24,7 +27,7 @@ export function neutralInputs(controls: readonly ControlShape[]): Inputs {
   return Object.fromEntries(controls.map((one) => [one.field, neutralOf(one)]));
 }
 
-/** The same with everything at rest that nobody holds any more. */
+/** The same with all released controls at rest. */
 export function released(controls: readonly ControlShape[], inputs: Inputs): Inputs {
   return { ...inputs, ...neutralInputs(controls.filter(springsBack)) };
 }
@@ -36,13 +39,13 @@ export function deflected({ minimum, maximum, whole }: ControlShape, deflection:
   return whole ? Math.round(value) : Number(value.toPrecision(4));
 }
 
-/** Where a value stands, from -1 to 1. */
+/** The position of a value, from -1 to 1. */
 export function deflectionOf({ minimum, maximum }: ControlShape, value: number): number {
   const end = value < 0 ? -(minimum ?? -1) : (maximum ?? 1);
   return end === 0 ? 0 : value / end;
 }
 
-/** How far the arrow keys push a stick: [to the right, up]. With Shift a third of the way. */
+/** The deflection of a stick by the arrow keys: [to the right, up]. With Shift a third of it. */
 export function pushOf(keys: ReadonlySet<string>, gently: boolean): [number, number] {
   const push = (more: string, less: string) => ((keys.has(more) ? 1 : 0) - (keys.has(less) ? 1 : 0)) * (gently ? 1 / 3 : 1);
   return [push("ArrowRight", "ArrowLeft"), push("ArrowUp", "ArrowDown")];
@@ -56,15 +59,15 @@ export interface Pad {
 const deadZone = 0.12;
 
 /**
- * What a gamepad gives the panel with that number: its left stick and, in order, its buttons to the first
- * panel, its right stick to the second. What rests is left out.
+ * The input of a gamepad for the panel with that number: its left stick and, in order, its buttons for the
+ * first panel, its right stick for the second. Controls at rest are left out.
  */
 export function padInputs(controls: readonly ControlShape[], pad: Pad, panel: number): Inputs {
   const found: Record<string, number | boolean> = {};
   const buttons = controls.filter(({ control }) => control === "button");
   for (const one of controls) {
     const axis = one.control === "stick_x" ? 2 * panel : one.control === "stick_y" ? 2 * panel + 1 : -1;
-    // A gamepad counts down as more.
+    // A gamepad counts downwards as positive.
     const moved = (pad.axes[axis] ?? 0) * (one.control === "stick_y" ? -1 : 1);
     if (axis >= 0 && Math.abs(moved) > deadZone) found[one.field] = deflected(one, moved);
     if (panel === 0 && one.control === "button" && pad.buttons[buttons.indexOf(one)]?.pressed) found[one.field] = true;

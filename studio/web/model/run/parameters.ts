@@ -15,7 +15,7 @@ export type Control = "switch" | "slider" | "number" | "text";
 const isInteger = (type: string) => /^u?int(8|16|32|64)$/.test(type);
 const isNumber = (type: string) => isInteger(type) || /^float(32|64)$/.test(type);
 
-/** A slider needs a range; what is neither a number nor a bool is typed. */
+/** A slider needs a range; a value that is neither a number nor a bool is typed. */
 export function controlOf({ type, minimum, maximum }: ShownParameter): Control {
   if (type === "bool") return "switch";
   if (!isNumber(type)) return "text";

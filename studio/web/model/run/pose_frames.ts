@@ -5,9 +5,9 @@ const stepsPerUnit = 8191;
 const wholeFrame = 1;
 const headBytes = 3;
 
-/** Follows a stream of frames of poses (tessera/poses.hpp describes them). */
+/** Decodes a stream of frames of poses (tessera/poses.hpp describes them). */
 export class PoseFrames {
-  /** Whether `steps` is right: not before the first whole frame, nor behind a frame that is missing. */
+  /** Whether `steps` is right: not before the first whole frame, nor after a missing frame. */
   known = false;
   private readonly steps: Float64Array;
   private number = -1;
@@ -23,7 +23,7 @@ export class PoseFrames {
     if (bytes.length < headBytes || bytes[0]! > wholeFrame) return (this.known = false);
     const whole = bytes[0] === wholeFrame;
     const number = bytes[1]! | (bytes[2]! << 8);
-    // A page that begins in the middle may get what it knows already.
+    // A page that begins in the middle may get frames that it already has.
     if (this.known && number === this.number) return false;
     const follows = number === ((this.number + 1) & 0xffff);
     this.number = number;

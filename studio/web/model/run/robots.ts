@@ -1,17 +1,17 @@
 import { perBody } from "./pose_frames";
 import { bounded, count } from "../sorted";
 
-/** A robot in a simulated world, or a thing without an agent. */
+/** A robot in a simulated world, or an object without an agent. */
 export interface Robot {
-  /** Of its placed model, "robot[3]"; or of its agent or body. */
+  /** The name of its placed model, "robot[3]"; or of its agent or body. */
   name: string;
-  /** Empty: it belongs to none. */
+  /** Its agent; empty: none. */
   agent: string;
   /** The first of its bodies, which carries the others. */
   body: number;
 }
 
-/** The robots of a world, then the things. bodies: name and agent of each. */
+/** The robots of a world, then the other objects. bodies: name and agent of each. */
 export function robotsOf(bodies: readonly (readonly [string, string])[]): Robot[] {
   const found = new Map<string, Robot>();
   bodies.forEach(([body, agent], index) => {
@@ -23,7 +23,7 @@ export function robotsOf(bodies: readonly (readonly [string, string])[]): Robot[
   return [...all.filter(({ agent }) => agent), ...all.filter(({ agent }) => !agent)];
 }
 
-/** Where something is, seen from above: metres, and the direction of its x axis in rad. */
+/** A pose seen from above: metres, and the direction of its x axis in rad. */
 export function fromAbove(poses: Float32Array, body: number): { x: number; y: number; heading: number } {
   const [x, y, , w, i, j, k] = poses.subarray(body * perBody, (body + 1) * perBody) as unknown as number[];
   return { x: x!, y: y!, heading: Math.atan2(2 * (w! * k! + i! * j!), 1 - 2 * (j! * j! + k! * k!)) };
@@ -31,13 +31,13 @@ export function fromAbove(poses: Float32Array, body: number): { x: number; y: nu
 
 /** Nanoseconds between two points of a path. */
 const step = 100e6;
-/** Numbers of all paths together; the oldest go. */
+/** The number of points of all paths together; the oldest are dropped. */
 const most = 400_000;
 
-/** The paths of all robots, as far as their poses have been seen, in any order of time. */
+/** The paths of all robots, as far as their poses are known, in any order of time. */
 export class Paths {
   readonly times: number[] = [];
-  /** Per time: x and y of each robot. */
+  /** For each time: x and y of each robot. */
   readonly points: Float32Array[] = [];
   readonly robots: readonly Robot[];
 

@@ -60,7 +60,7 @@ export class Timeline {
     this.enter(lane, time, this.enteredBy(transition));
   }
 
-  /** The running behaviours at a time, by subsystem. Needed where not every firing is reported. */
+  /** The running behaviours at a time, by subsystem. Needed if firings are missing. */
   tell(time: number, running: ReadonlyMap<number, string>): void {
     for (const lane of this.lanes) this.enter(lane, time, running.get(lane.subsystem) ?? "");
   }
@@ -83,7 +83,7 @@ export class Timeline {
   }
 }
 
-/** A subsystem that does different things in two runs at the same time. */
+/** A subsystem that runs different behaviours in two runs at the same time. */
 export interface Difference {
   path: string;
   behaviours: readonly [string, string];

@@ -7,10 +7,10 @@ export interface Partner {
   reason: string;
 }
 
-/** The reason of a buffer at the other end of a channel. */
+/** Why a buffer cannot be the other end of a channel. */
 export const already = "connected already";
 
-/** How a channel names a buffer: `robot[i].control.line` for each member of a fleet. */
+/** The name of a buffer in a channel: `robot[i].control.line` for each member of a fleet. */
 export function channelEnd(structure: Structure, path: string): string {
   const agent = structure.agents.find((one) => path.startsWith(`${one.name}.`));
   return agent?.count ? path.replace(agent.name, `${agent.name}[i]`) : path;

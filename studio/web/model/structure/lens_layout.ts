@@ -1,7 +1,7 @@
 import type { Wait } from "../causes";
 import { overlap, type Box, type Point } from "../net/geometry";
 
-/** Where the arrows of a chain of waiting lead, and where their labels stand. */
+/** The arrows of a chain of waiting, and the positions of their labels. */
 
 export interface Arrow {
   key: string;
@@ -11,7 +11,7 @@ export interface Arrow {
   label: Box;
 }
 
-/** A curve of two or three control points, and the direction that is outside of a circle. */
+/** A curve of two or three control points, and the direction to the outside of a circle. */
 interface Way {
   path: string;
   at: (part: number) => Point;
@@ -21,18 +21,18 @@ interface Way {
 /** Pixels of a letter of a label and of a line. */
 const letter = 7.4;
 const line = 15;
-/** Parts of an arrow at which its label may stand. */
+/** Possible positions of a label, as parts of its arrow. */
 const parts = [0.5, 0.4, 0.6, 0.3, 0.7, 0.2, 0.8, 0.1, 0.9];
-/** Parts of an arrow that labels are kept off. */
+/** Parts of an arrow that stay free of labels. */
 const samples = Array.from({ length: 31 }, (_, at) => at / 30);
 /** Pixels at the rims of a window without labels; the legend and the buttons are below. */
 const rim = { side: 6, top: 6, below: 46 };
 
 /**
- * An arrow for each wait between boxes that are drawn. Its label stands beside it, within the window, and where it
- * covers no box, name, arrow or other label, or else as little of them as possible.
+ * An arrow for each wait between drawn boxes. Its label is beside it, within the window, and covers as little
+ * as possible of boxes, names, arrows and other labels.
  *
- * boxes: of all who are concerned. unit: of the drawing, as large as a pixel.
+ * boxes: of all subsystems involved. unit: of the drawing, as large as a pixel.
  */
 export function arrows(
   waits: readonly Wait[],
@@ -129,7 +129,7 @@ function bent(from: Box, to: Box, unit: number): Way {
   };
 }
 
-/** Where the line from the middle of a box to a point leaves the box. */
+/** The point where the line from the middle of a box to a point leaves the box. */
 function atRim(box: Box, to: Point): Point {
   const from = middle(box);
   const [dx, dy] = [to.x - from.x, to.y - from.y];

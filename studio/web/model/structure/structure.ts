@@ -2,9 +2,9 @@ import { isMap, isScalar, isSeq } from "yaml";
 import { YamlText, type YamlPath } from "../text/yaml_text";
 
 /**
- * A specification as roboticists draw it: agents with a control subsystem, virtual receptors and effectors,
+ * A specification in the terms of robotics: agents with a control subsystem, virtual receptors and effectors,
  * buffers and channels. It is read from the text as far as possible, so that a file with errors is shown,
- * too. The parser of the server decides what is right and wrong.
+ * too. The parser of the server decides on errors.
  */
 
 export interface Buffer {

@@ -5,27 +5,28 @@ import { placed, routed, type End, type Trunk } from "./structure_grid";
 import { deviceHeight, gap, head, heightOf, row, width, withDevice } from "./structure_layout";
 
 /**
- * The drawing of a structure. Agents stand in a grid, beside those with which they talk (structure_grid.ts). The
- * channels between two agents share one line, the trunk, from rim to rim through the lanes between the columns.
- * Within an agent, ELK leads the channels around the subsystems. So no line passes through a box.
+ * The drawing of a structure. Agents stand in a grid, beside those that they share channels with
+ * (structure_grid.ts). The channels between two agents share one line, the trunk, from rim to rim through the
+ * lanes between the columns. Within an agent, ELK leads the channels around the subsystems. So no line passes
+ * through a box.
  */
 
 export interface Wire {
   /** Indices of the channels that it carries. */
   channels: number[];
   points: Point[];
-  /** It leads into an input: it ends in a tip. */
+  /** Whether it leads into an input: it ends in a tip. */
   ends: boolean;
-  /** Of a line from agent to agent: whether values go to its beginning, and to its end. */
+  /** For a line from agent to agent: whether values go to its beginning, and to its end. */
   between?: { back: boolean; forth: boolean };
 }
 export interface StructureDrawing {
   width: number;
   height: number;
-  /** Of agents, subsystems and devices ("a.motor#device"), by path. */
+  /** Boxes of agents, subsystems and devices ("a.motor#device"), by path. */
   boxes: Map<string, Box>;
   wires: Wire[];
-  /** Of channels, by their indices. */
+  /** Lines of channels, by their indices. */
   labels: Map<number, Box>;
 }
 
@@ -43,7 +44,7 @@ export const labelWidth = (channel: Channel) => {
   return (text.length - spaces) * letter + spaces * space + 10;
 };
 
-/** It leads from a member of a fleet to another one: `robot[i].a.x -> robot[i+1].b.y`. */
+/** It leads from one member of a fleet to another: `robot[i].a.x -> robot[i+1].b.y`. */
 export const isNext = ({ from, to }: Channel) =>
   from.includes("[") && indexOf(from) !== indexOf(to) && agentOf(from) === agentOf(to);
 
@@ -58,7 +59,7 @@ const portAt = (subsystem: Subsystem, path: string): Point | undefined => {
   return undefined;
 };
 
-/** The channels whose ends are both there. */
+/** The channels whose two ends both exist. */
 export function connected(structure: Structure): Channel[] {
   const there = new Set(
     structure.agents.flatMap((agent) =>
@@ -114,7 +115,7 @@ interface Inside {
   parts: Map<string, Box>;
   wires: Wire[];
   labels: Map<number, Box>;
-  /** Where trunks meet the rim. */
+  /** The points where trunks meet the rim. */
   ports: Map<string, Point>;
 }
 
@@ -149,7 +150,7 @@ function insideGraph(
       "elk.nodeSize.constraints": "[PORTS, MINIMUM_SIZE]",
       "elk.nodeSize.minimum": `(${Math.min(name.length, 30) * 9 + 110},90)`,
       "elk.portConstraints": "FIXED_ORDER",
-      // Receptors on the left, effectors on the right, also those that nothing is connected to yet.
+      // Receptors on the left, effectors on the right, also those without a connection.
       "elk.partitioning.activate": "true",
       "elk.separateConnectedComponents": "false",
     },
@@ -215,7 +216,7 @@ function readInside(agent: ElkNode): Inside {
   };
 }
 
-/** The device of a virtual receptor or effector is below it; ELK knows both as one box. */
+/** The device of a virtual receptor or effector is below it; for ELK both are one box. */
 function addDevices(structure: Structure, boxes: Map<string, Box>): void {
   for (const one of structure.agents.flatMap(({ subsystems }) => subsystems)) {
     const box = boxes.get(one.path);
@@ -230,7 +231,7 @@ function addDevices(structure: Structure, boxes: Map<string, Box>): void {
   }
 }
 
-/** About how large an agent becomes. */
+/** The approximate size of an agent. */
 function sizeOf(subsystems: readonly Subsystem[]): { width: number; height: number } {
   const columns = (["receptor", "control", "effector"] as const).map((kind) => subsystems.filter((one) => one.kind === kind));
   const filled = columns.filter((column) => column.length > 0);

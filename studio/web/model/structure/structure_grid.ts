@@ -1,9 +1,9 @@
 import type { Box, Point } from "../net/geometry";
 
 /**
- * Places agents in a grid, and leads the trunks between them through lanes: upright ones between the columns,
- * level ones between the rows. Agents that talk to each other stand near each other, and a ring of agents becomes
- * a ring, because that is the shortest way.
+ * Places agents in a grid, and leads the trunks between them through lanes: vertical ones between the
+ * columns, horizontal ones between the rows. Agents with common channels stand near each other, and a ring of
+ * agents becomes a ring, because that is the shortest way.
  */
 
 export interface Trunk {
@@ -15,7 +15,7 @@ export interface Trunk {
   label: { width: number; height: number };
 }
 
-/** Where a trunk leaves an agent. */
+/** The point where a trunk leaves an agent. */
 export interface End {
   trunk: string;
   side: "WEST" | "EAST";
@@ -104,7 +104,7 @@ function arranged(agents: readonly Sized[], trunks: readonly Trunk[], columns: n
     positions.set(one, positions.get(other)!);
     positions.set(other, at);
   };
-  // Beyond this number the way of all trunks costs more than it is worth.
+  // Beyond this number, the way of all trunks costs more than it is worth.
   for (let better = names.length <= 60, now = length(); better;) {
     better = false;
     for (let i = 0; i < names.length; i += 1)
@@ -146,7 +146,7 @@ function endsOf(agent: string, cells: ReadonlyMap<string, Cell>, trunks: readonl
 
 interface Placed {
   box: Box;
-  /** Where trunks meet the rim, from the upper left corner of the agent. */
+  /** The points where trunks meet the rim, from the upper left corner of the agent. */
   ports: ReadonlyMap<string, Point>;
 }
 
@@ -186,7 +186,7 @@ export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: str
     widths[column] = Math.max(widths[column]!, width);
     heights[row] = Math.max(heights[row]!, height);
   }
-  // Level lanes: the space below row r. Their number decides where the rows are.
+  // Horizontal lanes: the space below row r. Their number determines the positions of the rows.
   const level = Array.from({ length: rows }, () => new Lanes());
   const levelOf = new Map(ways.map((way) => [way.id, way.below === null ? 0 : level[way.below]!.take(way.left, way.right)]));
   const tops: number[] = [];
@@ -195,7 +195,7 @@ export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: str
     tops.push(y);
     y += heights[row]! + 60 + level[row]!.count * lanePitch;
   }
-  // Upright lanes: the space on the right of column c.
+  // Vertical lanes: the space on the right of column c.
   const heightAt = (agent: string, trunk: string) => tops[cells.get(agent)!.row]! + inside(agent).ports.get(trunk)!.y;
   const levelAt = ({ id, below }: Way) => tops[below!]! + heights[below!]! + 30 + levelOf.get(id)! * lanePitch;
   const upright = Array.from({ length: columns }, () => new Lanes());
@@ -251,10 +251,10 @@ interface Way {
   id: string;
   first: string;
   second: string;
-  /** The upright spaces that it uses, by the column on their left. */
+  /** The vertical spaces that it uses, by the column on their left. */
   left: number;
   right: number;
-  /** The level space between them, by the row above it; null: it needs none. */
+  /** The horizontal space between them, by the row above it; null: it needs none. */
   below: number | null;
 }
 

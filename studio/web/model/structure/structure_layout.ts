@@ -1,8 +1,8 @@
 import type { Behaviour, Subsystem } from "./structure";
 
 /**
- * Sizes of the boxes of the structure view. Far away, letters are drawn larger, up to 18.4 units, which have ten
- * pixels when the drawing has little more than half its size (canvas/detail.ts).
+ * Sizes of the boxes of the structure view. Far away, letters are drawn larger, up to 18.4 units, which have
+ * ten pixels when the drawing has a little more than half its size (canvas/detail.ts).
  */
 
 export const row = 22;

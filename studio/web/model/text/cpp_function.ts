@@ -48,7 +48,7 @@ function afterLiteral(source: string, at: number): number {
 
 export interface BuildMessage {
   line: number;
-  /** From 1; 0: not told. */
+  /** From 1; 0: unknown. */
   column: number;
   severity: "error" | "warning";
   /** Such as "E501"; empty: a message of the compiler itself. */
@@ -60,7 +60,8 @@ export interface BuildMessage {
 const head = /^(\S+?):(\d+):(?:(\d+):)? (?:fatal )?(error|warning)(?: ([A-Z]\d{3}))?: (.*)$/;
 
 /**
- * What a build says about a file: the messages of `tessera` and those of compilers. A hint belongs to the message before it.
+ * The messages of a build about a file: those of `tessera` and of compilers. A hint belongs to the message
+ * before it.
  */
 export function buildMessages(build: readonly string[], file: string): BuildMessage[] {
   const found: BuildMessage[] = [];

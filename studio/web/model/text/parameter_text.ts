@@ -2,7 +2,7 @@ import { isMap, isScalar, isSeq } from "yaml";
 import { isNumber } from "./type_text";
 import { scalarText, type TextEdit, type YamlPath, type YamlText } from "./yaml_text";
 
-/** A parameter in parts. Its type is empty if its value tells it. */
+/** The parts of a parameter. Its type is empty if its value determines it. */
 export interface ParameterParts {
   value: string;
   unit: string;
@@ -36,7 +36,7 @@ export function parameterParts(yaml: YamlText, at: YamlPath): ParameterParts {
   };
 }
 
-/** The value as it is to be written: a text needs its quotes. */
+/** The value in the form of the file: a text needs its quotes. */
 const written = (value: string, type: string) => (type.startsWith("string") ? JSON.stringify(value) : scalarText(value));
 
 /** Changes parts of a parameter. It keeps its short form as long as that can express it. */

@@ -2,15 +2,15 @@ import { removeBehaviour, setChannel, setField, setNext } from "./edits";
 import type { Cause } from "../causes";
 import { findThing, readStructure, withoutIndex, type Channel, type Structure } from "../structure/structure";
 
-/** An edit that may mend a cause. Whether it does is for the verification to say. */
+/** An edit that may mend a cause. The verification decides whether it does. */
 export interface Candidate {
   title: string;
-  /** What it changes for the robot. */
+  /** Its effect on the robot. */
   meaning: string;
   text: string;
 }
 
-/** As many as can be verified while somebody waits. */
+/** The number that can be verified while the user waits. */
 const most = 10;
 const timeout = "1 s";
 
@@ -22,7 +22,7 @@ export function candidatesFor(cause: Cause, structure: Structure): Candidate[] {
       const sends = one.awaited === "acknowledgement";
       return channel && one.awaited !== "memory" ? atChannel(structure, channel, sends) : [];
     }),
-    // Behaviours of those who are held up run again when nobody is.
+    // Blocked behaviours run again once no subsystem is stuck.
     ...(cause.atEnd.length > 0 ? [] : cause.dead.flatMap(({ path }) => withoutBehaviour(structure, path))),
   ];
   const different = all.filter(
@@ -73,7 +73,7 @@ function withoutTimeout(text: string, channel: Channel): string {
   return waits ? text : setField(structure, ["channels", channel.index], "timeout", "");
 }
 
-/** What may follow where nothing does: the behaviour again, or the one that the subsystem starts with. */
+/** A successor where there is none: the behaviour again, or the first one of the subsystem. */
 function followers(structure: Structure, path: string, name: string): Candidate[] {
   const thing = findThing(structure, `${path}.${name}`);
   if (thing?.kind !== "behaviour") return [];

@@ -1,4 +1,4 @@
-/** The parts of JSON Schema that the schema of specifications uses to say what a value may be. */
+/** The parts of JSON Schema with which the schema of specifications describes values. */
 export interface Schema {
   $ref?: string;
   description?: string;
@@ -23,17 +23,17 @@ export interface FieldShape {
   key: string;
   description: string;
   required: boolean;
-  /** What the value may be; empty: any text. */
+  /** The possible values; empty: any text. */
   choices: readonly string[];
-  /** A list of so many values, each with a field of its own; 0: it is none. */
+  /** The length of a list with a field for each value; 0: it is none. */
   parts: number;
   /** A list of any length: its values are written with commas between them. */
   list: boolean;
-  /** Why a text is not accepted; undefined: it is, or only the server can tell. */
+  /** Why a text is not accepted; undefined: it is, or only the server can decide. */
   wrong: (text: string) => string | undefined;
 }
 
-/** A schema with what its reference says; its own keywords count first. */
+/** A schema combined with its reference; its own keywords count first. */
 export function resolved(schema: Schema, root: Schema): Schema {
   if (!schema.$ref) return schema;
   const { $ref, ...own } = schema;
@@ -46,7 +46,7 @@ export function resolved(schema: Schema, root: Schema): Schema {
 
 const kindsOf = (schema: Schema) => (typeof schema.type === "string" ? [schema.type] : (schema.type ?? []));
 
-/** Whether a text, as it is to stand in the file, is a value of the schema. Only what fields need is judged. */
+/** Whether a text, in the form of the file, is a value of the schema. It judges only what fields need. */
 function accepts(schema: Schema, root: Schema, text: string): boolean {
   const { anyOf, enum: values, const: one, pattern, minimum, maximum, ...rest } = resolved(schema, root);
   if (anyOf) return anyOf.some((each) => accepts(each, root, text));
@@ -87,11 +87,11 @@ export function fieldsOf(schema: Schema, root: Schema): FieldShape[] {
   return Object.entries(properties).map(([key, one]) => fieldOf(key, one, root, required.includes(key)));
 }
 
-/** What a driver may be: its kind, which is its first key, and the keys that go with it. */
+/** A possible driver: its kind, which is its first key, and the keys of that kind. */
 export interface DriverKind {
   kind: string;
   description: string;
-  /** A receptor reads it, or an effector writes it; both: it may be behind any real buffer. */
+  /** Whether a receptor reads it, or an effector writes it; both: any real buffer can have it. */
   side: "receptor" | "effector" | "both";
   /** In the simulated world only, or behind the devices of the real robot only. */
   where: "world" | "robot" | "both";

@@ -1,7 +1,7 @@
 /** A type of the specification in parts: "float64[8] m/s", "string<=64", "Pose". */
 export interface TypeParts {
   base: string;
-  /** The most characters of a text; empty: it is none. */
+  /** The largest number of characters of a text; empty: it is none. */
   most: string;
   /** The number of elements; empty: it is no array. */
   length: string;
@@ -32,7 +32,7 @@ export function typeParts(text: string): TypeParts | null {
   return /[<[\]{}"]/.test(unit) ? null : { base, most, length, unit };
 }
 
-/** Only texts have a most, and only numbers a unit. */
+/** Only texts have a largest length, and only numbers a unit. */
 export function typeText({ base, most, length, unit }: TypeParts): string {
   const limit = base === "string" ? `<=${most || "64"}` : "";
   return `${base}${limit}${length && `[${length}]`}${isNumber(base) && unit ? ` ${unit}` : ""}`;

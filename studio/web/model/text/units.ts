@@ -1,7 +1,7 @@
 import type { Structure } from "../structure/structure";
 
 /**
- * The unit of a value, as the type of its buffer or field of memory has it: "m/s"; empty: none.
+ * The unit of a value, from the type of its buffer or field of memory: "m/s"; empty: none.
  * path: "robot.control.motion.linear", "robot.control.memory.free".
  */
 export function unitOf(structure: Structure, path: string): string {

@@ -5,15 +5,15 @@ import { fromAbove, type Paths, type Robot } from "../../model/run/robots";
 import { boundsOf, drawFloor, drawRobot, drawScale } from "../world/draw_world";
 import type { Colours, Size } from "../world/painted";
 
-/** Colours that follow one another are told apart, in light and in dark. */
+/** Colours whose neighbours differ clearly, on light and on dark backgrounds. */
 export const colourOf = (robot: number) => `hsl(${Math.round(205 + robot * 137.5) % 360} 62% 48%)`;
 
 /** Points further apart in time than this (in ns) are not joined by a line. */
 const apart = 1e9;
-/** More robots have no names at their places: they would hide each other. */
+/** More robots have no names at their positions: the names would hide each other. */
 const mostNamed = 16;
 
-/** Points that are drawn of all paths together. */
+/** The largest number of points drawn of all paths together. */
 const mostPoints = 20_000;
 
 export interface FleetShown {
@@ -22,7 +22,7 @@ export interface FleetShown {
   paths: Paths;
   now: number;
   floor: Floor | null;
-  /** Body that is marked; -1: none. */
+  /** The highlighted body; -1: none. */
   followed: number;
 }
 

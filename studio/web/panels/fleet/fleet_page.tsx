@@ -11,11 +11,11 @@ const stateTitles: Record<ProcessSeen["state"], string> = {
   absent: "not on this machine",
 };
 const seconds = (value: number) => `${value.toFixed(1)} s`;
-/** So many rows of links are shown; the rest is in order. */
+/** The largest number of rows of links; the rest has no problem. */
 const mostLinks = 60;
 const mostChains = 20;
 
-/** All processes of a deployed system: what each does, who waits for whom, and what passes between them. */
+/** All processes of a deployed system: their states, which waits for which, and the messages between them. */
 export function FleetPage() {
   const studio = useStudio();
   const names = useStore(studio.project, (all) => all.project?.processes ?? none);
@@ -63,7 +63,7 @@ export function FleetPage() {
 }
 const none: readonly string[] = [];
 
-/** What is at the end of a long chain matters most. */
+/** The end of a long chain matters most. */
 const mostSteps = 6;
 function shortened<T>(steps: readonly T[]): readonly T[] {
   return steps.length > mostSteps ? [...steps.slice(0, 2), ...steps.slice(-2)] : steps;

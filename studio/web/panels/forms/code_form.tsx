@@ -67,7 +67,7 @@ const isWithin = (line: number, { firstLine, lastLine }: FunctionText) => line >
 const functionsIn = (source: string, functions: readonly FunctionShown[], file: string) =>
   functions.flatMap((one) => (one.file === file && one.line ? (functionAt(source, one.line) ?? []) : []));
 
-/** Puts the cursor of a text to a line, from 0, and a column, from 1. */
+/** Moves the cursor of a text to a line, from 0, and a column, from 1. */
 function goTo(area: HTMLTextAreaElement | null, line: number, column: number): void {
   if (!area) return;
   const lines = area.value.split("\n");
@@ -77,7 +77,7 @@ function goTo(area: HTMLTextAreaElement | null, line: number, column: number): v
   area.setSelectionRange(at, at);
 }
 
-/** A message of the build: where, its line with a caret, what is wrong and what to do. */
+/** A message of the build: its position, its line with a caret, the mistake and the hint. */
 function Message({ of, source, children }: { of: BuildMessage; source: string; children: ReactNode }) {
   const text = source.split("\n")[of.line - 1] ?? "";
   const indent = text.length - text.trimStart().length;
@@ -111,7 +111,7 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
     show(text);
   };
   useEffect(() => {
-    // Text that is not saved yet stays when the file changes.
+    // Unsaved text stays when the file changes.
     if (text === base) setText(found.text);
     setBase(found.text);
   }, [found.text]);

@@ -33,7 +33,7 @@ const fitting = (side: string | undefined, where: "world" | "robot") =>
 const firstTarget = (kind: DriverKind, targets: Targets) =>
   ({ cpp: "Device", panel: "true", ros2: "/topic" })[kind.kind] ?? targets[kind.kind]?.[0] ?? "name";
 
-/** The drivers of one section: which device is behind a real buffer. */
+/** The drivers of one section: the device behind each real buffer. */
 export function DriversForm({ structure, where }: { structure: Structure; where: "world" | "robot" }) {
   const targets = useTargets();
   const at: YamlPath = where === "world" ? ["simulation", "drivers"] : ["drivers"];
@@ -78,7 +78,7 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
   const target = is ? (yaml.valueText([...at, is.kind]) ?? "") : "";
   const choose = (kind: string) => {
     const next = kinds.find((one) => one.kind === kind)!;
-    // Options belong to a kind. A target that the new kind knows stays.
+    // Options belong to a kind. A target that the new kind also has stays.
     const kept = targets[kind]?.includes(target) ? target : firstTarget(next, targets);
     const type = kind === "ros2" ? ", type: std_msgs/msg/Float64" : "";
     edit(yaml.replace(at, `{ ${kind}: ${listAsWritten(kept)}${type} }`));

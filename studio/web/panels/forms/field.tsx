@@ -2,12 +2,12 @@ import { useEffect, useId, useState, type KeyboardEvent } from "react";
 
 interface FieldProps {
   label: string;
-  /** What the label is about, if that is seen beside the field: "of left". It is read out. */
+  /** The subject of the label, if it is visible beside the field: "of left". Screen readers read it. */
   of?: string;
   value: string;
   hint?: string;
   placeholder?: string;
-  /** Offered while typing. */
+  /** Proposals while typing. */
   choices?: readonly string[];
   mono?: boolean;
   /** The reason why a text is not accepted; undefined: it is. */

@@ -5,7 +5,7 @@ import { isName } from "../../model/text/edits";
 import type { Agent, Structure, Subsystem } from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";
 
-/** Why a name cannot be that of an element beside those that have a name already. */
+/** Why a name cannot be used for an element beside those that exist. */
 export const nameProblem =
   (own: string, taken: readonly string[] = []) =>
   (text: string) =>
@@ -65,7 +65,7 @@ interface RemoveProps {
   onClick: (text: string) => void;
 }
 
-/** Says that a change of a template changes all agents that use it. */
+/** Tells the user that a change of a template changes all agents that use it. */
 export function SharedNote({ structure, agent }: { structure: Structure; agent: Agent }) {
   const others = structure.agents.filter((one) => one.name !== agent.name && one.body.join("/") === agent.body.join("/"));
   if (!agent.template) return null;

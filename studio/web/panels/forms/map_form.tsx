@@ -8,21 +8,21 @@ import { nameProblem } from "./form_parts";
 
 interface MapFormProps {
   structure: Structure;
-  /** Where the map is; it is made with its first entry. */
+  /** The position of the map; it is made with its first entry. */
   at: YamlPath;
   title: string;
-  /** What one entry is called: "type". */
+  /** The word for one entry: "type". */
   one: string;
   /** A new entry, as text of the file; none: entries are not added here. */
   fresh?: { name: string; value: string };
   hint?: string;
   /** Names are paths and not plain names. */
   paths?: boolean;
-  /** Offered while a name is typed. */
+  /** Proposals while a name is typed. */
   names?: readonly string[];
   /** Entries that are shown elsewhere. */
   without?: readonly string[];
-  /** What follows from a new name, besides the key itself: the text with it. */
+  /** The text after a change of a name, with all its consequences besides the key itself. */
   renamed?: (text: string, from: string, to: string) => string;
   /** The fields of an entry; without them it is shown as text. */
   fields?: (name: string) => ReactNode;

@@ -12,9 +12,9 @@ interface ObjectFieldsProps {
   shapes: readonly FieldShape[];
   /** Keys that have fields elsewhere. */
   without?: readonly string[];
-  /** Keys may have any name; otherwise those that the shapes do not name are shown elsewhere. */
+  /** Keys may have any name; otherwise keys unknown to the shapes are shown elsewhere. */
   open?: boolean;
-  /** Offered while typing, by key. */
+  /** Proposals while typing, by key. */
   choices?: { readonly [key: string]: readonly string[] };
   /** The names of the parts of a list, by key. */
   parts?: { readonly [key: string]: readonly string[] };
@@ -31,7 +31,7 @@ const anyText = (key: string): FieldShape => ({
   wrong: () => undefined,
 });
 
-/** The keys of a map, each as a field of the kind that the schema says. An empty field leaves its key out. */
+/** The keys of a map, each as a field of its kind in the schema. An empty field leaves its key out. */
 export function ObjectFields({ structure, at, shapes, without = [], open, choices = {}, parts = {} }: ObjectFieldsProps) {
   const edit = useEdit();
   const [wanted, want] = useState<readonly string[]>([]);
@@ -86,9 +86,9 @@ interface OneFieldProps {
   onChange: (text: string, as?: (text: string) => string) => void;
 }
 
-/** "[a, b]" as it is typed: "a, b". */
+/** "[a, b]" in the form for typing: "a, b". */
 export const listAsTyped = (text: string) => text.replace(/^\[\s*(.*?)\s*\]$/s, "$1");
-/** "a, b" as it stands in the file; one name alone is no list. */
+/** "a, b" in the form of the file; a single name is no list. */
 export const listAsWritten = (text: string) =>
   /^[^[{"']*,[^[{"']*$/.test(text)
     ? `[${text

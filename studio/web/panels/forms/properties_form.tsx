@@ -8,7 +8,7 @@ import { schema } from "./schema";
 
 const kinds = fieldsOf({ $ref: "#/$defs/property" }, schema).filter(({ key }) => key !== "name");
 
-/** What is to be verified besides the default properties. */
+/** The properties to verify besides the default ones. */
 export function PropertiesForm({ structure }: { structure: Structure }) {
   const edit = useEdit();
   const { yaml } = structure;

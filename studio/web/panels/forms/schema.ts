@@ -1,5 +1,5 @@
 import text from "../../../../share/tessera/spec.schema.json";
 import type { Schema } from "../../model/text/schema_fields";
 
-/** The schema of specifications. It says which keys may stand where, and what they mean. */
+/** The schema of specifications: the allowed keys and their meanings. */
 export const schema = text as unknown as Schema;

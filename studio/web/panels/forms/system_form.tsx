@@ -9,7 +9,10 @@ import { StructureFields } from "./type_fields";
 import { WorldForm } from "./world_form";
 import { MapForm } from "./map_form";
 
-/** What belongs to no agent: the name, types, parameters, properties, templates, models, drivers and the world. */
+/**
+ * The parts that belong to no agent: the name, types, parameters, properties, templates, models, drivers and
+ * the world.
+ */
 export function SystemForm({ structure }: { structure: Structure }) {
   const studio = useStudio();
   const edit = (text: string) => studio.draft.edit(text, "edit");

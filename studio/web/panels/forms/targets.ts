@@ -2,7 +2,7 @@ import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { YamlText } from "../../model/text/yaml_text";
 
-/** What drivers in the world may name, by their kinds. */
+/** The names that drivers in the world can use, by their kinds. */
 export type Targets = { readonly [kind: string]: readonly string[] };
 
 /** Asks the simulated world of the text. While the text has errors, the last answer counts. */
@@ -17,7 +17,7 @@ export function useTargets(): Targets {
     let late = false;
     studio.api.worldTargets(studio.draft.store.get().text).then(
       ({ targets }) => late || setTargets(targets),
-      // There are only no proposals then.
+      // Without an answer, there are only no proposals.
       () => {},
     );
     return () => void (late = true);

@@ -8,7 +8,7 @@ import { nameProblem, useEdit } from "./form_parts";
 interface TypeInputsProps {
   structure: Structure;
   value: string;
-  /** What is typed: "of left"; empty: of the element that the form is about. */
+  /** The thing that has the type: "of left"; empty: the element of the form. */
   of?: string;
   /** Types that may not be chosen, such as the one that is described. */
   without?: readonly string[];
@@ -17,14 +17,14 @@ interface TypeInputsProps {
 
 const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
 
-/** A type, chosen by its parts: what it is, how many, and the unit. */
+/** A type, chosen by its parts: kind, number of elements, and unit. */
 export function TypeInputs({ structure, value, of = "", without = [], onChange }: TypeInputsProps) {
   const parts = typeParts(value);
   const about = of ? { of } : {};
   if (!parts) return <Field label="Type" {...about} mono value={value} onChange={onChange} />;
   const change = (part: Partial<TypeParts>) => onChange(typeText({ ...parts, ...part }));
   const types = [...structure.types.filter((one) => !without.includes(one)), ...plainTypes];
-  // A type that does not exist stays what it is until another one is chosen.
+  // An unknown type stays until another one is chosen.
   const choices = (types.includes(parts.base) ? types : [parts.base, ...types]).map((one) => ({ value: one, title: one }));
   return (
     <div className="type-inputs">
@@ -90,7 +90,7 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
   );
 }
 
-/** What a subsystem remembers: its type, and its value at the start. */
+/** A field of a subsystem's memory: its type, and its value at the start. */
 export function MemoryFields({ structure, at }: { structure: Structure; at: YamlPath }) {
   const edit = useEdit();
   const { yaml } = structure;

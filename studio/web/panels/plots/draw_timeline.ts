@@ -7,7 +7,7 @@ const names = 108;
 const last = 4;
 
 /**
- * The time span that is shown: the last seconds; in a recording, the span around the time that is shown.
+ * The shown time span: the last seconds; in a recording, the span around the shown time.
  */
 function shownTime(track: Track, seconds: number): { start: number; end: number } {
   const length = seconds * 1e9;
@@ -74,7 +74,7 @@ function drawAxis(
   context.textAlign = "left";
 }
 
-/** Seconds from one number of a time axis to the next: at most so many, and none touches another. */
+/** Seconds between two numbers of a time axis: at most so many numbers, and none touches another. */
 export const stepFor = (seconds: number, pixels: number, most: number) =>
   niceStep(seconds / Math.max(1, Math.min(most, pixels / 44)));
 

@@ -5,7 +5,7 @@ import { count } from "../../model/sorted";
 import { niceStep, stepFor } from "./draw_timeline";
 import { Painted, type Colours, type Size } from "../world/painted";
 
-/** The time under the mouse, for all plots; null: it is elsewhere. */
+/** The time under the mouse, for all plots; null: the mouse is elsewhere. */
 export interface Cursor {
   time: number | null;
 }
@@ -23,7 +23,7 @@ interface PlotProps {
 
 const left = 46;
 const below = 15;
-/** Room above the curves for the names of the behaviours. */
+/** Space above the curves for the names of the behaviours. */
 const above = 13;
 
 /** A value over time, with axes, the behaviours of its subsystem as bands, and the same value of another run. */

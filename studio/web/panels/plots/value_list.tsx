@@ -10,13 +10,13 @@ import { Plot, type Cursor } from "./plot";
 
 interface ValueListProps {
   track: Track;
-  /** The run beside it: its values are drawn in the plots, too. */
+  /** The run beside it, whose values are drawn in the plots, too. */
   beside: Track | null;
   seconds: number;
   none: string;
 }
 
-/** Every value by its path, with its recent course. A click pins a plot of it, or takes it away. */
+/** Every value by its path, with its recent curve. A click pins a plot of it, or removes it. */
 export function ValueList({ track, beside, seconds, none }: ValueListProps) {
   const [, look] = useState(0);
   const [pinned, setPinned] = useState<readonly string[]>([]);

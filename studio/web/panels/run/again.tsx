@@ -2,7 +2,7 @@ import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { againFrom } from "../../live/again";
 
-/** Makes the run again with the code as it is now, and goes on from the moment shown. */
+/** Repeats the run with the present code, and continues from the shown time. */
 export function Again() {
   const studio = useStudio();
   const { request, state } = useStore(studio.runner.store, (all) => all);

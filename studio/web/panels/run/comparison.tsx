@@ -12,7 +12,7 @@ const missing = {
 /** If there are more differences than this, only their number is shown. */
 const most = 6;
 
-/** The bar between two panes: whether they show the same time, and which subsystems differ at it. */
+/** The bar between two panes: whether they show the same time, and the subsystems that differ. */
 export function ComparisonBar() {
   const studio = useStudio();
   const { sameTime, comparison } = useStore(studio.scene.store, (all) => all);

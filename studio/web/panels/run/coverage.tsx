@@ -2,7 +2,7 @@ import { useStore, useStudio } from "../../hooks/use";
 import type { Pane } from "../../live/scene";
 import type { Coverage } from "../../live/protocol";
 
-/** Switches the shade on the drawing of what was never reached, and says what it means. */
+/** Switches the shade of unreached elements on the drawing, and explains it. */
 export function CoverageLegend({ pane }: { pane: Pane }) {
   const { coverage } = useStudio();
   const { on, known } = useStore(coverage.store, (all) => all);

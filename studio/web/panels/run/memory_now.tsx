@@ -8,10 +8,10 @@ import { findThing } from "../../model/structure/structure";
 import { unitOf } from "../../model/text/units";
 import { usePaneTitle } from "../pane_title";
 
-/** Large structures and fleets have more than anybody reads. */
+/** The limit for large structures and fleets, which have too many values to read. */
 const most = 24;
 
-/** What a subsystem remembers at the time that is shown, of each run and recording in view. */
+/** The memory of a subsystem at the shown time, of each run and recording in view. */
 export function MemoryNow({ subsystem }: { subsystem: string }) {
   const studio = useStudio();
   const panes = useStore(studio.scene.store, (all) => all.panes);

@@ -3,10 +3,10 @@ import { useStore, useStudio } from "../../hooks/use";
 import type { PanelControl, PanelShown } from "../../live/protocol";
 import { deflected, deflectionOf, neutralOf, pushOf, stepOfSlider, type Inputs } from "../../model/run/panel_inputs";
 
-/** Fleets have more than anybody operates. */
+/** The limit for fleets, which have too many panels to operate. */
 const few = 6;
 
-/** The panels of the controller that runs: an operator moves their controls. */
+/** The panels of the running controller: an operator moves their controls. */
 export function OperatorPanels() {
   const studio = useStudio();
   const { panels, kind } = useStore(studio.runner.store, (all) => all);
@@ -43,7 +43,7 @@ function OperatorPanel({ panel }: { panel: PanelShown }) {
   const inputs = all.get(panel.path);
   const problem = problems.get(panel.path);
   const operated = inputs !== undefined;
-  // Nobody operates what is not on the screen.
+  // A panel that is not visible is not operated.
   useEffect(() => () => operator.letGo(panel.path), [operator, panel.path]);
   const move = (change: Inputs) => operator.move(panel.path, change);
   const held = inputs ?? Object.fromEntries(panel.controls.map((one) => [one.field, neutralOf(one)]));

@@ -1,10 +1,12 @@
 /** The largest part of the time of the page that drawing may take. */
 const ownShare = 1 / 3;
-/** The largest part of the time in which a picture may be under way, in this process or in the one that draws. */
+/**
+ * The largest part of the time in which a picture may be under way, in this process or in the one that draws.
+ */
 const wholeShare = 1 / 2;
 
 /**
- * When the next picture may be drawn. Where WebGL runs on the processor, it takes the time of everything else:
+ * When the next picture may be drawn. If WebGL runs on the processor, it takes time from everything else:
  * after a picture, the view rests in proportion. All times are those of performance.now().
  */
 export class Pace {
@@ -23,7 +25,7 @@ export class Pace {
     this.due = Infinity;
   }
 
-  /** What the page has to do is done; the picture is drawn elsewhere. */
+  /** The work of the page is done; another process draws the picture. */
   ordered(now: number): void {
     this.own = now - this.begun;
   }

@@ -4,10 +4,10 @@ import type { ParameterShown } from "../../live/protocol";
 import { controlOf, same, stepOf } from "../../model/run/parameters";
 import { IconButton } from "../icons";
 
-/** Fleets have more than anybody reads. */
+/** The limit for fleets, which have too many parameters to read. */
 const most = 40;
 
-/** The parameters of the controller that runs: what they hold, and controls that change them. */
+/** The parameters of the running controller: their values, and controls that change them. */
 export function ParametersNow() {
   const studio = useStudio();
   const { parameters, kind } = useStore(studio.runner.store, (all) => all);
@@ -51,12 +51,12 @@ function Parameter({ shown }: { shown: ParameterShown }) {
   const [problem, setProblem] = useState("");
   const asking = useRef(false);
   const latest = useRef<string | null>(null);
-  // What is typed stands until the controller has it.
+  // A typed value stays until the controller has accepted it.
   useEffect(() => {
     if (typed !== null && value !== null && same(typed, value, type)) setTyped(null);
   }, [typed, value, type]);
 
-  /** Of many changes in a row, as from a slider, only the latest is sent. */
+  /** Among many changes in a row, as from a slider, only the latest is sent. */
   const send = async (text: string) => {
     setTyped(text);
     latest.current = text;

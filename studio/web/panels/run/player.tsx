@@ -17,7 +17,7 @@ export function Player({ pane, beside, fixed }: { pane: Pane; beside: boolean; f
   return <StepPlayer />;
 }
 
-/** The controls of the only pane, as wide as the window: a long recording needs the room. */
+/** The controls of the only pane, as wide as the window: a long recording needs the width. */
 export function WholePlayer() {
   const studio = useStudio();
   const panes = useStore(studio.scene.store, (all) => all.panes);

@@ -61,7 +61,7 @@ function Controls() {
   const [subsystem, setSubsystem] = useState("");
   const control = studio.runner.control.bind(studio.runner);
   const paused = state === "paused";
-  // On the steady clock, nothing can be paused.
+  // On the steady clock, a run cannot be paused.
   const paced = kind !== "run" && kind !== "deployment";
   const subsystems = net?.subsystemPages().map((page) => net.page(page).path) ?? [];
   return (
@@ -129,7 +129,7 @@ function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: num
   );
 }
 
-/** Who can do nothing at this moment, and whom they wait for. */
+/** The subsystems that cannot go on now, and those that they wait for. */
 function WhoWaits() {
   const studio = useStudio();
   const { shown, problem } = useStore(studio.lens.store, (all) => all);

@@ -85,7 +85,7 @@ function DeploymentForm() {
   );
 }
 
-/** What may lie on the floor of the simulated world; nothing if that world has no floor picture. */
+/** The possible floors of the simulated world; nothing if that world has no floor picture. */
 const tracksOf = (project: Project | null) =>
   project?.simulation?.track
     ? (project.worlds.find(({ name }) => name === project.simulation!.world.split("/").at(-1))?.tracks ?? [])

@@ -12,7 +12,7 @@ import type { EditorState, Extension, Text } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap, type Tooltip } from "@codemirror/view";
 import type { LanguageAnswer, LanguageQuestion, Proposal, TextPosition } from "../../live/protocol";
 
-/** Asks the server about the text that is in the editor now. */
+/** Asks the server about the present text of the editor. */
 export type Ask = (question: LanguageQuestion) => Promise<LanguageAnswer>;
 
 const kinds: Record<Proposal["kind"], string> = {
@@ -77,7 +77,7 @@ function accept(view: EditorView): boolean {
 /** Completion, the meaning of a word under the pointer, and F12 to its definition. */
 export function language(ask: Ask): Extension {
   const complete = async (context: CompletionContext): Promise<CompletionResult | null> => {
-    // While a word is typed, or behind a sign after which a name follows; else when it is asked for.
+    // Proposals appear while a word is typed, and after a sign that a name follows; otherwise on request.
     if (!context.explicit && !context.matchBefore(/[A-Za-z_]\w*|[.:[{>] ?/)) return null;
     const answer = await question(ask, context.state, context.pos, "completion");
     const first = answer?.proposals[0];

@@ -12,7 +12,7 @@ import {
 } from "three";
 import { mergeGeometries } from "three/examples/jsm/utils/BufferGeometryUtils.js";
 
-/** What is drawn of one body: an instance of a mesh. */
+/** The drawing of one body: an instance of a mesh. */
 interface Instance {
   mesh: InstancedMesh;
   index: number;
@@ -20,7 +20,7 @@ interface Instance {
   local: Matrix4;
 }
 
-/** A mesh and its place in what it belongs to. */
+/** A mesh and its place in its parent. */
 interface Part {
   geometry: BufferGeometry;
   material: MeshLambertMaterial;
@@ -61,7 +61,7 @@ export class Bodies3d {
     return all;
   }
 
-  /** The same bodies, which can be seen through, and not be clicked. */
+  /** The same bodies, transparent and not clickable. */
   ghosts(material: Material): Bodies3d {
     const copy = new Bodies3d(this.instances.length);
     const ghostOf = new Map<InstancedMesh, InstancedMesh>();
@@ -93,7 +93,7 @@ export class Bodies3d {
   }
 }
 
-/** What never moves becomes as few meshes as there are looks. Takes the meshes out of their groups. */
+/** Merges still objects into as few meshes as there are looks. Takes the meshes out of their groups. */
 export function still(root: Object3D): Mesh[] {
   const parts = partsOf(root);
   return merged(parts, new Map()).map(({ geometry, material, local }) => {
@@ -141,7 +141,7 @@ function merged(parts: readonly Part[], known: Map<string, BufferGeometry>): Par
   return [{ geometry, material: painted, local: new Matrix4() }, ...others];
 }
 
-/** To a millionth of a metre: equal robots differ in the last bits. */
+/** Rounds to a millionth of a metre: equal robots differ in the last bits. */
 const keyOf = (matrix: Matrix4) => matrix.elements.map((one) => Math.round(one * 1e6)).join();
 
 /** A copy in the place of the part, with its colour at each vertex. */
@@ -151,7 +151,7 @@ function colouredOf({ geometry, material, local }: Part): BufferGeometry {
   copy.setAttribute("position", floats(corners as BufferAttribute));
   if (geometry.hasAttribute("normal")) copy.setAttribute("normal", floats(geometry.getAttribute("normal") as BufferAttribute));
   const index = geometry.index ? Array.from(geometry.index.array) : Array.from({ length: corners.count }, (_, at) => at);
-  // A mirrored part has its front where its back was.
+  // A mirrored part has its front and back exchanged.
   if (local.determinant() < 0)
     for (let at = 0; at < index.length; at += 3) [index[at + 1], index[at + 2]] = [index[at + 2]!, index[at + 1]!];
   copy.setIndex(index);

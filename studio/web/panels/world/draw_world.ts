@@ -3,8 +3,7 @@ import { niceStep } from "../plots/draw_timeline";
 import type { Colours, Size } from "./painted";
 
 /**
- * The path of the robot over the floor up to the time that is shown, x to the right and y
- * up, with a scale in metres.
+ * The path of the robot over the floor up to the shown time, x to the right and y up, with a scale in metres.
  */
 export function drawWorld(context: CanvasRenderingContext2D, size: Size, colours: Colours, track: Track, none: string): void {
   const { path } = track;

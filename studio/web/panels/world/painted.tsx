@@ -34,7 +34,7 @@ export function Painted({
   onPick,
   every = 48,
 }: {
-  /** A description of the picture; empty: the text beside it says everything. */
+  /** A description of the picture; empty: the text beside it describes it completely. */
   label: string;
   /**
    * Milliseconds between pictures: twenty a second look like motion, and leave time for drawing the net.

@@ -6,10 +6,10 @@ import { cut } from "../fleet/draw_fleet";
 
 /** Milliseconds between two pictures of one camera. */
 const pause = 200;
-/** Pictures that are shown at a time. */
+/** The number of pictures shown at a time. */
 export const mostPictures = 6;
 
-/** What cameras see, beside the world. */
+/** The pictures of the cameras, beside the world. */
 export function Pictures({ track, views }: { track: Track; views: readonly WorldView[] }) {
   if (views.length === 0) return null;
   return (

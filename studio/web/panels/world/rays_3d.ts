@@ -12,7 +12,7 @@ import type { Object3D } from "three";
 import type { Rays } from "../../model/net/views";
 
 const one = new Vector3(1, 1, 1);
-/** Of all scans together: two points of three numbers each. */
+/** Numbers of all scans together: two points of three numbers each. */
 const mostRays = 20_000;
 
 /** The rays of all scans, in one draw call. */

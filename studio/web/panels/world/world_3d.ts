@@ -28,7 +28,7 @@ import type { Rays } from "../../model/net/views";
 import { Pace } from "../run/pace";
 import { Rays3d } from "./rays_3d";
 
-/** Whether WebGL runs on the processor, where every pixel counts. Throws if there is none. */
+/** Whether WebGL runs on the processor, which makes every pixel expensive. Throws if there is none. */
 function isSoftware(): boolean {
   const context = document.createElement("canvas").getContext("webgl2");
   if (!context) throw new Error("This browser has no WebGL.");
@@ -38,7 +38,7 @@ function isSoftware(): boolean {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
 }
 
-/** A world in three dimensions on a canvas. It is drawn only when something has changed. */
+/** A world in three dimensions on a canvas. It is drawn only after a change. */
 export class World3d {
   /** The body that the view moves with. */
   private followed = -1;
@@ -48,7 +48,7 @@ export class World3d {
   private readonly controls: OrbitControls;
   private readonly isSoftware = isSoftware();
   private readonly pace = new Pace();
-  /** Their places; what is drawn of them is in `drawn`. */
+  /** Their poses; the drawn objects are in `drawn`. */
   private bodies: Object3D[] = [];
   private drawn: Bodies3d | null = null;
   private root: Object3D = new Group();
@@ -67,8 +67,8 @@ export class World3d {
   private pressed = new Vector2();
 
   /**
-   * poses: what is to be shown now. picked: a body was clicked. background: a colour of CSS.
-   * Throws if there is no WebGL.
+   * poses: the poses to show now. picked: a body was clicked. background: a colour of CSS. Throws if there is
+   * no WebGL.
    */
   constructor(
     private readonly canvas: HTMLCanvasElement,
@@ -108,7 +108,7 @@ export class World3d {
     scene.updateMatrixWorld(true);
     lookPlain(scene);
     this.lookAtAll();
-    // What is still goes last: then the bodies are no part of it.
+    // Still objects come last: by then the bodies are no longer among them.
     this.drawn = Bodies3d.of(this.bodies);
     const fixed = still(this.root);
     this.root.clear();
@@ -185,7 +185,7 @@ export class World3d {
     this.waitUntilDrawn();
   }
 
-  /** `render` only orders what another process draws. */
+  /** `render` only queues the work of another process. */
   private waitUntilDrawn(): void {
     const gl = this.renderer.getContext() as WebGL2RenderingContext;
     const fence = gl.fenceSync(gl.SYNC_GPU_COMMANDS_COMPLETE, 0);
@@ -220,7 +220,7 @@ export class World3d {
     this.camera.position.add(now).sub(old);
     this.controls.target.add(now).sub(old);
     this.controls.update();
-    // What has turned with the body is drawn now, not once more.
+    // Objects that have turned with the body are drawn now, not once more.
     this.changed = false;
   }
 
@@ -288,7 +288,7 @@ export class World3d {
     if (body !== undefined) this.given.picked(body);
   };
 
-  /** Where a body is on the screen, for tests and labels; null: behind the view. */
+  /** The position of a body on the screen, for tests and labels; null: behind the view. */
   onScreen(body: number): { x: number; y: number } | null {
     const group = this.bodies[body];
     if (!group) return null;

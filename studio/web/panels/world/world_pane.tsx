@@ -97,7 +97,7 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
   );
 }
 
-/** The colours of the robots. A name chooses its agent in the drawing. */
+/** The colours of the robots. A click on a name selects its agent in the drawing. */
 function Legend({ robots }: { robots: readonly Robot[] }) {
   const studio = useStudio();
   return (
@@ -118,7 +118,7 @@ function Legend({ robots }: { robots: readonly Robot[] }) {
 
 const noViews: readonly WorldView[] = [];
 
-/** The devices whose values can be looked at. */
+/** The devices whose values can be shown. */
 function useViews(world: World | null): readonly WorldView[] {
   const studio = useStudio();
   const revision = useStore(studio.draft.store, (draft) => draft.revision);
@@ -167,7 +167,7 @@ interface SpaceProps {
 
 const posesOf = ({ world, now }: Track) => world?.at(now) ?? null;
 
-/** A body that is clicked chooses its agent in the drawing. */
+/** A click on a body selects its agent in the drawing. */
 function Space({ track, beside, world, scans, followed, onProblem }: SpaceProps) {
   const studio = useStudio();
   const canvas = useRef<HTMLCanvasElement>(null);

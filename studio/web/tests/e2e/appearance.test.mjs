@@ -1,5 +1,5 @@
-// Each tab at three widths looks as it did when a person looked at it. UPDATE_PICTURES=1 makes the pictures anew:
-// look at them before you commit them.
+// Each tab at three widths looks as it did when a person approved it. UPDATE_PICTURES=1 makes the pictures
+// anew: look at them before you commit them.
 import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
@@ -11,8 +11,8 @@ const widths = [640, 1024, 1440];
 const tabs = { Net: ["Element", "Verify", "Play", "Run", "Recordings"], Structure: ["Element"] };
 
 /**
- * The share of squares of 8 x 8 pixels whose mean brightness differs by more than an eighth: letters that are drawn
- * a little otherwise do not count, a part that is elsewhere does. 1: the sizes differ.
+ * The share of squares of 8 x 8 pixels whose mean brightness differs by more than an eighth. Small
+ * differences of letters do not count, a part in another position does. 1: the sizes differ.
  */
 const difference = (page, one, other) =>
   page.evaluate(
@@ -36,7 +36,9 @@ const difference = (page, one, other) =>
     [one, other].map((bytes) => bytes.toString("base64")),
   );
 
-/** Compares what is on the page, or on a part of it, with a picture, or makes the picture. Returns what is to be said against it. */
+/**
+ * Compares the page, or a part of it, with a picture, or makes the picture. Returns the difference as text.
+ */
 async function judged(page, name, part = page) {
   await page.mouse.move(0, 0);
   await drawn(page);

@@ -70,7 +70,7 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
     );
     assert.ok(await slider.isDisabled());
 
-    // Where one looks, the other does; what is folded in one is in both.
+    // Both panes show the same part, and a page folded in one is folded in both.
     const [before] = await looks(page);
     const right = await panes(page).nth(1).boundingBox();
     await page.mouse.move(right.x + right.width / 2, right.y + right.height / 2);
@@ -85,7 +85,7 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
     await button(page, "Fold control").click();
     await until(page, async () => (await page.locator('.page.folded[data-path="robot.control"]').count()) === 2, "both folded");
 
-    // Without the run, the recording has the place for itself; another recording can be put beside it.
+    // Without the run, the recording has the space for itself; another recording can be put beside it.
     await page.getByRole("button", { name: /^Close Run/ }).click();
     await until(page, async () => (await panes(page).count()) === 1, "one pane");
     await page
@@ -131,7 +131,7 @@ test("a run that goes on is put away and shown again; a game has the drawing for
     await button(page, "Close").click();
     await page.locator(".watch").waitFor();
     await element(page, "robot.control").locator(".running").getByText("follow").waitFor();
-    // What is opened during a game ends the game.
+    // A recording that is opened during a game ends the game.
     await button(page, "Play the token game").click();
     await tab(page, "Recordings").click();
     await page.locator(".recordings button").first().click();

@@ -1,4 +1,5 @@
-// What is built in the browser alone: channels by keyboard, functions with the errors of their build, a whole robot.
+// Building in the browser alone: channels by keyboard, functions with the errors of their build, a whole
+// robot.
 import assert from "node:assert/strict";
 import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -198,7 +199,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       await buffer("robot.control", "output", "output", "motion", "Motion");
       const line = async (from, to) => {
         const [start, end] = [from, to].map((path) => page.locator(`[data-handle="${path}"]`));
-        // The boxes may still be on their way to where a new channel puts them.
+        // The boxes may still be moving to make space for a new channel.
         for (const handle of [start, end]) await middleOf(page, handle);
         await start.dragTo(end);
       };
@@ -269,7 +270,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         await world.getByRole("button", { name: "Add driver" }).click();
         const of = world.getByRole("group", { name: path, exact: true });
         await of.getByLabel("Kind").selectOption(kind);
-        // The world says what it has.
+        // The world lists its elements.
         await of.locator(`option[value="${device}"]`).waitFor({ state: "attached" });
         await fill(of.getByLabel("Device"), device);
       }

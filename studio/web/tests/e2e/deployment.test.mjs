@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { test } from "node:test";
 import { environment, example, onBuilt } from "./page.mjs";
 
-/** Looks until it holds; what the machine does in between takes as long as it takes. */
+/** Checks until it holds; the time depends on the load of the machine. */
 async function until(holds, what) {
   const end = Date.now() + 120_000;
   while (!holds()) {

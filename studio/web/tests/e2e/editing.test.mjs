@@ -47,7 +47,7 @@ test("a channel is dragged from an output to an input, and its modes are chosen"
     await page.locator('[data-path="robot.motor"]').click();
     await button(page, "Add input").click();
     await page.locator('[data-handle="robot.motor.input"]').waitFor();
-    // The new input moves what is drawn, and on a busy machine it does so under the mouse: then again.
+    // The new input moves the drawing. On a busy machine this happens under the mouse, so it is tried again.
     const channel = page.locator('[data-path="channel:2"]');
     for (let turn = 0; turn < 20 && (await channel.count()) === 0; turn += 1) {
       await page.locator('[data-handle="robot.sensor.line"]').dragTo(page.locator('[data-handle="robot.motor.input"]'));
@@ -136,7 +136,7 @@ test("without a mouse: a behaviour is added, the text verified, undone and saved
     const press = async (...keys) => {
       for (const key of keys) await page.keyboard.press(key);
     };
-    /** Goes on with the tabulator key to what has that name. */
+    /** Presses the tabulator key until the element with that name has the focus. */
     const tabTo = async (role, name) => {
       for (let turn = 0; turn < 120; turn += 1) {
         const there = await page

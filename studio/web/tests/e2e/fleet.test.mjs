@@ -13,7 +13,7 @@ test("a fleet of a hundred opens folded, and any of its robots is found and look
     await find(page, "robot[73].control.walk");
     await page.locator('[data-path="robot[73].control.walk"]').first().waitFor();
     await page.getByRole("navigation", { name: "Layers" }).getByText("robot[73]", { exact: true }).waitFor();
-    // Only what is seen is in the page.
+    // Only visible elements are in the page.
     assert.ok((await page.locator(".sheet").count()) < 12);
     await element(page, "robot[73].control.walk").waitFor();
   }));
@@ -36,7 +36,7 @@ test("ten thousand robots open with less than five megabytes, and one of them is
     await page.getByText("530002 places").waitFor();
     await find(page, "robot[7777].control.walk");
     await element(page, "robot[7777].control.walk.t5").waitFor();
-    // Only what is near is drawn.
+    // Only near elements are drawn.
     assert.ok((await page.locator(".sheet .page").count()) < 3000);
     await tab(page, "Play").click();
     await button(page, "Play the token game").click();

@@ -1,6 +1,6 @@
-// Times of the page, with TESSERA as for the tests: `node tests/e2e/measure.mjs 100 1000` with fleets of so many robots,
-// `stream` while a run fires as fast as it can, `beside` the same with a recording beside it, `world` the view in three
-// dimensions of 10 and of 50 robots.
+// Measures the page, with TESSERA as for the tests: `node tests/e2e/measure.mjs 100 1000` with fleets of so
+// many robots, `stream` while a run fires at full speed, `beside` the same with a recording beside it,
+// `world` the view in three dimensions of 10 and of 50 robots.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -16,7 +16,7 @@ for (const what of process.argv.slice(2))
     for (const robots of [10, 50]) for (const large of [false, true]) await measureWorld(robots, { large });
   else await measureFleet(what);
 
-/** What another page is sent until it is drawn. */
+/** The data that another page receives until it is drawn. */
 async function bytesOf(page, server) {
   const network = await page.context().newCDPSession(page);
   await network.send("Network.enable");

@@ -1,8 +1,8 @@
-// How the page answers while a run streams faster than it can be drawn: the gaps between frames, and the time from a click on
-// another layer to its drawing.
+// Measures the response of the page while a run streams faster than it can be drawn: the gaps between frames,
+// and the time from a click on another layer to its drawing.
 import { button, example, onPage, tab, until } from "./page.mjs";
 
-/** What is measured: with a simulated world, and without one, which fires faster. */
+/** The measured cases: with a simulated world, and without one, which fires faster. */
 const projects = {
   "01_line_follower": ["robot.control", "robot.sensor", "robot.control.follow", "robot.motor", "robot.sensor.watch"],
   "03_two_slot_buffer": [
@@ -14,7 +14,7 @@ const projects = {
   ],
 };
 
-/** A run as fast as it can; `beside`: with a recording beside it that follows its time. */
+/** A run at full speed; `beside`: with a recording beside it that follows its time. */
 export async function measureStream(beside) {
   for (const [name, layers] of Object.entries(projects)) {
     console.log(`${name}${beside ? ", with a recording beside it" : ""}:`);

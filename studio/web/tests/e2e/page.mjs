@@ -1,4 +1,5 @@
-// What the end-to-end tests share: a server for a copy of an example, a page on it, and what may never happen.
+// The shared part of the end-to-end tests: a server for a copy of an example, a page on it, and the errors
+// that must never happen.
 import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
@@ -37,7 +38,7 @@ export async function onPage(project, test, options = {}) {
     await test(page, server, open);
     assert.deepEqual(problems, []);
   } catch (error) {
-    // What a person would have seen, since nobody sees it where tests run.
+    // The picture that a person would have seen.
     for (const page of context.pages())
       console.error(`-- the page when the test failed\n${await page.locator("body").innerText().catch(String)}\n--`);
     throw error;
@@ -83,11 +84,11 @@ export async function until(page, look, what) {
   return assert.fail(`never happened: ${what}`);
 }
 
-/** Until what has arrived is drawn. */
+/** Waits until everything that has arrived is drawn. */
 export const drawn = (page) =>
   page.evaluate(() => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done))));
 
-/** The middle of something, once it stays where it is. */
+/** The middle of an element, once it no longer moves. */
 export async function middleOf(page, locator) {
   let last = "";
   return until(
@@ -103,7 +104,7 @@ export async function middleOf(page, locator) {
   );
 }
 
-/** A function that lets axe look at the page as it is, and adds what it objects to. */
+/** A function that lets axe check the present page, and adds its complaints. */
 export async function judges(page, found) {
   await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
   return async (where) => {

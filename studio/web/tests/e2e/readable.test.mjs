@@ -1,4 +1,4 @@
-// Letters are large enough on every tab, what is drawn says what it means, and little room is enough.
+// Letters are large enough on every tab, drawn elements explain themselves, and a small window is enough.
 import assert from "node:assert/strict";
 import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -27,7 +27,7 @@ const agents = [
   "lookout",
 ];
 
-/** Texts that are seen and have less than ten pixels: "9.0 px: follow". */
+/** Visible texts with less than ten pixels: "9.0 px: follow". */
 const tooSmall = (page) =>
   page.evaluate(() => {
     const found = [];
@@ -88,7 +88,7 @@ for (const [name, project] of Object.entries({ line_follower: example("01_line_f
         await drawn(page);
         assert.deepEqual(await tooSmall(page), [], panel);
       }
-      // Nor on the way from far to near.
+      // The same holds on the way from far to near.
       const area = await page.locator(".canvas-area").boundingBox();
       await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
       for (let step = 0; step < 24; step += 1) {
@@ -129,7 +129,7 @@ for (const [name, project] of Object.entries({
         assert.deepEqual(await all.size(), [], `step ${step} of the zoom`);
         assert.deepEqual(await all.faults(), [], `step ${step} of the zoom`);
       }
-      // Near enough, everything is there.
+      // Near enough, everything is visible.
       assert.ok(await page.locator(".canvas-area.detail-all").count());
     }));
 

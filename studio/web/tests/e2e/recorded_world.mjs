@@ -1,4 +1,4 @@
-// A recording of robots in a world, made here: no controller is built for it.
+// A recording of robots in a world, made by this file, so no controller is built for it.
 import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 

@@ -34,7 +34,7 @@ test("a recording that is too long to be sent at once is looked at from its firs
     // The slider goes from one edge of the window to the other.
     const { width } = await slider.boundingBox();
     assert.ok(width > 0.95 * 1440, `${width} px`);
-    // The address names the moment: who opens it sees the same.
+    // The address names the shown time: it opens the same view for another person.
     await slider.fill(String(last * 0.73));
     const link = await until(page, () => Math.abs(momentOf(page) - last * 0.73) < 1e6 && page.url(), "the moment in the address");
     await page.reload();
@@ -46,7 +46,7 @@ test("a recording that is too long to be sent at once is looked at from its firs
     await until(page, async () => Number(await slider.inputValue()) === 12.5e9, "the moment of the other link");
   }));
 
-/** The moment that the address of the page names, in nanoseconds. */
+/** The time in the address of the page, in nanoseconds. */
 const momentOf = (page) => 1e9 * Number(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("t") ?? NaN);
 
 test("a recording is saved as a film that shows the same without the studio", () =>
@@ -97,7 +97,7 @@ test("a recording is saved as a film that shows the same without the studio", ()
     rmSync(dirname(file), { recursive: true });
   }));
 
-/** How much of the world's picture is path. */
+/** The part of the world's picture that is path. */
 const pathDrawn = (page) =>
   page.getByRole("img", { name: "The robot's path from above" }).evaluate((canvas) => {
     const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
@@ -123,7 +123,7 @@ test("the robot's path is there after a reload, and in the recording up to the m
     await tab(page, "Run").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();
     await until(page, async () => (await pathDrawn(page)) > 0.8 * before, "the path of before");
-    // The values of before too, though none changes while it stands.
+    // The values from before stay, although none changes while the run stands.
     await page.locator(".watch-pane.values").getByText("robot.control.motion.linear").waitFor();
     await button(page, "Stop").click();
     await page.getByTestId("run-state").getByText("Ended").waitFor();
@@ -174,7 +174,7 @@ test("of a run that is too fast to be drawn, all firings are counted, and the pa
     await button(page, "Run").click();
     const facts = page.getByTestId("run-facts");
     await facts.getByText(/only counted/).waitFor();
-    // It answers meanwhile: another layer is drawn while firings come.
+    // The page responds meanwhile: another layer is drawn while firings come.
     await find(page, "robot.control.follow");
     await page.locator('[data-sheet="robot.control.follow"]').waitFor();
     await page.getByTestId("run-state").getByText("Ended").waitFor();
@@ -184,7 +184,7 @@ test("of a run that is too fast to be drawn, all firings are counted, and the pa
     await until(page, async () => number(/([\d,]+) firings/, await facts.innerText()) === outcome, "as many as there were");
     const dropped = number(/([\d,]+) only counted/, await facts.innerText());
     assert.ok(outcome > 100_000 && dropped > 0 && dropped < outcome, `${dropped} of ${outcome}`);
-    // Of each transition it knows the least that there were.
+    // For each transition, it knows the least number of firings.
     const shown = await page.locator('[data-sheet="robot.control.follow"] .firings').allTextContents();
     assert.ok(shown.some((text) => /^≥/.test(text)) && !shown.some((text) => /^×/.test(text)), shown.join());
   }));

@@ -1,4 +1,4 @@
-// What the commands of the README leave, looked at as its readers do: pages, pictures, drawings and texts.
+// Checks the outputs of the README's commands from the reader's side: pages, pictures, drawings and texts.
 // TESSERA_REPORT_SECONDS=3600 is the long form of the run.
 import assert from "node:assert/strict";
 import { execFile } from "node:child_process";
@@ -18,13 +18,13 @@ const demo = path.join(folder, "demo");
 const rover = path.join(folder, "rover");
 const run = promisify(execFile);
 
-/** What the command printed. */
+/** The output of the command. */
 async function tessera(arguments_, where = folder) {
   const { stdout } = await run(binary, arguments_, { cwd: where, maxBuffer: 1 << 28 });
   return stdout;
 }
 
-/** Text for people: English, printable, without anything that a program has left behind. */
+/** Checks text for people: English, printable, without leftovers of a program. */
 function assertReadable(text, what) {
   const odd = [...text].find(
     (c) =>
@@ -76,7 +76,7 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** How many colours a picture has, looked at coarsely. */
+/** The number of colours of a picture, coarsely counted. */
 const coloursOf = (bytes) =>
   page.evaluate(
     async (source) => {
@@ -91,7 +91,7 @@ const coloursOf = (bytes) =>
     `data:image/png;base64,${bytes.toString("base64")}`,
   );
 
-/** All that a page shows. */
+/** The complete content of a page. */
 const shown = () =>
   page.evaluate(() => {
     const drawings = [...document.querySelectorAll("svg")].map((svg) => {

@@ -22,7 +22,7 @@ test("a system without a world runs on the simulated clock, and what came of it 
     assert.equal(await rows.count(), 2);
     assert.match(await rows.first().innerText(), /watcher\.control\s+201\s+0\s+0/);
     assert.equal(await page.getByRole("heading", { name: "World" }).count(), 0);
-    // What the subsystem remembers is among the values, and in the panel of the subsystem.
+    // The memory of the subsystem is among the values, and in the panel of the subsystem.
     const values = page.locator(".value-list");
     await values.getByRole("textbox", { name: "Values whose path contains" }).fill("memory.missed");
     await values.getByText("watcher.control.memory.missed").click();
@@ -33,7 +33,7 @@ test("a system without a world runs on the simulated clock, and what came of it 
     await memory.getByText("last").waitFor();
     assert.match(await memory.innerText(), /last\s+199\s+missed\s+0/);
     await tab(page, "Run").click();
-    // The next run is as this one was, until something else is asked for.
+    // The next run has the settings of this one, until they are changed.
     assert.equal(await speed.inputValue(), "0");
     assert.equal(await page.getByRole("textbox", { name: "For" }).inputValue(), "20s");
     await speed.fill("1");
@@ -43,7 +43,7 @@ test("a system without a world runs on the simulated clock, and what came of it 
     await page.getByTestId("run-state").getByText("Ended — stopped").waitFor();
   }));
 
-/** The robot moves in the view in three dimensions, and the file of its world is glTF as it should be. */
+/** The robot moves in the view in three dimensions, and the file of its world is valid glTF. */
 async function seenInSpace(page, server) {
   const space = page.getByRole("img", { name: "The world in three dimensions" });
   await space.waitFor();
@@ -92,7 +92,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await until(page, async () => (await facts()) !== before, "more firings");
     await page.getByText("robot.control.motion.angular").waitFor();
     await seenInSpace(page, server);
-    // A parameter of the running controller is typed, and shown as the controller has taken it.
+    // A parameter of the running controller is typed, and shown in the form that the controller has accepted.
     const speed = page.locator('[data-parameter="v"]');
     await speed.getByText("0.2 m/s").waitFor();
     await speed.getByRole("textbox").fill("fast");
@@ -111,7 +111,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await button(page, "Pause").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();
     const count = async () => Number(/([\d,]+) firings/.exec(await facts())[1].replaceAll(",", ""));
-    await drawn(page); // a pause is told after its firings
+    await drawn(page); // a pause is reported after its firings
     const paused = await count();
     await button(page, "Step one firing").click();
     await until(page, async () => (await count()) === paused + 1, "one more firing");

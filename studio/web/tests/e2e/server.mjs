@@ -5,12 +5,12 @@ import { tmpdir } from "node:os";
 import { basename, join } from "node:path";
 
 const tessera = process.env.TESSERA ?? "tessera";
-// The sockets of controllers that others have started on this machine are not of these tests' world.
+// Controllers that were started elsewhere on this machine are not visible to these tests.
 const world = mkdtempSync(join(tmpdir(), "studio-"));
 const env = { ...process.env, XDG_RUNTIME_DIR: world };
 process.on("exit", () => rmSync(world, { recursive: true, force: true }));
 
-/** For what a test starts beside the server. */
+/** The further processes that a test starts beside the server. */
 export const environment = { tessera, env };
 
 const removeAll = (parent, kept) => {
@@ -26,19 +26,19 @@ function build(root) {
   removeAll(join(root, ".tessera"), buildFolders);
 }
 
-/** A copy of the project as it is in the source; what was built of an earlier copy is kept, since building takes long. */
+/** A copy of the project's source; the build of an earlier copy is kept, because building takes long. */
 function copyOf(folder) {
   const root = join(world, basename(folder));
   removeAll(root, [".tessera"]);
   removeAll(join(root, ".tessera"), buildFolders);
-  // Without the dates of the source everything would be built again.
+  // Without the dates of the source, everything would be built again.
   cpSync(folder, root, { recursive: true, preserveTimestamps: true, filter: (path) => basename(path) !== ".tessera" });
   return root;
 }
 
 /**
- * Starts it, on any free port unless one is given. `text` reads the specification as it is on disk.
- * `built`: its controller is built beforehand, so that a run starts at once.
+ * Starts it, on any free port unless one is given. `text` reads the specification from disk. `built`: its
+ * controller is built beforehand, so that a run starts at once.
  */
 export async function serve(folder, { port = 0, copy = true, built = false } = {}) {
   const root = copy ? copyOf(folder) : folder;
@@ -69,7 +69,7 @@ export async function serve(folder, { port = 0, copy = true, built = false } = {
     port: Number(new URL(url).port),
     token: hash.replace("#token=", ""),
     text: () => readFileSync(file, "utf8"),
-    /** As if it had crashed. */
+    /** Ends it like a crash. */
     kill: async () => {
       child.kill("SIGKILL");
       await ended;

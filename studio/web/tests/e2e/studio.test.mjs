@@ -135,7 +135,7 @@ test("a server that is killed and started again is noticed, and found again with
     const again = await serve(server.root, { port: server.port, copy: false });
     try {
       await page.getByRole("alert").getByText("The server was started anew").waitFor();
-      // `tessera studio` opens its new address; the old tab hears of it.
+      // `tessera studio` opens its new address; the old tab is notified.
       const other = await open();
       await other.goto(again.url);
       await page.getByRole("alert").getByText("The server was started anew").waitFor({ state: "detached" });

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { test } from "node:test";
 import { button, folder, judges, onBuilt, tab, until } from "./page.mjs";
 
-/** What the studio says of the newest run: asked beside the page, which may be closed. */
+/** The studio's report on the newest run, requested beside the page, which may be closed. */
 const speeds = async ({ address, url }) => {
   const token = /token=([^&]+)/.exec(url)[1];
   const ask = async (path) => (await fetch(new URL(path, address), { headers: { Authorization: `Bearer ${token}` } })).json();
@@ -44,7 +44,7 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
         );
       }, what);
 
-    // Until somebody operates it, keys do nothing.
+    // Keys have no effect until the panel is operated.
     await stick.focus();
     await page.keyboard.press("ArrowUp");
     assert.match(await drive.innerText(), /forward 0 m\/s/);
@@ -84,7 +84,7 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     }
     assert.deepEqual(objections, []);
 
-    // Who leaves the controls lets go of them.
+    // An operator who leaves the controls lets go of them.
     await stick.focus();
     await page.keyboard.down("ArrowUp");
     await is({ left: 0.5 / 0.03 }, "ahead");

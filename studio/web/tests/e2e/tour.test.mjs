@@ -16,7 +16,10 @@ const picture = async (page, name) => {
   await page.screenshot({ path: join(pictures, `${name}.png`) });
 };
 
-/** What the moving picture is made of: the run twice as fast as real, then a tenth as fast and one behaviour from near. */
+/**
+ * The parts of the moving picture: the run at double speed, then at a tenth of real speed, and one behaviour
+ * from near.
+ */
 async function moving(page) {
   if (!pictures) return;
   const frames = join(pictures, "moving");
@@ -84,10 +87,10 @@ async function runFor(page, duration) {
   await page.getByTestId("run-state").getByText("Ended").waitFor();
 }
 
-/** Looks through the recording for a moment, in seconds, at which it does something else than the run beside it. */
+/** Searches the recording for a time, in seconds, at which it differs from the run beside it. */
 async function momentThatDiffers(page, slider, seconds) {
   const start = Number(await slider.getAttribute("min"));
-  // Between the instants of the rates, so that nothing changes at the moment itself.
+  // A time between the instants of the rates, so that nothing changes at that time itself.
   for (let hundredths = 52; hundredths < 100 * seconds; hundredths += 10) {
     const moment = hundredths / 100;
     await slider.fill(String(start + hundredths * 1e7));
@@ -142,7 +145,7 @@ test("a behaviour is added in the drawing, verified, given its function, run and
     await picture(page, "run");
     await button(page, "Pause").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();
-    // What fired before the pause may still be on its way to the page.
+    // Firings before the pause may still be on their way to the page.
     let before = -1;
     let since = Date.now();
     await until(
@@ -172,7 +175,7 @@ test("a behaviour is added in the drawing, verified, given its function, run and
     await tab(page, "Run").click();
     await page.getByRole("combobox", { name: "Track" }).selectOption("curves.png");
     await runFor(page, "4s");
-    // On simulated time a run does the same whenever it is made: a moment at which the two differ is one in the next run too.
+    // On simulated time, repeated runs are equal: a time at which the two differ is one in the next run too.
     const moment = await momentThatDiffers(page, time, 4);
     await tab(page, "Run").click();
     await runFor(page, `${moment}s`);

@@ -1,4 +1,4 @@
-// The studio as a workshop: who is stuck and what mends it, and the structure of a system of real size.
+// The studio as a workshop: stuck subsystems and their repair, and the structure of a system of real size.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
@@ -80,7 +80,7 @@ test("among six agents one click finds the chain of waiting, names it in words, 
       await tab(page, view).click();
       for (const width of [640, 1024, 1440]) {
         await page.setViewportSize({ width, height: 900 });
-        // The camera flies when it is asked to.
+        // The camera flies on request.
         await cause.getByRole("button", { name: "Close the lens" }).click();
         await cause.getByRole("button", { name: "Show who is stuck" }).click();
         await middleOf(page, page.locator('.lens [data-lens="carrier.control"]'));
@@ -89,7 +89,7 @@ test("among six agents one click finds the chain of waiting, names it in words, 
     }
   }));
 
-/** Texts of the structure that overlap each other or are cut without saying so, and lines through boxes. */
+/** Texts of the structure that overlap each other or are cut without a mark, and lines through boxes. */
 const faults = () => {
   const found = [];
   const inside = (box, point) =>

@@ -1,6 +1,6 @@
 import type { Recording } from "../../live/protocol";
 
-/** The answer of the server that has these members, and else only what follows from its firings. */
+/** The answer of the server with these members, and otherwise only the consequences of its firings. */
 export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings">): Recording {
   const { firings } = known;
   return {

@@ -14,7 +14,7 @@ beforeEach(() => {
   vi.stubGlobal("requestAnimationFrame", () => 1);
 });
 
-/** A runner that watches a run, and how the server tells it of something. */
+/** A runner that watches a run, and a function that sends it an event of the server. */
 async function watching() {
   const heard = new Map<string, (data: object) => void>();
   const connection = { on: (name: string, handler: (data: object) => void) => void heard.set(name, handler) };

@@ -11,7 +11,7 @@ const subsystem = (of: Structure, path: string) => (findThing(of, path) as { of:
 const behaviour = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["behaviours"][number] }).of;
 const buffer = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["buffers"][number] }).of;
 
-/** What changed, as a reader of the commit would see it. */
+/** The changed lines, as in the diff of a commit. */
 function changes(before: string, after: string): string[] {
   const lines = before.split("\n");
   return diff(lines, after.split("\n")).flatMap((hunk) => [
@@ -160,7 +160,8 @@ describe("changing", () => {
 describe("renaming changes the name wherever it stands, and nothing else", () => {
   it("renames an agent", () => {
     const after = edits.renameAgent(structure, structure.agents[0]!, "rover");
-    // The comment in the first line, and the body of the world that the check and the measures name.
+    // Two changes: the comment in the first line, and the body of the world that the check and the measures
+    // name.
     expect(after.match(/\brobot\b/g)).toHaveLength(4);
     expect(changed(after).length).toBe(2 * 9);
     expect(changed(after)).toContain(

@@ -5,7 +5,8 @@ import { NetModel, type FoldedNet } from "../../model/net/net";
 import type { NetJson } from "../../model/net/net_json";
 import json from "./ring.json";
 
-// Three robots of one template in a ring and two other agents, as the server sends them and as `tessera show --json` writes them.
+// Three robots of one template in a ring and two other agents, in the forms of the server and of `tessera
+// show --json`.
 const { folded, whole } = json as unknown as { folded: FoldedNet; whole: NetJson };
 const net = new NetModel(folded);
 

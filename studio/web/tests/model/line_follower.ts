@@ -3,7 +3,7 @@ import type { ElkNode } from "../../model/net/layout";
 import { NetModel, type FoldedNet } from "../../model/net/net";
 import json from "./line_follower.json";
 
-/** The example 01_line_follower as the server sends it. */
+/** The example 01_line_follower in the form of the server. */
 export const lineFollower = () => new NetModel(json as unknown as FoldedNet);
 
 const engine = new Elk();

@@ -19,7 +19,7 @@ const one =
 const fleet =
   'agents:\n  robot: { control: { inputs: { i: bool }, outputs: { o: bool }, behaviours: { run: {} } }, count: 50, ring: true }\nchannels:\n  - "robot[i].control.o -> robot[i+1].control.i"\n';
 
-/** The box of a piece of a line, without what only touches a rim. */
+/** The box of a piece of a line, without parts that only touch a rim. */
 const pieces = (points: readonly Point[]): Box[] =>
   points.slice(1).map((to, at) => {
     const from = points[at]!;

@@ -142,7 +142,7 @@ it("an edit that mends nothing costs one property, and timeouts are put together
     verdict("safe", { verdict: "holds" }),
   ];
   const asked: string[][] = [];
-  // Only if both senders go on at once.
+  // It holds only if both senders go on at once.
   const goesOn = (edited: string) => !edited.includes("timeout") && !edited.includes("send: blocking");
   let last = "";
   const api = {
@@ -166,7 +166,7 @@ it("an edit that mends nothing costs one property, and timeouts are put together
   const { found } = repairs.store.get();
   expect(found[0]!.title).toBe("Let a.control.y go on at once; let b.control.y go on at once");
   expect(found[0]!.mends).toEqual(["goes_on", "deadlock_free"]);
-  // Four edits by themselves and the first two of them together, before all else is asked for.
+  // Four single edits and the first two of them together, before everything else.
   const firstRest = asked.findIndex((names) => names.length > 1);
   expect(asked.slice(0, firstRest).every((names) => names.join() === "goes_on")).toBe(true);
   expect(asked[firstRest]).toEqual(["deadlock_free", "safe"]);
@@ -189,7 +189,7 @@ describe("functionAt", () => {
 });
 
 it("messages of a build are found by their file, with their hints", () => {
-  // As `tessera simulate` prints them, and a message of the compiler itself.
+  // Messages as `tessera simulate` prints them, and a message of the compiler itself.
   const build = `src/robot/control.cpp:12:25: error E501: robot.control has no input 'rom'
    12 |   const bool known = in.rom.valid && in.scan.known && in.scan.age < std::chrono::milliseconds(300);
       |                         ^~~

@@ -4,7 +4,7 @@
 #include <memory>
 #include <tessera/tables.hpp>
 
-// What each subsystem executes, and how to make one: robot.control.cpp.
+// The nets of the subsystems, and the functions that make them: robot.control.cpp.
 
 namespace tessera_generated::units::robot::control {
 extern const tessera::SubsystemNet net;

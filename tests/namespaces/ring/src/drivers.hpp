@@ -7,7 +7,7 @@
 
 namespace ring {
 
-/// Writes down what it is told, and who tells it: the controller, or the guardian when that has died.
+/// Writes down each command and its origin: the controller, or the guardian when the controller has died.
 class Lamp final : public tessera::Effector<std::uint64_t>, public tessera::Guarded {
  public:
   bool write(const std::uint64_t& brightness) override {

@@ -14,7 +14,7 @@
 /// is in it as soon as the driver has written it.
 namespace command_log {
 
-/// What the robot does to itself when it is told to.
+/// The faults that the robot causes in itself on request.
 enum class Harm : std::uint32_t {
   none,
   abort,
@@ -39,7 +39,7 @@ enum class Harm : std::uint32_t {
   exec,
   close_all,
   chatter,
-  mute  ///< goes on and sends nothing any more
+  mute  ///< goes on and sends no value any more
 };
 /// In which code.
 enum class Place : std::uint32_t { control, motor, driver };

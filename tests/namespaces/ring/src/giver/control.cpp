@@ -4,7 +4,7 @@
 
 namespace ring::giver::control {
 
-/// Behaviour give of giver.control: gives the next item, and says what became of the last one.
+/// Behaviour give of giver.control: gives the next item, and reports the fate of the last one.
 void give(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   const std::uint32_t giver = context.index;
   if (memory.number == 0)

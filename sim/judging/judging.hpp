@@ -16,8 +16,9 @@ namespace tessera::sim {
 class Judging {
  public:
   /// json: a list of {"name", "when", "formula", "text"?, "within_s"?} at "checks", and an object of
-  /// {"number", "unit"} at "measures" (the text of the number alone: no unit); empty: neither. Problem: a check or measure does not fit the world. physics, eyes: must
-  /// outlive this object; eyes may be added after this call.
+  /// {"number", "unit"} at "measures" (the text of the number alone: no unit); empty: neither. Problem: a check
+  /// or measure does not fit the world. physics, eyes: must outlive this object; eyes may be added after this
+  /// call.
   [[nodiscard]] static Result<std::unique_ptr<Judging>> read(const std::string& json, const Physics& physics,
                                                              const Eyes& eyes);
 
@@ -28,7 +29,7 @@ class Judging {
   [[nodiscard]] std::vector<WorldFailure> take_failures();
   /// JSON: {"checks": [{"name", "text", "verdict", "time_s"?, "detail"?}], "measures": {NAME: {"least",
   /// "least_at_s", "greatest", "greatest_at_s", "mean", "last", "unit"?}}, "curves": [{"name", "check", "truth"?,
-  ///     "limit"?, "unit"?, "every_s", "spans": [[least, greatest] or null...]}]}; empty: there are none.
+  /// "limit"?, "unit"?, "every_s", "spans": [[least, greatest] or null...]}]}; empty: there are none.
   [[nodiscard]] std::string results() const;
 
  private:

@@ -91,7 +91,7 @@ DriverRequest request_of(const spec::Model& model, const spec::Driver& driver) {
   DriverRequest request{.path = model.driver_path(driver), .kind = driver.kind, .targets = {}, .options = {}};
   for (const spec::Driver::Target& target : driver.targets) request.targets.push_back(target.name);
   for (const auto& [name, option] : driver.options) request.options.emplace(name, option_of(option));
-  if (driver.real != spec::none)
+  if (driver.real.valid())
     request.type = model.layout_of(model.subsystem(driver.instance).real[driver.real].type);
   return request;
 }

@@ -83,7 +83,7 @@ TEST(Limits, AreClampedUnlessAFaultIsAskedFor) {
   ASSERT_NE(joints, reading.model->definitions[0].subsystems.end());
   const Limit& limit = joints->limits.front();
   EXPECT_EQ(limit.field, "");
-  EXPECT_EQ(limit.real, 0U);
+  EXPECT_EQ(limit.real.value, 0U);
   EXPECT_TRUE(limit.per_second);
   EXPECT_FALSE(limit.fault);
 }

@@ -82,7 +82,7 @@ TEST_F(LineFollower, SimulationHasTrackAndDrivers) {
   const Driver& wheel = model().simulation->drivers[1];
   EXPECT_EQ(wheel.kind, "velocity");
   EXPECT_EQ(wheel.target(), "wheel_left");
-  EXPECT_EQ(wheel.instance, 2U);
+  EXPECT_EQ(wheel.instance.value, 2U);
 }
 
 TEST_F(LineFollower, PropertiesAreKept) {

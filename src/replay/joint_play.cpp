@@ -374,7 +374,7 @@ std::string JointPlay::hear(ChannelId channel, std::uint32_t start, std::uint64_
     return fmt::format("'{}' does not join this process with another", name);
   const bool sends = process == ends.sending;
   const std::uint32_t other = sends ? ends.receiving : ends.sending;
-  if (other == none) return fmt::format("nobody is at the other end of '{}'", name);
+  if (other == none) return fmt::format("no process is at the other end of '{}'", name);
   const std::uint32_t peer = find_start(other, incarnation);
   const bool forwards =
       sends ? turn(sending(channel, start), peer, incarnation) : turn(channel, start, peer, incarnation);

@@ -44,7 +44,7 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
               "device:robot.motor@any (docs/running.md)")
       .repeated();
   command.flag("--accept-stuck", options.accept_stuck,
-               "A subsystem that waits for ever, while others go on, is no failure");
+               "Do not fail if a subsystem waits for ever while others go on");
   declare_verification_gate(command, options.gate);
   command.flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }

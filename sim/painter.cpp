@@ -84,7 +84,7 @@ class Painter final : public WorldPainter {
     std::copy_n(start.mocap_pos, 3 * model().nmocap, data_->mocap_pos);
     std::copy_n(start.mocap_quat, 4 * model().nmocap, data_->mocap_quat);
     mj_kinematics(&model(), data_.get());
-    hang_bodies();
+    attach_bodies();
     aim(picture, camera);
     renderer_.make_room_for(view_.size());
     renderer_.prepare(model());
@@ -104,19 +104,19 @@ class Painter final : public WorldPainter {
   [[nodiscard]] const mjModel& model() const { return physics_->model(); }
 
   /// A body that is not in the recording does not move, or is attached to one that is recorded.
-  void hang_bodies() {
-    hung_.resize(static_cast<std::size_t>(model().nbody));
+  void attach_bodies() {
+    attached_bodies_.resize(static_cast<std::size_t>(model().nbody));
     for (int body = 0; body < model().nbody; ++body) {
-      Hung& hung = hung_[static_cast<std::size_t>(body)];
+      AttachedBody& attached = attached_bodies_[static_cast<std::size_t>(body)];
       int on = body;
       auto found = std::ranges::find(bodies_, on);
       while (found == bodies_.end() && on != 0) {
         on = model().body_parentid[on];
         found = std::ranges::find(bodies_, on);
       }
-      if (found != bodies_.end()) hung.recorded = static_cast<std::size_t>(found - bodies_.begin());
-      hung.there =
-          hung.recorded ? seen_from(frame_of(*data_, on), frame_of(*data_, body)) : frame_of(*data_, body);
+      if (found != bodies_.end()) attached.recorded = static_cast<std::size_t>(found - bodies_.begin());
+      attached.there = attached.recorded ? seen_from(frame_of(*data_, on), frame_of(*data_, body))
+                                         : frame_of(*data_, body);
     }
   }
 
@@ -143,14 +143,14 @@ class Painter final : public WorldPainter {
   void move_to(std::span<const BodyPose> poses) {
     mjData& data = *data_;
     for (int body = 0; body < model().nbody; ++body) {
-      const Hung& hung = hung_[static_cast<std::size_t>(body)];
-      RigidFrame frame = hung.there;
-      if (hung.recorded) {
-        const BodyPose& pose = poses[*hung.recorded];
+      const AttachedBody& attached = attached_bodies_[static_cast<std::size_t>(body)];
+      RigidFrame frame = attached.there;
+      if (attached.recorded) {
+        const BodyPose& pose = poses[*attached.recorded];
         RigidFrame of_pose;
         std::ranges::copy(pose.position_m, of_pose.position.begin());
         std::ranges::copy(pose.rotation, of_pose.rotation.begin());
-        frame = within(of_pose, hung.there);
+        frame = within(of_pose, attached.there);
       }
       std::ranges::copy(frame.position, data.xpos + 3 * body);
       std::ranges::copy(frame.rotation, data.xquat + 4 * body);
@@ -181,14 +181,14 @@ class Painter final : public WorldPainter {
   }
 
   /// The pose of a body, relative to one whose pose is recorded; otherwise in the world.
-  struct Hung {
+  struct AttachedBody {
     std::optional<std::size_t> recorded;
     RigidFrame there;
   };
   std::unique_ptr<Physics> physics_;
   DataPtr data_;
   std::vector<int> bodies_;
-  std::vector<Hung> hung_;
+  std::vector<AttachedBody> attached_bodies_;
   PictureSize size_;
   mjvCamera camera_{};
   CameraView view_;

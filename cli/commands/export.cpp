@@ -37,9 +37,10 @@ void add_export(CommandLine& app, int& exit_code) {
   declare_specification(command, options->spec);
   command.option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
       .required();
-  command.flag("--abstract", options->abstract,
-               "The net that `verify` judges: without what never fires, and with what happens where no "
-               "condition holds");
+  command.flag(
+      "--abstract", options->abstract,
+      "Write the net that `verify` judges: without transitions that never fire, with an outcome where no "
+      "condition holds");
   command.footer(
       "Examples: tessera export --pnml net.pnml\n"
       "          tessera export --abstract --pnml net.pnml && tessera verify net.pnml");

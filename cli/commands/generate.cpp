@@ -84,13 +84,13 @@ void add_generate(CommandLine& app, int& exit_code) {
   command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
   command
       .flag("--build", options->build,
-            "Compile the controller too: then a copy that nobody can write to runs")
+            "Compile the controller too, so that a read-only copy of the project runs")
       .excludes(command.declared("--output"));
   command.option(
       "--systemd", options->systemd,
       "Folder for a unit of systemd per process of `deploy`, or one for the system (docs/service.md)");
   declare_verification_gate(command, options->gate);
-  command.option("--json", options->json, "Write what was done as JSON (- is standard output)");
+  command.option("--json", options->json, "Write the list of changes as JSON (- is standard output)");
   command.footer("Example: tessera generate --stubs");
   command.callback([options, &exit_code] { exit_code = generate_command(*options); });
 }

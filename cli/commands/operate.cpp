@@ -73,8 +73,8 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
     const std::string name = one.snapshot ? one.snapshot->name.value_or("") : one.controller.name();
     if (!answer) {
       silent = true;
-      code = complain(name + " has ended, or does not answer: nobody knows whether it takes " + command.path +
-                      "=" + command.value);
+      code = complain(name + " has ended, or does not answer: it is unknown whether it takes " +
+                      command.path + "=" + command.value);
     } else if (answer->elsewhere) {
       if (unknown.empty() || answer->error.size() > unknown.size()) unknown = answer->error;  // with a hint
     } else if (answer->error.empty()) {
@@ -112,7 +112,7 @@ int emergency_stop_command(const OperateOptions& options) {
     if (const std::optional<Problem> wrong = problem_of(one, answer_of(one)); !wrong)
       fmt::print("{}: emergency stop\n", one.name());
     else
-      code = complain(wrong->text + ": nobody knows whether its devices are safe");
+      code = complain(wrong->text + ": it is unknown whether its devices are safe");
   }
   return code;
 }
@@ -124,7 +124,8 @@ int reset_processes(std::vector<SeenController>& processes, const std::string& s
   int code = ok;
   for (SeenController& one : processes) {
     if (!one.snapshot)
-      code = complain(one.controller.name() + " says nothing: nobody knows whether it has an emergency stop");
+      code = complain(one.controller.name() +
+                      " does not answer: it is unknown whether it has an emergency stop");
     else if (one.snapshot->emergency)
       stopped.push_back(&one);
   }
@@ -185,7 +186,7 @@ void add_emergency_stop(CommandLine& app, int& exit_code) {
               "Give all devices of all running controllers their safe command until `tessera reset`");
   auto options = std::make_shared<OperateOptions>();
   declare_controller(command, *options, "Only those of this system, or this process");
-  command.option("--why", options->why, "Said on its terminal and in its recording");
+  command.option("--why", options->why, "The reason, for its terminal and its recording");
   command.footer(
       "This is no substitute for an emergency stop in hardware: it needs the controller, this computer and\n"
       "the connection between them.");

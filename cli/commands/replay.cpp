@@ -355,7 +355,7 @@ void add_replay(CommandLine& app, int& exit_code) {
                "Play it on the net of its specification: is it a legal firing sequence?");
   command.option("--spec", options->spec, "That specification (default: beside the recording or above)");
   command.flag("--coverage", options->coverage, shown_only,
-               "Show what of the net none of the recordings, or results of schedules, has reached; "
+               "Show the parts of the net that no recording, or result of schedules, has reached; "
                "--coverage=FILE writes JSON, too");
   command.flag("--print", options->print, "Print the events");
   command.flag("--values", options->values, all_values,
@@ -363,7 +363,7 @@ void add_replay(CommandLine& app, int& exit_code) {
                "--csv a row per change and a column per field");
   command.option("--from", options->from_s, "Events, or a film, from this time on, in seconds");
   command.option("--to", options->to_s, "Events, or a film, up to this time, in seconds");
-  command.option("--last", options->last, "The last so many of the events");
+  command.option("--last", options->last, "Only this many events, the last ones");
   command.option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
   command.option("--containing", options->transition, "Events whose text contains this: t6, .snd.motion");
   command.option("--csv", options->csv, "Write the events as CSV (- is standard output)");
@@ -376,7 +376,8 @@ void add_replay(CommandLine& app, int& exit_code) {
   command
       .option("--camera", options->film.camera, "Films: a camera of the world (default: all robots in view)")
       .needs(film);
-  command.option("--speed", options->film.speed, "Films: so many times as fast as the run").needs(film);
+  command.option("--speed", options->film.speed, "Films: speed, as a multiple of that of the run")
+      .needs(film);
   command.option("--size", options->film.size, "Films: WIDTHxHEIGHT in pixels").shows_default().needs(film);
   for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--json",
                             "--coverage", "--last", "--subsystem", "--containing"})

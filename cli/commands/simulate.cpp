@@ -218,20 +218,19 @@ void add_simulate(CommandLine& app, int& exit_code) {
                     .option("--from", options->from,
                             "Run user code again on the inputs of this recording, and compare the results")
                     .existing_file();
-  Option schedules =
-      command
-          .option(
-              "--schedules", options->schedules.count,
-              "Try so many interleavings, seeds from --seed on, of 1 s or --for each; report what fails, how "
-              "often, and how likely that is")
-          .within(1, std::numeric_limits<int>::max());
+  Option schedules = command
+                         .option("--schedules", options->schedules.count,
+                                 "Run this many interleavings, with seeds from --seed on, of 1 s or --for "
+                                 "each; report the failures "
+                                 "and their probability")
+                         .within(1, std::numeric_limits<int>::max());
   command.option("--part", options->schedules.part, "Schedules: only one part of the seeds, 3/20");
   command.option("--jobs", options->schedules.jobs, "Schedules: processes at a time (default: one per core)")
       .within(1, most_jobs);
   command.option("--results", options->schedules.results,
                  "Schedules: write the counts to this file, which `tessera merge` joins with others");
   command.flag("--coverage", options->coverage, shown_only,
-               "Show what of the net was not reached; --coverage=FILE writes JSON, too");
+               "Show the parts of the net that were not reached; --coverage=FILE writes JSON, too");
   command.flag(
       "--interleave", options->interleave,
       "Subsystems take turns after every firing, drawn from the seed, as in the runs of --schedules");
@@ -263,7 +262,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
       "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
       "  tessera simulate --schedules 1000000 --part 3/20 --results part3.json   see `tessera merge`\n"
-      "  tessera simulate --schedules 100 --coverage     what has no run reached?\n"
+      "  tessera simulate --schedules 100 --coverage     which parts has no run reached?\n"
       "  tessera simulate --from field.tsr               would this code have done the same there?\n"
       "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
   command.callback([options, &exit_code] { exit_code = simulate_command(*options); });

@@ -57,7 +57,8 @@ void UnhurriedOutput::write_all() {
     waiting_.pop_front();
     writing_ = true;
     if (left_out_ > 0 && waiting_.empty())
-      text += fmt::format("tessera: {} lines left out here: nobody took them\n", std::exchange(left_out_, 0));
+      text += fmt::format("tessera: {} lines left out here: the output was blocked\n",
+                          std::exchange(left_out_, 0));
     lock.unlock();
     write_one(text);
     lock.lock();

@@ -226,7 +226,7 @@ void add_verify(CommandLine& app, int& exit_code) {
   command.option("--scenario", options->scenario,
                  "Write the run of a violation for `tessera simulate --scenario`");
   command.flag("--explain", options->explain,
-               "Say how each verdict came about, and what it means for the net with conditions");
+               "Explain each verdict: its method, and its meaning for the net with conditions");
   command.footer(
       "Ends with 0 if all properties hold, 1 if one is violated or the specification is wrong,\n"
       "2 if a file cannot be read, 3 if a property is unknown.\n"

@@ -210,7 +210,7 @@ void DdsCarrier::receive(Listener& told, std::chrono::nanoseconds longest) {
     presence_.look(now, listener);
     dropped_.tell(now, listener);
     unsent_.tell(now, listener);
-    if (const auto text = tell_of_middleware_log(now)) listener.complaint(*text);
+    if (const auto text = middleware_log_report(now)) listener.complaint(*text);
     give_sign_of_life(now);
     if (listener.told() || woken || now >= end) return;
     endpoints_->wait((std::min(end, next_event()) - now).count());

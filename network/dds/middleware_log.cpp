@@ -54,7 +54,7 @@ std::string take_newest_log_line() {
   return newest.empty() ? newest : ": " + newest;
 }
 
-std::optional<std::string> tell_of_middleware_log(std::chrono::steady_clock::time_point now) {
+std::optional<std::string> middleware_log_report(std::chrono::steady_clock::time_point now) {
   const std::lock_guard lock(kept().mutex);
   if (kept().lines == 0 || now < kept().next) return std::nullopt;
   kept().next = now + std::chrono::seconds(1);

@@ -18,6 +18,6 @@ void keep_middleware_log();
 [[nodiscard]] std::string take_newest_log_line();
 
 /// A report of the lines logged, at most once a second, with their number and the newest.
-[[nodiscard]] std::optional<std::string> tell_of_middleware_log(std::chrono::steady_clock::time_point now);
+[[nodiscard]] std::optional<std::string> middleware_log_report(std::chrono::steady_clock::time_point now);
 
 }  // namespace tessera::dds

@@ -20,7 +20,7 @@ const char* reason(Refusal refusal) {
     case Refusal::no_number:
       return "the value has the number 0";
     case Refusal::state_of_nothing:
-      return "it has taken a value of nobody";
+      return "it acknowledges a value of no sender";
     case Refusal::recall_with_value:
       return "a recall with a value";
     case Refusal::too_large:

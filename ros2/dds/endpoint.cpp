@@ -56,43 +56,43 @@ std::string user_data_in(const dds_builtintopic_endpoint_t& known) {
 }
 
 void tell_of_middleware() {
-  if (const auto text = dds::tell_of_middleware_log(std::chrono::steady_clock::now()))
+  if (const auto text = dds::middleware_log_report(std::chrono::steady_clock::now()))
     std::fprintf(stderr, "warning: %s\n", text->c_str());
 }
 
 }  // namespace
 
-void Endpoint::tell_of_qos(const Told& told, std::uint32_t policy) {
+void Endpoint::warn_of_qos(const ListenerState& state, std::uint32_t policy) {
   std::fprintf(
       stderr,
       "warning: %s: a %s another %s of %s than ours, so that nothing passes; see `qos` in docs/ros2.md\n",
-      told.path.c_str(), told.writes ? "subscriber asks for" : "publisher offers", name_of_policy(policy),
-      told.topic.c_str());
+      state.path.c_str(), state.writes ? "subscriber asks for" : "publisher offers", name_of_policy(policy),
+      state.topic.c_str());
 }
 
 Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     : participant_(Participant::of(setup.network)),
-      told_(new Told{setup.path, setup.topic, writes, !writes && !setup.user_data.empty()}),
+      state_(new ListenerState{setup.path, setup.topic, writes, !writes && !setup.user_data.empty()}),
       writes_(writes),
       depth_(static_cast<std::size_t>(setup.qos.depth)) {
   topic_ = create_blob_topic(participant_->entity(), setup.dds_topic.c_str(), setup.dds_type.c_str());
   if (topic_.entity < 0)
     throw std::runtime_error("cannot make the topic " + setup.topic + ": " + dds_strretcode(topic_.entity));
   dds_qos_t* const qos = new_qos(setup.qos, setup.user_data);
-  dds_listener_t* const listener = dds_create_listener(told_.get());
+  dds_listener_t* const listener = dds_create_listener(state_.get());
   dds_lset_offered_incompatible_qos(
-      listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t status, void* told) {
-        tell_of_qos(*static_cast<const Told*>(told), status.last_policy_id);
+      listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t status, void* state) {
+        warn_of_qos(*static_cast<const ListenerState*>(state), status.last_policy_id);
       });
   dds_lset_requested_incompatible_qos(
-      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t status, void* told) {
-        tell_of_qos(*static_cast<const Told*>(told), status.last_policy_id);
+      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t status, void* state) {
+        warn_of_qos(*static_cast<const ListenerState*>(state), status.last_policy_id);
       });
-  if (told_->remembers)
+  if (state_->remembers)
     dds_lset_subscription_matched(
-        listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* told) {
+        listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* state) {
           if (status.current_count_change > 0)
-            remember(reader, status.last_publication_handle, *static_cast<Told*>(told));
+            remember(reader, status.last_publication_handle, *static_cast<ListenerState*>(state));
         });
   entity_ = writes ? dds_create_writer(participant_->entity(), topic_.entity, qos, listener)
                    : dds_create_reader(participant_->entity(), topic_.entity, qos, listener);
@@ -139,22 +139,22 @@ bool Endpoint::await_receipt(Duration timeout) const {
   return dds_wait_for_acks(entity_, dds_time_of(timeout)) == DDS_RETCODE_OK;
 }
 
-void Endpoint::remember(dds_entity_t reader, dds_instance_handle_t writer, Told& told) {
+void Endpoint::remember(dds_entity_t reader, dds_instance_handle_t writer, ListenerState& state) {
   constexpr std::size_t most_writers = 4096;
   dds_builtintopic_endpoint_t* const known = dds_get_matched_publication_data(reader, writer);
   if (known == nullptr) return;
-  const std::lock_guard lock(told.mutex);
-  if (told.found.size() >= most_writers)
-    told.found.clear();  // writers that still exist are found in
-                         // `others`
-  told.found[writer] = user_data_in(*known);
+  const std::lock_guard lock(state.mutex);
+  if (state.found.size() >= most_writers)
+    state.found.clear();  // writers that still exist are found in
+                          // `others`
+  state.found[writer] = user_data_in(*known);
   dds_builtintopic_free_endpoint(known);
 }
 
 std::optional<std::string> Endpoint::user_data_of(dds_instance_handle_t writer) const {
   {
-    const std::lock_guard lock(told_->mutex);
-    if (const auto known = told_->found.find(writer); known != told_->found.end()) return known->second;
+    const std::lock_guard lock(state_->mutex);
+    if (const auto known = state_->found.find(writer); known != state_->found.end()) return known->second;
   }
   for (const Other& one : others())
     if (one.handle == writer) return one.user_data;

@@ -63,18 +63,18 @@ class Endpoint {
 
  private:
   /// The state that listeners use; its address stays the same.
-  struct Told {
+  struct ListenerState {
     std::string path, topic;
     bool writes;
     bool remembers;  ///< whether it keeps the writers that were found
     std::mutex mutex{};
     std::map<dds_instance_handle_t, std::string> found{};
   };
-  static void remember(dds_entity_t reader, dds_instance_handle_t writer, Told& told);
-  static void tell_of_qos(const Told& told, std::uint32_t policy);
+  static void remember(dds_entity_t reader, dds_instance_handle_t writer, ListenerState& state);
+  static void warn_of_qos(const ListenerState& state, std::uint32_t policy);
 
   std::shared_ptr<Participant> participant_;
-  std::unique_ptr<Told> told_;
+  std::unique_ptr<ListenerState> state_;
   BlobTopic topic_;
   dds_entity_t entity_ = 0;
   bool writes_;

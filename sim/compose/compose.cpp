@@ -13,7 +13,7 @@
 
 #include "sim/compose/composer.hpp"
 #include "sim/compose/keyframe.hpp"
-#include "sim/compose/wishes.hpp"
+#include "sim/compose/option_conflicts.hpp"
 #include "sim/mjcf/model_file.hpp"
 
 namespace tessera::sim {
@@ -189,7 +189,7 @@ Result<Composition> compose(const std::string& world_file, const std::vector<Pla
   if (auto problem = choose(library, placements, chosen, composition)) return *std::move(problem);
   if (auto problem = too_many_bodies(**world, composition.placed)) return *std::move(problem);
   if (auto problem = mixed_mesh_inertia(chosen.files)) return *std::move(problem);
-  for (const ModelFile* file : chosen.files) add_wishes(*file, **world, composition.warnings);
+  for (const ModelFile* file : chosen.files) add_option_conflicts(*file, **world, composition.warnings);
   composition.mjcf = composed_text(chosen, placements);
   return composition;
 }

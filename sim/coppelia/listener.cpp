@@ -72,7 +72,7 @@ std::string listening_address(const std::string& host, std::uint16_t port, Durat
       return text.data();
   }
   if (problem == ECONNREFUSED)
-    throw LinkError("nobody listens at " + place(host, port) +
+    throw LinkError("no program listens at " + place(host, port) +
                     "; is CoppeliaSim running, with its add-on 'ZMQ remote API server'?");
   throw LinkError("cannot connect to " + place(host, port) + ": " + std::strerror(problem));
 }

@@ -89,7 +89,7 @@ void LockStep::step() {
   throw LinkError(is_ended
                       ? "the simulation has been paused or stopped in CoppeliaSim"
                       : "the simulation has gone on by itself: CoppeliaSim was not asked for a minute, or "
-                        "somebody else steps it, too");
+                        "another client steps it, too");
 }
 
 void LockStep::send_commands() {

@@ -111,7 +111,7 @@ struct Reachable {
 const char* meaning_of(net::TransitionRole role) {
   switch (role) {
     case net::TransitionRole::overwrite:
-      return "overwrites a value that nobody has read";
+      return "overwrites an unread value";
     case net::TransitionRole::skip:
       return "there is nothing to read";
     default:

@@ -373,7 +373,7 @@ std::string JointPlay::hear(ChannelId channel, StartId start, std::uint64_t inca
     return fmt::format("'{}' does not join this process with another", name);
   const bool sends = process == ends.sending;
   const ProcessId other = sends ? ends.receiving : ends.sending;
-  if (!other.valid()) return fmt::format("nobody is at the other end of '{}'", name);
+  if (!other.valid()) return fmt::format("no process is at the other end of '{}'", name);
   const StartId peer = find_start(other, incarnation);
   const bool forwards =
       sends ? turn(sending(channel, start), peer, incarnation) : turn(channel, start, peer, incarnation);

@@ -206,7 +206,7 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
   if (kind != "simulate" && kind != "run" && kind != "attach" && kind != "deployment")
     return refuse("a run is of kind simulate, run, attach or deployment");
   if (kind == "attach" && std::ranges::count(listening_sockets(), wanted.socket) == 0)
-    return refuse("nobody listens at " + wanted.socket, "/api/controllers names those who do");
+    return refuse("no program listens at " + wanted.socket, "/api/controllers names the sockets that do");
   if (!(wanted.speed >= 0 && wanted.speed <= 1000)) return refuse("a speed is a number from 0 to 1000");
   try {
     double end_s = 1e9;

@@ -82,7 +82,7 @@ void Api::serve_sources(HttpServer& server) {
     if (outcome->written == SpecFile::Written::yes)
       return answer(response, text_of(nlohmann::json{{"revision", outcome->now.revision}}));
     nlohmann::json conflict = content_json(outcome->now);
-    conflict["error"] = file + " was changed by somebody else";
+    conflict["error"] = file + " was changed by another program";
     conflict["hint"] = "look at both, then save again with the revision that is there now";
     answer(response, text_of(conflict), 409);
   });

@@ -66,7 +66,7 @@ void Api::put_spec(const Request& request, Response& response) {
           response,
           text_of(json{{"text", outcome.now.text},
                        {"revision", outcome.now.revision},
-                       {"error", "the file on disk was changed by somebody else"},
+                       {"error", "the file on disk was changed by another program"},
                        {"hint", "look at both, then save again with the revision that is there now"}}),
           409);
     case SpecFile::Written::failed:

@@ -52,7 +52,7 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
     return count;
   };
   EXPECT_EQ(times(": emergency stop\n"), 1U) << stopped.text;
-  EXPECT_EQ(times("nobody knows whether its devices are safe"), 1U) << stopped.text;
+  EXPECT_EQ(times("it is unknown whether its devices are safe"), 1U) << stopped.text;
   EXPECT_EQ(times("code 1"), 1U) << stopped.text;
   EXPECT_EQ(times("several controllers are running"), 1U) << stopped.text;
   EXPECT_EQ(times("EMERGENCY STOP: smoke"), 2U) << stopped.text;

@@ -67,7 +67,7 @@ TEST(CoppeliaErrors, AServerThatIsAbsentIsNamedAtOnce) {
   { port = SceneServer({}).address().port; }  // was free a moment ago
   const auto begin = SteadyClock::now();
   EXPECT_EQ(problem_with({"127.0.0.1", port, "", 5s}),
-            "nobody listens at 127.0.0.1:" + std::to_string(port) +
+            "no program listens at 127.0.0.1:" + std::to_string(port) +
                 "; is CoppeliaSim running, with its add-on 'ZMQ remote API server'?");
   EXPECT_LT(SteadyClock::now() - begin, 2s);
   EXPECT_THAT(problem_with({"no.such.host.invalid", 23000, "", 5s}),

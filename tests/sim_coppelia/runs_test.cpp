@@ -80,7 +80,7 @@ TEST_F(InCoppelia, AMissingServerAndADyingOneAreToldInOneSentence) {
   }
   const project::Exit absent = tessera("simulate 01_line_follower --for 1s");
   EXPECT_EQ(absent.code, 1);
-  EXPECT_THAT(absent.text, HasSubstr("nobody listens at 127.0.0.1:" + std::to_string(port)));
+  EXPECT_THAT(absent.text, HasSubstr("no program listens at 127.0.0.1:" + std::to_string(port)));
 }
 
 TEST_F(InCoppelia, WhatIsWrongWithADriverHasItsLine) {

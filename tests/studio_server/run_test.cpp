@@ -221,7 +221,7 @@ TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoO
 
   const Reply gone = post("/api/runs", {{"kind", "attach"}, {"socket", socket}});
   EXPECT_EQ(gone.status, 400);
-  EXPECT_THAT(gone.body, HasSubstr("nobody listens"));
+  EXPECT_THAT(gone.body, HasSubstr("no program listens"));
   EXPECT_EQ(post("/api/runs", {{"kind", "attach"}, {"socket", "../x.sock"}}).status, 400);
 }
 

@@ -61,7 +61,7 @@ class RunControl {
   /// The reason of the emergency stop that is in force, or of the last one.
   [[nodiscard]] std::string emergency_reason() const;
   /// Sets an eventfd that is written to when an emergency stop begins or ends; -1: none.
-  void tell_of_emergencies(int descriptor) { news_.store(descriptor, std::memory_order_release); }
+  void set_emergency_event(int descriptor) { news_.store(descriptor, std::memory_order_release); }
 
   /// Another process sets `acted` when it has given the devices their safe command for this one, which stood
   /// still: from then on, no other command goes to a device, whichever thread wakes first. Call it before the

@@ -194,7 +194,7 @@ void RecordingFile::await_room(std::int64_t& stuck_ns) {
   if (!hurry_.load(std::memory_order_relaxed) && StopSignals::pending() == 0) return;
   const std::int64_t now_ns = monotonic_ns();
   if (stuck_ns == 0) stuck_ns = now_ns;
-  if (now_ns - stuck_ns > pipe_patience_ns) failure_ = "nobody reads it";
+  if (now_ns - stuck_ns > pipe_patience_ns) failure_ = "its reader is blocked";
 }
 
 }  // namespace tessera

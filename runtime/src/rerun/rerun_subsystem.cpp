@@ -43,7 +43,7 @@ using Entry = Recording::Entry;
 }
 
 /// Accepts every command. Refusals come from the recording.
-class DeafEffector final : public RealEffector {
+class RecordedEffector final : public RealEffector {
   bool write(std::span<const std::byte>) override { return true; }
 };
 
@@ -103,7 +103,7 @@ SubsystemParts RerunSubsystem::with_devices(SubsystemParts parts) const {
     parts.receptors.push_back(
         std::make_unique<RecordedReceptor>(held_[before + index], *bindings.real_inputs[index].encoding));
   for (std::size_t index = 0; index < bindings.real_outputs.size(); ++index)
-    parts.effectors.push_back(std::make_unique<DeafEffector>());
+    parts.effectors.push_back(std::make_unique<RecordedEffector>());
   return parts;
 }
 

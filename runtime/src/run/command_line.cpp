@@ -91,7 +91,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   command.add_option("--seed", options.seed, "The seed of ties and sensor noise")->capture_default_str();
   command.add_option("--summary", line.summary, "Write the result of the run as JSON; - is standard output");
   command.add_flag("--accept-stuck", options.accept_stuck,
-                   "A subsystem that waits for ever, while others go on, is no failure");
+                   "Do not fail if a subsystem waits for ever while others go on");
   command.add_flag("--progress", options.progress, "Show progress on standard error");
   command.add_option("--death-note", options.death_note,
                      "If the process dies during the run, write to this file where and why");
@@ -266,7 +266,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_flag("--interleave", line.options.interleave,
                      "Subsystems take turns after every firing, drawn from the seed");
   simulate->add_option("--schedules", line.schedules,
-                       "Try so many seeds from --seed on, interleaved; report how many fail, and of what");
+                       "Run this many seeds from --seed on, interleaved; report the failures by kind");
   simulate->add_option("--jobs", line.jobs, "Schedules: processes at a time (default: one per core)")
       ->check(CLI::Range(1U, most_jobs));
   simulate->add_flag("--coverage", line.coverage,

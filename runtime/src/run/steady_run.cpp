@@ -153,7 +153,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
     if (const std::string denied = lock_memory(); !denied.empty()) deny(denied);
   clock_.restart();
   if (assembly.links != nullptr) assembly.links->set_origin(clock_.absolute_ns(Time{}));
-  assembly.control.tell_of_emergencies(news_);
+  assembly.control.set_emergency_event(news_);
   if (const int signal = StopSignals::pending(); signal != 0)
     assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
   upper.enter(clock_.now());

@@ -37,7 +37,7 @@ constexpr int dies_within_ms = 50;
 constexpr std::int64_t between_guardian_attempts_ns = 5'000'000;
 
 /// A driver that the guardian has made, and the safe values of the buffers that it serves.
-struct Patient {
+struct GuardedDriver {
   std::string path;
   Bindings* bindings = nullptr;
   Device* device = nullptr;
@@ -46,7 +46,7 @@ struct Patient {
 };
 
 /// The subsystem whose buffers the drivers serve.
-struct Subject {
+struct GuardedSubsystem {
   std::unique_ptr<Subsystem> subsystem;
   Bindings bindings;
 };
@@ -60,23 +60,23 @@ void say_as_guardian(const std::string& text) {
 
 /// Opens the device, gives the safe command, and closes it. false, or an exception:
 /// it did not work this time.
-[[nodiscard]] bool treat(const Patient& patient) {
-  if (!patient.device->open()) return false;
+[[nodiscard]] bool secure(const GuardedDriver& guarded) {
+  if (!guarded.device->open()) return false;
   bool taken = true;
-  for (std::size_t index = 0; index < patient.buffers.size(); ++index) {
-    const Bindings::RealOutgoing& output = patient.bindings->real_outputs[patient.first + index];
-    taken = patient.buffers[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size}) &&
+  for (std::size_t index = 0; index < guarded.buffers.size(); ++index) {
+    const Bindings::RealOutgoing& output = guarded.bindings->real_outputs[guarded.first + index];
+    taken = guarded.buffers[index]->write({static_cast<const std::byte*>(output.safe.get()), output.size}) &&
             taken;
   }
-  patient.device->close();
+  guarded.device->close();
   return taken;
 }
 
-[[noreturn]] void treat_until_taken(const Patient& patient) {
+[[noreturn]] void secure_until_taken(const GuardedDriver& guarded) {
   const std::int64_t until_ns = monotonic_ns() + Guardian::patience.count();
   while (monotonic_ns() < until_ns) {
     try {
-      if (treat(patient)) _exit(0);
+      if (secure(guarded)) _exit(0);
     } catch (...) {  // the caller tries again
     }
     const timespec pause{.tv_sec = 0, .tv_nsec = between_guardian_attempts_ns};
@@ -116,34 +116,34 @@ class GuardianProcess {
       const bool whole = driver.path == path;
       if (!whole && !(driver.path.starts_with(path) && driver.path.substr(path.size()).starts_with('.')))
         continue;
-      Subject& subject = subject_of(path, instance);
-      Patient patient{.path = std::string(driver.path), .bindings = &subject.bindings};
+      GuardedSubsystem& owner = subsystem_of(path, instance);
+      GuardedDriver guarded{.path = std::string(driver.path), .bindings = &owner.bindings};
       auto made = driver.effector(
           DriverSetup(std::string(driver.path), {driver.options.begin(), driver.options.end()}));
-      patient.device = made.get();
+      guarded.device = made.get();
       if (whole)
-        patient.buffers = parts_of(std::move(made), subject.bindings);
-      else if (find_buffer(driver.path.substr(path.size() + 1), patient))
-        patient.buffers.push_back(std::move(made));
-      if (!patient.buffers.empty()) patients_.push_back(std::move(patient));
+        guarded.buffers = parts_of(std::move(made), owner.bindings);
+      else if (find_buffer(driver.path.substr(path.size() + 1), guarded))
+        guarded.buffers.push_back(std::move(made));
+      if (!guarded.buffers.empty()) drivers_.push_back(std::move(guarded));
       return;
     }
   }
 
-  Subject& subject_of(const std::string& path, const Instance& instance) {
-    std::unique_ptr<Subject>& subject = subjects_[path];
-    if (subject == nullptr) {
-      subject = std::make_unique<Subject>();
-      subject->subsystem = instance.make();
-      subject->subsystem->bind(subject->bindings);
+  GuardedSubsystem& subsystem_of(const std::string& path, const Instance& instance) {
+    std::unique_ptr<GuardedSubsystem>& owner = subsystems_[path];
+    if (owner == nullptr) {
+      owner = std::make_unique<GuardedSubsystem>();
+      owner->subsystem = instance.make();
+      owner->subsystem->bind(owner->bindings);
     }
-    return *subject;
+    return *owner;
   }
 
-  [[nodiscard]] static bool find_buffer(std::string_view name, Patient& patient) {
-    const auto& outputs = patient.bindings->real_outputs;
-    while (patient.first < outputs.size() && outputs[patient.first].name != name) ++patient.first;
-    return patient.first < outputs.size();
+  [[nodiscard]] static bool find_buffer(std::string_view name, GuardedDriver& guarded) {
+    const auto& outputs = guarded.bindings->real_outputs;
+    while (guarded.first < outputs.size() && outputs[guarded.first].name != name) ++guarded.first;
+    return guarded.first < outputs.size();
   }
 
   /// Counts the checks of this process and not the time: a machine that sleeps or is overloaded delays both.
@@ -155,10 +155,10 @@ class GuardianProcess {
     if (shared_.stage.load() != Stage::beating || beats != beats_) {
       beats_ = beats;
       looks_ = 0;
-      treated_ = false;
+      has_secured_ = false;
       return false;
     }
-    return ++looks_ >= enough && !treated_;
+    return ++looks_ >= enough && !has_secured_;
   }
 
   /// Whether the controller was stopped by SIGSTOP, or by a debugger.
@@ -193,18 +193,18 @@ class GuardianProcess {
   /// Uses one process per driver, so that a driver that hangs or crashes delays no other.
   void make_safe(const std::string& why) {
     shared_.has_acted = true;
-    treated_ = true;
+    has_secured_ = true;
     const std::int64_t start_ns = monotonic_ns();
-    std::map<pid_t, const Patient*> working;
+    std::map<pid_t, const GuardedDriver*> working;
     std::string refused;
-    const auto note = [&](const Patient& patient) {
-      refused += (refused.empty() ? "" : ", ") + patient.path;
+    const auto note = [&](const GuardedDriver& guarded) {
+      refused += (refused.empty() ? "" : ", ") + guarded.path;
     };
-    for (const Patient& patient : patients_) {
+    for (const GuardedDriver& guarded : drivers_) {
       const pid_t process = fork();
-      if (process == 0) treat_until_taken(patient);
-      if (process > 0) working.emplace(process, &patient);
-      if (process < 0) note(patient);
+      if (process == 0) secure_until_taken(guarded);
+      if (process > 0) working.emplace(process, &guarded);
+      if (process < 0) note(guarded);
     }
     const std::int64_t until_ns = start_ns + Guardian::patience.count() + 1'000'000'000;
     while (!working.empty() && monotonic_ns() < until_ns) {
@@ -218,10 +218,10 @@ class GuardianProcess {
         nanosleep(&pause, nullptr);
       }
     }
-    for (const auto& [process, patient] : working) {
+    for (const auto& [process, guarded] : working) {
       kill(process, SIGKILL);
       waitpid(process, nullptr, 0);
-      note(*patient);
+      note(*guarded);
     }
     report(why, refused, static_cast<double>(monotonic_ns() - start_ns) * 1e-6);
   }
@@ -238,11 +238,11 @@ class GuardianProcess {
   int news_;
   pid_t pid_;
   OtherProcess controller_;
-  std::map<std::string, std::unique_ptr<Subject>> subjects_;  // by the path of the subsystem
-  std::vector<Patient> patients_;
+  std::map<std::string, std::unique_ptr<GuardedSubsystem>> subsystems_;  // by the path of the subsystem
+  std::vector<GuardedDriver> drivers_;
   std::uint64_t beats_ = 0;
-  unsigned looks_ = 0;    // without a beat
-  bool treated_ = false;  // since the last beat
+  unsigned looks_ = 0;        // without a beat
+  bool has_secured_ = false;  // since the last beat
 };
 
 /// Makes sure that this process lives as long as the controller, whatever signals end both.

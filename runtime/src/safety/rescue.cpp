@@ -34,7 +34,7 @@ void block_all_signals() {
 Rescuer::Rescuer(std::span<const std::unique_ptr<SubsystemExecutor>> executors, int priority) {
   for (const auto& executor : executors)
     for (std::size_t index = 0; index < executor->effectors().size(); ++index)
-      patients_.push_back({&executor->effectors(), index});
+      devices_.push_back({&executor->effectors(), index});
   thread_ = std::thread([this, priority] { run(priority); });
 }
 
@@ -97,22 +97,22 @@ void Rescuer::make_all_safe() {
 bool Rescuer::try_all(bool dead_too) {
   const void* const dead = dead_.load(std::memory_order_relaxed);
   bool all = true;
-  for (Patient& patient : patients_) {
-    const bool is_dead = dead != nullptr && patient.effectors->device(patient.index) == dead;
-    if (!patient.safe && !patient.crashed && (dead_too || !is_dead)) try_one(patient);
-    all = all && patient.safe;
+  for (RescuedDevice& device : devices_) {
+    const bool is_dead = dead != nullptr && device.effectors->device(device.index) == dead;
+    if (!device.safe && !device.crashed && (dead_too || !is_dead)) try_one(device);
+    all = all && device.safe;
   }
   return all;
 }
 
 /// A driver that crashes has refused. The data of its stack frames is not released, since the process ends.
-void Rescuer::try_one(Patient& patient) {
-  patient.crashed = true;  // reset when the driver returns
+void Rescuer::try_one(RescuedDevice& device) {
+  device.crashed = true;  // reset when the driver returns
   if (sigsetjmp(way_out->place, /*save the signal mask*/ 1) != 0) return;
   way_out->open = true;
-  patient.safe = patient.effectors->rescue(patient.index, dead_.load(std::memory_order_relaxed));
+  device.safe = device.effectors->rescue(device.index, dead_.load(std::memory_order_relaxed));
   way_out->open = false;
-  patient.crashed = false;
+  device.crashed = false;
 }
 
 }  // namespace tessera

@@ -40,7 +40,7 @@ class Rescuer {
   static void leave_crashed_driver();
 
  private:
-  struct Patient {
+  struct RescuedDevice {
     Effectors* effectors;
     std::size_t index;
     bool safe = false, crashed = false;
@@ -48,9 +48,9 @@ class Rescuer {
   void run(int priority);
   void make_all_safe();
   [[nodiscard]] bool try_all(bool dead_too);
-  void try_one(Patient& patient);
+  void try_one(RescuedDevice& device);
 
-  std::vector<Patient> patients_;
+  std::vector<RescuedDevice> devices_;
   WakeWord asked_, answered_;
   enum class State : std::uint8_t { sleeps, is_asked, has_tried, has_succeeded, leaves };
   std::atomic<State> state_{State::sleeps};

@@ -127,7 +127,7 @@ class WiringCheck {
       if (read) continue;
       out_.warning("W316", output->span,
                    "output " + quoted(output->name) + " of " + model_.instance_path(shared.first) +
-                       others(shared) + " is read by nobody");
+                       others(shared) + " is not read");
     }
   }
 

@@ -121,7 +121,7 @@ Sources::Renamed Sources::rename(const std::string& text, const language::Gramma
     SpecFile file(project_ / source.path);
     const SpecFile::Content known = file.read();
     if (known.text != source.text || file.write(changed, known.revision).written != SpecFile::Written::yes)
-      return {renamed.files, source.path + " cannot be written, or somebody else changes it"};
+      return {renamed.files, source.path + " cannot be written, or another program changes it"};
     renamed.files.push_back(source.path);
   }
   if (renamed.files.empty()) return {{}, "there is no function " + from};

@@ -51,7 +51,7 @@ void Run::fetch_scene() {
 
 void Run::attach() {
   if (!link_.connect(std::filesystem::path(monitor_folder()) / request_.socket, /*own=*/false))
-    return set_state(State::failed, "nobody listens at " + request_.socket);
+    return set_state(State::failed, "no program listens at " + request_.socket);
   std::optional<project::Snapshot> snapshot;
   while (!snapshot && !stop_ && !link_.is_over()) {
     snapshot = link_.snapshot();

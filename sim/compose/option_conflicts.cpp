@@ -1,4 +1,4 @@
-#include "sim/compose/wishes.hpp"
+#include "sim/compose/option_conflicts.hpp"
 
 #include <algorithm>
 #include <array>
@@ -8,9 +8,10 @@
 namespace tessera::sim {
 namespace {
 
-class Wishes {
+class OptionConflicts {
  public:
-  Wishes(const ModelFile& file, std::vector<std::string>& warnings) : file_(file), warnings_(warnings) {}
+  OptionConflicts(const ModelFile& file, std::vector<std::string>& warnings)
+      : file_(file), warnings_(warnings) {}
 
   void compare(const char* option, const mjtNum* wanted, const mjtNum* given, std::size_t count = 1) {
     if (!std::equal(wanted, wanted + count, given))
@@ -21,7 +22,7 @@ class Wishes {
       warn(option, words[static_cast<std::size_t>(wanted)], words[static_cast<std::size_t>(given)]);
   }
   /// Only an option that the file sets counts.
-  [[nodiscard]] bool says(const char* option) const {
+  [[nodiscard]] bool sets(const char* option) const {
     for (const pugi::xml_node options : file_.root().children("option")) {
       if (options.attribute(option)) return true;
     }
@@ -39,21 +40,21 @@ class Wishes {
 
 }  // namespace
 
-void add_wishes(const ModelFile& file, const ModelFile& world, std::vector<std::string>& warnings) {
+void add_option_conflicts(const ModelFile& file, const ModelFile& world, std::vector<std::string>& warnings) {
   static constexpr std::array integrators{"Euler", "RK4", "implicit"};
   static constexpr std::array cones{"pyramidal", "elliptic"};
   const mjOption &wanted = file.alone->opt, &given = world.alone->opt;
-  Wishes wishes(file, warnings);
-  if (wishes.says("timestep") && wanted.timestep < given.timestep)
-    wishes.compare("timestep", &wanted.timestep, &given.timestep);
-  if (wishes.says("gravity")) wishes.compare("gravity", wanted.gravity, given.gravity, 3);
-  if (wishes.says("density")) wishes.compare("density", &wanted.density, &given.density);
-  if (wishes.says("viscosity")) wishes.compare("viscosity", &wanted.viscosity, &given.viscosity);
-  if (wishes.says("wind")) wishes.compare("wind", wanted.wind, given.wind, 3);
-  if (wishes.says("impratio")) wishes.compare("impratio", &wanted.impratio, &given.impratio);
-  if (wishes.says("integrator"))
-    wishes.compare("integrator", wanted.integrator, given.integrator, integrators);
-  if (wishes.says("cone")) wishes.compare("cone", wanted.cone, given.cone, cones);
+  OptionConflicts conflicts(file, warnings);
+  if (conflicts.sets("timestep") && wanted.timestep < given.timestep)
+    conflicts.compare("timestep", &wanted.timestep, &given.timestep);
+  if (conflicts.sets("gravity")) conflicts.compare("gravity", wanted.gravity, given.gravity, 3);
+  if (conflicts.sets("density")) conflicts.compare("density", &wanted.density, &given.density);
+  if (conflicts.sets("viscosity")) conflicts.compare("viscosity", &wanted.viscosity, &given.viscosity);
+  if (conflicts.sets("wind")) conflicts.compare("wind", wanted.wind, given.wind, 3);
+  if (conflicts.sets("impratio")) conflicts.compare("impratio", &wanted.impratio, &given.impratio);
+  if (conflicts.sets("integrator"))
+    conflicts.compare("integrator", wanted.integrator, given.integrator, integrators);
+  if (conflicts.sets("cone")) conflicts.compare("cone", wanted.cone, given.cone, cones);
   if (file.settings.fuses_static_bodies)
     warnings.push_back(file.path + ": `fusestatic` has no effect, its bodies stay as they are");
 }

@@ -82,16 +82,13 @@ class JointOrder {
 
   // ------------------------------------------------------------------------------------------ events
 
-  /// With all in one run, processes and starts have the same numbers.
-  [[nodiscard]] static StartId start_of(ProcessId process) { return {process.value}; }
-  [[nodiscard]] static StartId start_of(std::size_t recording) {
-    return {static_cast<std::uint32_t>(recording)};
+  /// In one run a start has the number of its process, otherwise that of its recording.
+  [[nodiscard]] StartId start_of(std::size_t recording, ProcessId process) const {
+    return {one_run_ ? process.value : static_cast<std::uint32_t>(recording)};
   }
   [[nodiscard]] Firing firing_of(std::size_t recording, const Event& event) const {
     const TransitionId id = sources_[recording].transition(event);
-    return {.transition = id,
-            .start = one_run_ ? start_of(net_[id].process) : start_of(recording),
-            .version = event.version};
+    return {.transition = id, .start = start_of(recording, net_[id].process), .version = event.version};
   }
 
   /// Fires, or changes a peer. nullopt: done. Precondition of a firing: no obstacle.
@@ -119,11 +116,10 @@ class JointOrder {
 
   /// The start whose side of the channel hears.
   [[nodiscard]] StartId start_of_lane(std::size_t recording, const Event& event, ChannelId channel) const {
-    if (!one_run_) return start_of(recording);
     const DeployedNet::Channel& ends = net_[channel];
     const bool sends = ends.sender.valid() && event.instance() != system_instance &&
                        net_.net().parts()[ends.sender].path == sources_[recording].path_of(event);
-    return start_of(sends ? ends.sending : ends.receiving);
+    return start_of(recording, sends ? ends.sending : ends.receiving);
   }
 
   enum class Turn : std::uint8_t { next, gap, back };
@@ -268,7 +264,7 @@ class JointOrder {
   /// All that is recorded of a start has been played.
   void end(std::size_t recording) {
     if (!parts_[recording].is_whole) {
-      play_->assume_rest(start_of(recording));
+      play_->assume_rest(start_of(recording, {}));
       for (std::vector<std::size_t>& lanes : waiting_) {
         std::ranges::copy(lanes, std::back_inserter(ready_));
         lanes.clear();
@@ -276,7 +272,7 @@ class JointOrder {
     }
     const std::size_t next = recording + 1;
     if (next == sources_.size() || !are_of_one(recording, next)) return;
-    play_->restart(start_of(next));
+    play_->restart(start_of(next, {}));
     begin(next);
   }
 

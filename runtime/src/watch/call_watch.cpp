@@ -47,7 +47,7 @@ void CallWatch::look(Look& last) {
   const std::uint64_t turn = turns_.load(std::memory_order_acquire);
   const double now = now_s();
   if (turn != last.turn || turn % 2 == 0) {
-    last = {turn, now, 0, -1};
+    last = {.turn = turn, .began_s = now};
     return;
   }
   if (StopSignals::pending() != 0) {

@@ -49,8 +49,7 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 template <class Named>
 std::optional<std::uint32_t> index_of(const std::vector<Named>& all, std::string_view name) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
-  if (found == all.end()) return std::nullopt;
-  return static_cast<std::uint32_t>(found - all.begin());
+  return found == all.end() ? std::nullopt : std::optional(static_cast<std::uint32_t>(found - all.begin()));
 }
 
 /// A name that the compiler may know although the specification does not: a macro, a type, a name of C.

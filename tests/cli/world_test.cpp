@@ -8,6 +8,7 @@ namespace tessera::cli_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class World : public Command {
  protected:
@@ -29,6 +30,15 @@ TEST_F(World, IsAskedWhetherItHasTheDevices) {
   EXPECT_THAT(checked(), HasSubstr("spec.yaml:36:77: error E311: option 'outside' must be clamp or refuse"));
   replace(folder_ / "arm/arm.xml", "<worldbody>", "<world>");
   EXPECT_THAT(checked(), HasSubstr("error E312: the world cannot be opened: "));
+}
+
+TEST_F(World, NamesWithControlCharactersDoNotReachTheTerminal) {
+  replace(folder_ / "arm/arm.xml", "<joint name=\"yaw\"", "<joint name=\"y&#10;a&#27;[31mw\"");
+  const project::Exit listed = tessera("world arm/arm.xml");
+  EXPECT_EQ(listed.code, 0) << listed.text;
+  EXPECT_EQ(listed.text.find('\x1b'), std::string::npos) << listed.text;
+  EXPECT_THAT(listed.text, Not(HasSubstr("  y\n")));
+  EXPECT_THAT(listed.text, HasSubstr("joint_position: \"y\\na\\u001b[31mw\"")) << "for a specification";
 }
 
 TEST_F(World, MissingDriversAreAllNamedBeforeAnythingIsBuilt) {

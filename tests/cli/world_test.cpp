@@ -8,7 +8,6 @@ namespace tessera::cli_test {
 namespace {
 
 using ::testing::HasSubstr;
-using ::testing::Not;
 
 class World : public Command {
  protected:
@@ -33,12 +32,11 @@ TEST_F(World, IsAskedWhetherItHasTheDevices) {
 }
 
 TEST_F(World, NamesWithControlCharactersDoNotReachTheTerminal) {
-  replace(folder_ / "arm/arm.xml", "<joint name=\"yaw\"", "<joint name=\"y&#10;a&#27;[31mw\"");
+  replace(folder_ / "arm/arm.xml", "<camera name=\"eye\"", "<camera name=\"e&#27;[31me\"");
   const project::Exit listed = tessera("world arm/arm.xml");
   EXPECT_EQ(listed.code, 0) << listed.text;
   EXPECT_EQ(listed.text.find('\x1b'), std::string::npos) << listed.text;
-  EXPECT_THAT(listed.text, Not(HasSubstr("  y\n")));
-  EXPECT_THAT(listed.text, HasSubstr("joint_position: \"y\\na\\u001b[31mw\"")) << "for a specification";
+  EXPECT_THAT(listed.text, HasSubstr("camera: \"e\\u001b[31me\"")) << "for a specification";
 }
 
 TEST_F(World, MissingDriversAreAllNamedBeforeAnythingIsBuilt) {

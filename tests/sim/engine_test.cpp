@@ -123,8 +123,9 @@ TEST(Engine, SaysWhereANumberIsNone) {
   EXPECT_THAT(complaint(world(body + "<geom size='1' pos = \"0 NaN 1\"/>")),
               EndsWith("nan.xml: `pos` is NaN (line 4)"));
   EXPECT_THAT(complaint(world("<geom size='-nan'/>")), EndsWith("nan.xml: `size` is NaN (line 3)"));
-  file_with("has_nan.xml", "<mujoco><worldbody><geom size='nan'/></worldbody></mujoco>");
-  EXPECT_THAT(complaint("<mujoco><include file='has_nan.xml'/></mujoco>"),
+  const std::filesystem::path part =
+      file_with("has_nan.xml", "<mujoco><worldbody><geom size='nan'/></worldbody></mujoco>");
+  EXPECT_THAT(complaint("<mujoco><include file='" + part.filename().string() + "'/></mujoco>"),
               EndsWith("a number is NaN, here or in a file that is included"));
 }
 

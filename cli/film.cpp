@@ -47,6 +47,8 @@ struct Survey {
     std::string text;
   };
   std::vector<Alarm> alarms;  ///< failed checks
+  /// Of the first entry, if the beginning of the recording is gone.
+  std::optional<std::int64_t> begins_late_ns;
 };
 
 [[nodiscard]] std::int64_t nanoseconds_of(double seconds) {
@@ -73,7 +75,8 @@ struct Survey {
   bool has_entries = false;
   while (const Recording::Entry* const entry = reader.next()) {
     const Event& event = entry->event;
-    has_entries = true;
+    if (!std::exchange(has_entries, true) && lacks_beginning(*reader.header()))
+      found.begins_late_ns = event.time_ns;
     if (event.kind() == Event::Kind::fault && event.instance() == system_instance &&
         event.version == static_cast<std::uint32_t>(Fault::assertion))
       found.alarms.push_back(alarm_of(*entry));
@@ -275,6 +278,8 @@ int make_film(const FilmOptions& options) {
   PictureOptions picture = view_of(found, size->first, size->second);
   picture.camera = options.camera;
   const auto painter = needed(open_painter(world, picture));
+  if (found.begins_late_ns && nanoseconds_of(options.from_s) < *found.begins_late_ns)
+    fmt::print(stderr, "note: the recording: {}\n", note_on_lost_beginning(found.begins_late_ns));
   const std::string problem = write_film(options, found, *painter, size->first, size->second);
   return problem.empty() ? ok : complain(problem);
 }

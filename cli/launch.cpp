@@ -31,8 +31,9 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
                  "The file of the recording (default: in the folder of the run, which .tessera/last shows)");
   command.option(
       "--record-limit", options.record_limit,
-      "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB; "
-      "none: all of it (default: run 1GB, simulate none)");
+      fmt::format("Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of "
+                  "100 MB; none: all of it (default: {})",
+                  project::usual_record_limit));
   command
       .option("--record-values", options.record_values,
               "Which values of buffers to record: none, small (up to 4 KiB; of larger ones a hash), all")

@@ -39,8 +39,9 @@ T value_or_throw(Result<T> result) {
   return std::move(*result);
 }
 
-report::DrivenPath drive_over(const sim::Track& floor, sim::Trace trace) {
+report::DrivenPath drive_over(const sim::Track& floor, sim::Trace trace, bool is_whole) {
   report::DrivenPath drive;
+  drive.is_whole = is_whole;
   drive.floor = floor;
   drive.trace = std::move(trace);
   drive.line = sim::skeleton(drive.floor);
@@ -119,6 +120,11 @@ std::string several_robots(const std::string& names) {
          "): their way along the track is not measured. Name what you want to know under `measures`.";
 }
 
+/// Whether it is known how the robot kept to the line during the whole run.
+bool measures_whole_drive(const RunOutcome& outcome) {
+  return outcome.drive && outcome.drive->is_whole && !outcome.drive->line.points.empty();
+}
+
 }  // namespace
 
 RunOutcome read_outcome(const Controller& controller, const LaunchOptions& options) {
@@ -139,13 +145,14 @@ RunOutcome read_outcome(const Controller& controller, const LaunchOptions& optio
   outcome.paths = report::paths_in(files.recording.string(), outcome.floor ? &*outcome.floor : nullptr);
   if (outcome.paths->robots.size() > 1) outcome.robots = outcome.paths->names();
   if (outcome.floor && outcome.paths->trace)
-    outcome.drive = drive_over(*outcome.floor, *std::exchange(outcome.paths->trace, std::nullopt));
+    outcome.drive = drive_over(*outcome.floor, *std::exchange(outcome.paths->trace, std::nullopt),
+                               !outcome.summary.contains("recorded_from_s"));
   return outcome;
 }
 
 std::string to_json(const RunOutcome& outcome) {
   json result = outcome.summary;
-  if (outcome.drive && !outcome.drive->line.points.empty()) {
+  if (measures_whole_drive(outcome)) {
     const sim::LineMetrics& line = outcome.drive->metrics;
     result["laps"] = line.laps;
     result["line_lost_s"] = line.line_lost_s;
@@ -183,7 +190,11 @@ void print(const RunOutcome& outcome) {
              printable(summary.value("ended", "")));
   print_subsystems(summary.value("subsystems", json::array()));
   fmt::print("{}", printable(judgement_lines(summary.dump())));
-  if (outcome.drive && !outcome.drive->line.points.empty()) {
+  if (outcome.drive && !outcome.drive->is_whole)
+    fmt::print(
+        "Laps and losses of the line need the whole recording: add --record-limit none, or name laps(...) "
+        "under `measures`.\n");
+  if (measures_whole_drive(outcome)) {
     const sim::LineMetrics& line = outcome.drive->metrics;
     fmt::print("{:.2f} laps; line lost for {:.2f} s; lateral error {:.1f} mm mean, {:.1f} mm max\n",
                line.laps, line.line_lost_s, line.mean_error_m * 1000, line.max_error_m * 1000);

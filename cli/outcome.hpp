@@ -27,7 +27,8 @@ struct RunOutcome {
 
 /// {"simulated_s", "wall_s", "real_time_factor", "firings", "recording", "ended", "failed", "subsystems"}.
 /// On a track also "laps", "line_lost_s", "longest_loss_s", "lateral_error_m": {"mean", "max"}; with
-/// several robots in the world "robots" instead.
+/// several robots in the world "robots" instead. If the recording has lost its beginning, it has "recorded_from_s"
+/// and nothing that would need the whole.
 [[nodiscard]] std::string to_json(const RunOutcome& outcome);
 
 /// The same for people, on standard output.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <cstdio>
 #include <fstream>
 #include <iostream>
 #include <iterator>
@@ -12,6 +13,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/joint_check.hpp"
+#include "cli/commands/legality_text.hpp"
 #include "cli/coverage.hpp"
 #include "cli/film.hpp"
 #include "cli/terminal.hpp"
@@ -35,7 +37,6 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 using replay::Distribution;
-using Legal = replay::Legality::Verdict;
 
 constexpr const char* all_values = "*";
 constexpr const char* usual_recording = ".tessera/last/recording.tsr";
@@ -115,8 +116,7 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
   fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", printable(recording.system),
              printable(recording.clock), recording.seed, end_s, recording.entries.size(),
              recording.truncated ? ", cut off" : "");
-  if (recording.segment.value_or(0) > 0)
-    fmt::print("its beginning is gone: from segment {} on\n", *recording.segment);
+  if (lacks_beginning(recording)) fmt::print("{}\n", note_on_beginning(recording));
   if (recording.truncated)
     fmt::print(
         "its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
@@ -148,6 +148,12 @@ json to_json(const Distribution& distribution) {
           {"histogram", distribution.histogram}};
 }
 
+/// Of a recording whose beginning is gone; null: nothing is left in it.
+json recorded_from_s(const Recording& recording) {
+  if (recording.entries.empty()) return nullptr;
+  return static_cast<double>(recording.entries.front().event.time_ns) * 1e-9;
+}
+
 json to_json(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
   json subsystems = json::array();
   for (const replay::SubsystemStatistics& one : all) {
@@ -167,15 +173,17 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
                           {"communication", to_json(one.iteration)},
                           {"waits", std::move(waits)}});
   }
-  return {{"system", recording.system},
-          {"net_hash", recording.net_hash},
-          {"verification_hash", recording.verification_hash},
-          {"clock", recording.clock},
-          {"seed", recording.seed},
-          {"events", std::ranges::count_if(recording.entries, replay::is_listed)},
-          {"truncated", recording.truncated},
-          {"lost", recording.lost},
-          {"subsystems", std::move(subsystems)}};
+  json written{{"system", recording.system},
+               {"net_hash", recording.net_hash},
+               {"verification_hash", recording.verification_hash},
+               {"clock", recording.clock},
+               {"seed", recording.seed},
+               {"events", std::ranges::count_if(recording.entries, replay::is_listed)},
+               {"truncated", recording.truncated},
+               {"lost", recording.lost},
+               {"subsystems", std::move(subsystems)}};
+  if (lacks_beginning(recording)) written["recorded_from_s"] = recorded_from_s(recording);
+  return written;
 }
 
 // ---------------------------------------------------------------------------------------------- check
@@ -189,22 +197,6 @@ std::string specification_of(const ReplayOptions& options) {
   }
   throw std::runtime_error("no specification is beside '" + options.recording +
                            "' or above it; name the one that the controller was generated from with --spec");
-}
-
-const char* name_of(Legal verdict) {
-  switch (verdict) {
-    case Legal::legal:
-      return "legal";
-    case Legal::illegal:
-      return "illegal";
-    case Legal::incomplete:
-      return "incomplete";
-  }
-  return "";
-}
-
-int exit_code_of(Legal verdict) {
-  return verdict == Legal::legal ? ok : verdict == Legal::illegal ? failed : unknown;
 }
 
 bool known_subsystem(const Recording& recording, const std::string& path) {
@@ -257,17 +249,6 @@ int film_command(const ReplayOptions& options) {
   return make_film(film);
 }
 
-/// "legal: 120 firings of the net 1b2c in 3 recordings"
-void print_verdict(const replay::Legality& legality, const std::string& net_hash, std::size_t recordings) {
-  const std::string in = recordings > 1 ? fmt::format(" in {} recordings", recordings) : "";
-  fmt::print("{}: {} firings of the net {}{}{}{}\n", name_of(legality.verdict), legality.firings,
-             printable(net_hash), in, legality.why.empty() ? "" : "; then ", printable(legality.why));
-}
-
-json to_json(const replay::Legality& legality) {
-  return {{"verdict", name_of(legality.verdict)}, {"firings", legality.firings}, {"why", legality.why}};
-}
-
 /// The check of the recordings of a deployed system's processes.
 int joint_command(const ReplayOptions& options) {
   std::vector<Recording> recordings;
@@ -280,7 +261,7 @@ int joint_command(const ReplayOptions& options) {
   const std::optional<replay::Legality> legality = check_against(specification_of(options), recordings);
   if (!legality) return failed;
   if (options.json != "-") print_verdict(*legality, recordings.front().net_hash, recordings.size());
-  if (!options.json.empty()) write_output(options.json, json{{"check", to_json(*legality)}}.dump(2) + "\n");
+  if (!options.json.empty()) write_output(options.json, json{{"check", json_of(*legality)}}.dump(2) + "\n");
   return exit_code_of(legality->verdict);
 }
 
@@ -335,10 +316,16 @@ int replay_command(ReplayOptions options) {
     const std::optional<replay::Legality> legality = check_against(specification_of(options), {*recording});
     if (!legality) return failed;
     exit_code = exit_code_of(legality->verdict);
-    result["check"] = to_json(*legality);
+    result["check"] = json_of(*legality);
+    if (lacks_beginning(*recording)) result["recorded_from_s"] = recorded_from_s(*recording);
     if (!to_output) print_verdict(*legality, recording->net_hash, 1);
   }
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
+  if (other && lacks_beginning(*recording)) {
+    std::cout.flush();  // the note comes last, also where both go into one file
+    std::fflush(stdout);
+    fmt::print(stderr, "note: {}\n", note_on_beginning(*recording));
+  }
   return exit_code;
 }
 

@@ -15,6 +15,7 @@
 #include "project/files/installation.hpp"
 #include "project/files/world_check.hpp"
 #include "project/verification/pipeline.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::cli {
 
@@ -58,7 +59,7 @@ void print_groups(const Json& contents) {
     for (const Json& entry : contents[group.list]) {
       std::string line = line_of(entry);
       line.erase(line.find_last_not_of(' ') + 1);
-      fmt::print("{}\n", line);
+      fmt::print("{}\n", printable(line));  // names may have any characters
     }
   }
   for (const auto& [what, count] : contents["nameless"].items())

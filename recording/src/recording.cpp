@@ -215,15 +215,6 @@ namespace {
   return std::move(reader.recording());
 }
 
-/// Whether the file was full when the controller was killed, before it began the next one.
-[[nodiscard]] bool is_full_segment(const std::string& path) {
-  std::ifstream file(path, std::ios::binary);
-  Event last;
-  return file.seekg(-static_cast<std::streamoff>(sizeof last), std::ios::end) &&
-         file.read(reinterpret_cast<char*>(&last), sizeof last) && last.kind() == Event::Kind::end &&
-         last.version != 0;
-}
-
 /// Precondition: at least one segment. The newest comes first.
 [[nodiscard]] Recording joined(std::vector<Recording> segments) {
   Recording all = std::move(segments.back());
@@ -255,6 +246,31 @@ namespace {
 }
 
 }  // namespace
+
+bool lacks_beginning(const Recording& recording) { return recording.segment.value_or(0) > 0; }
+
+std::string note_on_beginning(const Recording& recording) {
+  if (!lacks_beginning(recording)) return "";
+  return note_on_lost_beginning(
+      recording.entries.empty() ? std::nullopt : std::optional(recording.entries.front().event.time_ns));
+}
+
+std::string note_on_lost_beginning(std::optional<std::int64_t> from_ns) {
+  const std::string held =
+      from_ns ? fmt::format("what happened from {:.3f} s on", static_cast<double>(*from_ns) * 1e-9)
+              : std::string("no event that is whole");
+  return fmt::format("its beginning is gone: it holds {}; a run with --record-limit none keeps everything",
+                     held);
+}
+
+FileEnd end_of(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  Event last;
+  if (!file.seekg(-static_cast<std::streamoff>(sizeof last), std::ios::end) ||
+      !file.read(reinterpret_cast<char*>(&last), sizeof last) || last.kind() != Event::Kind::end)
+    return FileEnd::cut;
+  return last.version != 0 ? FileEnd::goes_on : FileEnd::final;
+}
 
 std::string segment_path(const std::string& path, std::uint64_t number) {
   const std::filesystem::path whole(path);
@@ -288,7 +304,8 @@ std::optional<Recording> read_recording(const std::string& path, std::string& er
   const std::string file = folder ? (std::filesystem::path(path) / recording_file_name).string() : path;
   std::optional<Recording> newest = read_segment(file, error);
   if (newest && (!newest->segment || !without_segment_number(file).empty())) return newest;
-  const bool newest_is_missing = !newest || is_full_segment(file);
+  // A full file: the controller was killed before it began the next one.
+  const bool newest_is_missing = !newest || end_of(file) == FileEnd::goes_on;
   std::uint64_t number = newest ? *newest->segment : after_newest_number(file);
   std::vector<Recording> segments;
   if (newest) segments.push_back(std::move(*newest));

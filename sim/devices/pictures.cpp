@@ -101,7 +101,13 @@ class Camera : public RealReceptor {
   static int camera_of(const DeviceContext& context, const DriverRequest& request) {
     int camera = 0;
     context.simulation->use([&](const Physics& physics) {
-      camera = element_of(physics, mjOBJ_CAMERA, request, only_target(request));
+      const std::string name = only_target(request);
+      camera = element_of(physics, mjOBJ_CAMERA, request, name);
+      const double angle = physics.model().cam_fovy[camera];
+      if (angle > 0 && angle < 180) return;
+      throw DeviceError(
+          "camera '" + name + "' has an angle of view (`fovy`) that is not between 0 and 180 degrees", "",
+          name);
     });
     return camera;
   }

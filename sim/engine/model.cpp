@@ -1,12 +1,17 @@
 #include "sim/engine/model.hpp"
 
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <mutex>
 #include <utility>
 
 #include "sim/engine/complaint.hpp"
 #include "sim/engine/engine_message.hpp"
+#include "sim/engine/not_a_number.hpp"
 
 namespace tessera::sim {
 namespace {
@@ -22,9 +27,42 @@ std::string problem_with_time_step(double step_s) {
   return text.data();
 }
 
+/// Empty: it is a file that can be read. Reading a pipe would wait for ever.
+std::string problem_with_file(const std::string& path) {
+  namespace fs = std::filesystem;
+  std::error_code problem;
+  const fs::file_status status = fs::status(path, problem);
+  if (!fs::exists(status)) return "there is no such file";
+  if (fs::is_directory(status)) return "is a folder; name the file in it";
+  if (!fs::is_regular_file(status)) return "is no regular file";
+  if (fs::file_size(path, problem) == 0 && !problem) return "the file is empty";
+  return {};
+}
+
+/// The engine refuses what is not a number, but takes what is infinite.
+std::string problem_with_sensors(const mjModel& model) {
+  for (int id = 0; id < model.nsensor; ++id) {
+    const bool good = std::isfinite(model.sensor_noise[id]) && std::isfinite(model.sensor_cutoff[id]);
+    const char* const name = mj_id2name(&model, mjOBJ_SENSOR, id);
+    if (!good)
+      return "the `noise` or `cutoff` of sensor '" + std::string(name == nullptr ? "" : name) +
+             "' is infinite";
+  }
+  return {};
+}
+
+/// A NaN may also be in a file that this one includes.
+std::string place_of_nan(const std::string& mjcf) {
+  std::ifstream file(mjcf, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  return not_a_number_in(text).value_or("a number is NaN, here or in a file that is included");
+}
+
 }  // namespace
 
 Result<ModelPtr> load_model(const std::string& mjcf, const mjVFS* files) {
+  if (const std::string problem = files == nullptr ? problem_with_file(mjcf) : ""; !problem.empty())
+    return Problem{mjcf + ": " + problem};
   static std::mutex loading;  // the engine's parser keeps global state
   const std::scoped_lock lock(loading);
   catch_complaints();
@@ -34,7 +72,10 @@ Result<ModelPtr> load_model(const std::string& mjcf, const mjVFS* files) {
     model.reset(mj_loadXML(mjcf.c_str(), files, message.data(), static_cast<int>(message.size())));
   });
   if (model && complaint.empty()) complaint = problem_with_time_step(model->opt.timestep);
+  if (model && complaint.empty()) complaint = problem_with_sensors(*model);
   if (model && complaint.empty()) return model;
+  if (files == nullptr && complaint.find("contains a 'NaN'") != std::string::npos)
+    complaint = place_of_nan(mjcf);
   if (complaint.empty()) complaint = message.data();
   return Problem{mjcf + ": " + explained(complaint)};
 }

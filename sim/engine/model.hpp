@@ -20,7 +20,8 @@ using DataPtr = std::unique_ptr<mjData, ReleaseData>;
 
 /// Compiles a model. files: files that the engine finds in memory; nullptr: all are on disk.
 ///
-/// Errors: the file is missing or no valid MJCF, or its time step is not between 1 us and 100 ms.
+/// Errors: the file is missing, empty, no regular file or no valid MJCF, its time step is not between 1 us and
+///         100 ms, or the noise of a sensor is infinite.
 ///         The text begins with the name of the file.
 /// Threads: any; calls run one after the other, because the engine's parser has global state.
 [[nodiscard]] Result<ModelPtr> load_model(const std::string& mjcf, const mjVFS* files = nullptr);

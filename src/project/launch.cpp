@@ -217,9 +217,8 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   "--seed",
                   std::to_string(options.seed)};
   if (options.progress) command.push_back("--progress");
-  const std::string limit =
-      options.record_limit.empty() && mode == "run" ? usual_record_limit : options.record_limit;
-  if (!limit.empty() && limit != "none") append(command, {"--record-limit", limit});
+  const std::string limit = options.record_limit.empty() ? usual_record_limit : options.record_limit;
+  if (limit != "none") append(command, {"--record-limit", limit});
   if (options.accept_stuck) command.push_back("--accept-stuck");
   if (!options.duration.empty()) append(command, {"--for", options.duration});
   for (const std::string& value : parameter_values(specification, options)) append(command, {"--set", value});

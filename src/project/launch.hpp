@@ -58,7 +58,7 @@ struct Floor {
 [[nodiscard]] std::vector<std::string> parameter_values(const Specification& specification,
                                                         const LaunchOptions& options);
 
-/// The limit of the recording of `run`, unless `record_limit` gives another one; "none" is no limit.
+/// The limit of every recording, unless `record_limit` gives another one; "none" is no limit.
 inline constexpr const char* usual_record_limit = "1GB";
 
 /// Whether every real buffer has a driver for such a run; tells which have none, and what to do. simulated:

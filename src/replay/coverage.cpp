@@ -41,8 +41,7 @@ std::string FiringCounts::add(const Recording& recording) {
     }
   }
   ++runs_;
-  lacks_events_ =
-      lacks_events_ || recording.truncated || recording.lost > 0 || recording.segment.value_or(0) > 0;
+  lacks_events_ = lacks_events_ || recording.truncated || recording.lost > 0 || lacks_beginning(recording);
   return "";
 }
 

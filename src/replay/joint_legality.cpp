@@ -132,7 +132,7 @@ class JointOrder {
 
   JointOutcome play_as_written() {
     const Recording& run = sources_.front().recording();
-    if (run.segment.value_or(0) > 0) return incomplete("its beginning is gone: nothing was checked");
+    if (lacks_beginning(run)) return incomplete("its beginning is gone: nothing was checked");
     std::vector<JointLane> lanes(run.instances.size() + 1);
     std::int64_t last_ns = INT64_MIN;
     for (const Recording::Entry& entry : run.entries) {
@@ -201,7 +201,7 @@ class JointOrder {
     lanes_.resize(parts_.back().last + 1);
     for (std::size_t lane = parts_.back().first; lane <= parts_.back().last; ++lane)
       lanes_[lane].recording = recording;
-    if (run.segment.value_or(0) > 0) {
+    if (lacks_beginning(run)) {
       note(fmt::format("the beginning of the recording of {} is gone, and nothing of it was checked",
                        run.process->name));
       parts_.back().is_whole = false;
@@ -388,7 +388,7 @@ class JointOrder {
 Legality check_joint(std::span<const Recording> recordings, const net::Net& net,
                      const ProcessMap& processes) {
   const Recording& first = recordings.front();
-  if (recordings.size() == 1 && !first.process && first.segment.value_or(0) == 0 && has_deaths(first))
+  if (recordings.size() == 1 && !first.process && !lacks_beginning(first) && has_deaths(first))
     return check_joint(recordings_of_starts(first, DeployedNet(net, processes), processes), net, processes);
   JointOrder order(recordings, net, processes);
   auto [verdict, why] = order.judge();

@@ -49,7 +49,7 @@ class Play {
   /// the marking with which the first remaining segment begins.
   Outcome begin(Entries::const_iterator& from) {
     from = recording_.entries.begin();
-    if (recording_.segment.value_or(0) == 0) return {};
+    if (!lacks_beginning(recording_)) return {};
     from = std::ranges::find_if(recording_.entries, [](const Recording::Entry& entry) {
       return entry.event.kind() == Event::Kind::marking;
     });

@@ -32,7 +32,7 @@ std::string factor(double times) {
 
 void put_figures(std::string& html, const ReportInput& input) {
   html += R"(<div class="figures">)";
-  if (input.drive) {
+  if (input.drive && input.drive->is_whole) {
     const sim::LineMetrics& metrics = input.drive->metrics;
     if (!input.drive->line.points.empty()) put_figure(html, fmt::format("{:.2f}", metrics.laps), "laps");
     put_figure(html, fmt::format("{:.2f} s", metrics.line_lost_s),
@@ -223,10 +223,12 @@ void put_notices(std::string& html, const ReportInput& input) {
   };
   if (has_failed(input.recording))
     put_notice("The run has failed: " + shortened(input.ended, 400, 4), " failed");
-  if (input.recording.segment.value_or(0) > 0)
+  if (const std::string note = note_on_beginning(input.recording); !note.empty())
     put_notice(
-        "The beginning of the recording is gone (--record-limit): paths, behaviours and messages are "
-        "those of the rest.");
+        "About the recording: " + note +
+        ". Paths, behaviours, messages and the distance from the line are those of this part. Checks, "
+        "measures, iterations and firings are those of the whole run. Laps and losses of the line need "
+        "the whole recording, so they are not told.");
   if (input.recording.truncated)
     put_notice("The recording is cut off at its end: what happened after that is not shown.");
   if (input.recording.lost > 0)
@@ -237,7 +239,7 @@ void put_notices(std::string& html, const ReportInput& input) {
 
 std::string headline(const ReportInput& input) {
   std::string text = fmt::format("{:.1f} s", input.simulated_s);
-  if (!input.drive) return text;
+  if (!input.drive || !input.drive->is_whole) return text;
   const sim::LineMetrics& metrics = input.drive->metrics;
   if (!input.drive->line.points.empty()) put(text, " \u00b7 {:.2f} laps", metrics.laps);
   put(text, " \u00b7 line lost {:.2f} s", metrics.line_lost_s);

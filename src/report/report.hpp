@@ -21,6 +21,7 @@ struct DrivenPath {
   sim::Skeleton line;  ///< may be empty; the report then shows no error
   sim::Trace trace;
   sim::LineMetrics metrics;  ///< of line and trace
+  bool is_whole = true;  ///< false: the beginning is not recorded, so the metrics are not those of the run
 };
 
 /// A picture of the world.

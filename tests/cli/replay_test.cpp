@@ -1,4 +1,7 @@
+#include <fmt/core.h>
+
 #include "command.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::cli_test {
 
@@ -114,6 +117,42 @@ TEST_F(Replay, ReadsAndChecksTheSegmentsThatALimitLeaves) {
   EXPECT_EQ(again.code, 1);
   EXPECT_NE(again.text.find("its beginning is gone"), std::string::npos) << again.text;
   EXPECT_EQ(tessera("simulate 01_line_follower --for 1s --record-limit 5apples").code, 2);
+}
+
+TEST_F(Replay, WhoeverReadsARecordingWithoutItsBeginningIsToldFromWhenOnItIs) {
+  example("01_line_follower");
+  const std::string limited = "simulate 01_line_follower --for 60s --record run.tsr --record-limit 50kBx3";
+  const nlohmann::json summary = json(limited + " --report report");
+  const double from_s = summary.at("recorded_from_s").get<double>();
+  EXPECT_GT(from_s, 40);
+  for (const char* of_the_whole : {"laps", "line_lost_s", "lateral_error_m"})
+    EXPECT_FALSE(summary.contains(of_the_whole)) << of_the_whole;
+  const std::string from = fmt::format("{:.3f} s", from_s);
+  const auto expect_note = [&](const std::string& text) {
+    EXPECT_NE(text.find(from), std::string::npos) << text;
+    EXPECT_NE(text.find("--record-limit none"), std::string::npos) << text;
+  };
+  const project::Exit ran = tessera(limited);
+  expect_note(ran.text);
+  EXPECT_EQ(ran.text.find(" laps;"), std::string::npos) << ran.text;
+  expect_note(content_of(folder_ / "report/index.html"));
+  for (const char* asked : {"", "--check --spec 01_line_follower", "--print --last 1",
+                            "--values=motion --last 1", "--csv out.csv", "--to-perfetto out.perfetto"}) {
+    const project::Exit read = tessera(std::string("replay run.tsr ") + asked);
+    EXPECT_EQ(read.code, 0) << asked;
+    expect_note(read.text);
+  }
+  EXPECT_DOUBLE_EQ(json("replay run.tsr").at("recorded_from_s").get<double>(), from_s);
+  EXPECT_EQ(tessera("simulate 01_line_follower --from run.tsr").code, 1);
+  expect_note(tessera("simulate 01_line_follower --from run.tsr").text);
+
+  // Of a recording that is whole nobody says such things, and a limit is there unless it is unwanted.
+  const nlohmann::json whole = json("simulate 01_line_follower --for 10s --record whole.tsr");
+  EXPECT_FALSE(whole.contains("recorded_from_s"));
+  EXPECT_TRUE(whole.contains("laps"));
+  EXPECT_EQ(segment_number_in((folder_ / "whole.tsr").string()), 0U);
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 10s --record all.tsr --record-limit none").code, 0);
+  EXPECT_EQ(segment_number_in((folder_ / "all.tsr").string()), std::nullopt);
 }
 
 }  // namespace tessera::cli_test

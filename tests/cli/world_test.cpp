@@ -31,6 +31,14 @@ TEST_F(World, IsAskedWhetherItHasTheDevices) {
   EXPECT_THAT(checked(), HasSubstr("error E312: the world cannot be opened: "));
 }
 
+TEST_F(World, NamesWithControlCharactersDoNotReachTheTerminal) {
+  replace(folder_ / "arm/arm.xml", "<camera name=\"eye\"", "<camera name=\"e&#27;[31me\"");
+  const project::Exit listed = tessera("world arm/arm.xml");
+  EXPECT_EQ(listed.code, 0) << listed.text;
+  EXPECT_EQ(listed.text.find('\x1b'), std::string::npos) << listed.text;
+  EXPECT_THAT(listed.text, HasSubstr("camera: \"e\\u001b[31me\"")) << "for a specification";
+}
+
 TEST_F(World, MissingDriversAreAllNamedBeforeAnythingIsBuilt) {
   replace(spec(), "    arm.joints.gyro:    { sensor: gyro }\n", "");
   replace(spec(), "    arm.joints.hand:    { cpp: Height, site: tip }\n", "");

@@ -206,6 +206,22 @@ TEST(Report, SaysWhatARecordingDoesNotHold) {
   EXPECT_THAT(page, HasSubstr("no poses of the bodies of the world, so there are no paths"));
 }
 
+TEST(Report, OfARecordingWithoutItsBeginningDoesNotTellWhatNeedsTheWhole) {
+  ReportInput input = run_on_a_track();
+  for (const char* of_the_whole : {" laps", "line lost (longest", "\u00b7 line lost", "mean error"})
+    EXPECT_THAT(render(input)[0].bytes, HasSubstr(of_the_whole));
+  input.recording.segment = 3;
+  for (tessera::Recording::Entry& entry : input.recording.entries) entry.event.time_ns += 70'000'000'000;
+  input.drive->is_whole = false;
+  const std::string page = render(input)[0].bytes;
+  EXPECT_THAT(page, HasSubstr("its beginning is gone: it holds what happened from 70.000 s on"));
+  EXPECT_THAT(page, HasSubstr("--record-limit none"));
+  EXPECT_THAT(page, Not(HasSubstr(" laps")));
+  EXPECT_THAT(page, Not(HasSubstr("line lost (longest")));
+  EXPECT_THAT(page, Not(HasSubstr("\u00b7 line lost")));
+  EXPECT_THAT(page, Not(HasSubstr("mean error")));
+}
+
 TEST(Report, OfARunWithoutDurationHasNoEmptyChart) {
   Constructed run({"robot.control"});
   run.fire(0, 0, "t_in").fire(0, 0, "follow.t1");

@@ -1,7 +1,12 @@
+#include <fmt/core.h>
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
 #include <filesystem>
 #include <fstream>
+#include <future>
+#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -68,6 +73,8 @@ TEST(Segments, AreReadAsOneRecording) {
   const RecordedRun limited = recorded(simulated(300ms), 40'000, 1000);
   const Recording all = recording_in(limited.file);
   EXPECT_EQ(all.segment, 0U);
+  EXPECT_EQ(limited.summary.recorded_from, std::nullopt);
+  EXPECT_EQ(note_on_beginning(all), "");
   std::size_t markings = 0, others = 0;
   for (const Recording::Entry& entry : all.entries)
     ++(entry.event.kind() == Event::Kind::marking ? markings : others);
@@ -96,6 +103,12 @@ TEST(Segments, OnlyTheNewestAreKeptAndTheyKeepToTheLimit) {
   EXPECT_GT(*all.segment, 10U);
   EXPECT_EQ(all.entries.front().event.kind(), Event::Kind::marking);
   EXPECT_EQ(all.entries.back().text, "duration");
+  const std::string from =
+      fmt::format("{:.3f} s", static_cast<double>(all.entries.front().event.time_ns) * 1e-9);
+  EXPECT_EQ(limited.summary.recorded_from, Duration(all.entries.front().event.time_ns));
+  EXPECT_THAT(limited.summary.warnings,
+              ::testing::ElementsAre(::testing::HasSubstr("the recording begins at " + from)));
+  EXPECT_THAT(note_on_beginning(all), ::testing::HasSubstr("what happened from " + from));
   std::size_t files = 0;
   for ([[maybe_unused]] const auto& entry : fs::directory_iterator(fs::path(limited.file).parent_path()))
     ++files;
@@ -266,6 +279,54 @@ TEST(Segments, FilesOfOthersAreNeitherRemovedNorWrittenOver) {
   EXPECT_FALSE(execute(system.system(), options, error));
   EXPECT_NE(error.find("run.1.tsr' is in the way"), std::string::npos) << error;
   EXPECT_EQ(bytes_of(segment_path(file, 1)), "mine");
+}
+
+TEST(Segments, ARecordingThatHasEndedIsNoSegmentOfAnotherWhateverItsName) {
+  TestSystem system;
+  make_talkers(system);
+  RunOptions options = simulated(100ms);
+  options.recording = segment_path(scratch_file("run.tsr"), 0);
+  options.record_limit = {10'000'000, 3};
+  console::silence(true);
+  static_cast<void>(run(system, options));
+  console::silence(false);
+  const std::string bytes = bytes_of(options.recording);
+
+  TestSystem other;
+  make_talkers(other);
+  const std::string mine = std::exchange(options.recording, scratch_file("run.tsr"));
+  std::string error;
+  EXPECT_FALSE(execute(other.system(), options, error));
+  EXPECT_NE(error.find("run.0.tsr' is in the way"), std::string::npos) << error;
+  EXPECT_NE(error.find("--record-limit none"), std::string::npos) << error;
+  EXPECT_EQ(bytes_of(mine), bytes);
+}
+
+TEST(Segments, APipeHasNoneAndStaysWhereItIs) {
+  const std::string pipe = scratch_file("pipe");
+  fs::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  auto reader = std::async(std::launch::async, [&] {
+    std::ifstream file(pipe, std::ios::binary);
+    return std::string(std::istreambuf_iterator<char>(file), {});
+  });
+  TestSystem system;
+  make_talkers(system);
+  RunOptions options = simulated(2s);
+  options.recording = pipe;
+  options.record_limit = {50'000, 3};
+  console::silence(true);
+  const RunSummary summary = run(system, options);
+  console::silence(false);
+  const std::string bytes = reader.get();
+  EXPECT_EQ(summary.recorded_from, std::nullopt);
+  EXPECT_EQ(fs::status(pipe).type(), fs::file_type::fifo);
+  EXPECT_GT(bytes.size(), 3 * 50'000U);
+  RecordingReader read;
+  read.feed(bytes);
+  EXPECT_TRUE(read.has_ended());
+  EXPECT_FALSE(read.recording().segment);
+  fs::remove(pipe);
 }
 
 TEST(Segments, EventsThatAreLostDoNotHoldUpTheOthers) {

@@ -1,5 +1,6 @@
 // Cameras of simulated worlds: their pictures are the same from run to run, and do not disturb the physics.
 
+#include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -213,6 +214,16 @@ TEST(RefusedCameras, SayWhichBufferWouldFit) {
   noisy["noise"] = 0.1;
   EXPECT_EQ(refusal<Colours>(*world, "camera", "front", noisy),
             "'camera' has no option 'noise' | its options: width, height | noise");
+}
+
+TEST(RefusedCameras, WithAnAngleThatNoPictureHas) {
+  for (const char* angle : {"0", "180", "500", "-45"}) {
+    const auto world = open_text("angle", std::string("<mujoco><worldbody><camera name='c' fovy='") + angle +
+                                              "'/></worldbody></mujoco>");
+    EXPECT_THAT(refusal<Colours>(*world, "camera", "c", small),
+                ::testing::HasSubstr("camera 'c' has an angle of view"))
+        << angle;
+  }
 }
 
 TEST(RefusedCameras, AMachineWithoutEglIsToldWhichPackagesItNeeds) {

@@ -2,7 +2,9 @@
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/stat.h>
 
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
 #include "sim/contents.hpp"
@@ -106,6 +108,55 @@ TEST(Engine, RefusesATimeStepThatNoRunCanMake) {
     EXPECT_THAT(complaint(step), ::testing::HasSubstr("it must be 1 us (1e-6 s) or longer")) << step;
   EXPECT_EQ(complaint("1e-6"), "");
   EXPECT_THAT(complaint("0.2"), ::testing::HasSubstr("longer than 0.1 s"));
+}
+
+TEST(Engine, SaysWhereANumberIsNone) {
+  using ::testing::EndsWith;
+  const auto complaint = [](const std::string& xml) {
+    return sim::Physics::load(file_with("nan.xml", xml)).problem();
+  };
+  const std::string body = "<body name='nan' pos='0 0 1'>\n<geom name='a' size='0.1'/></body>";
+  const auto world = [&](const std::string& parts) {
+    return "<mujoco>\n<worldbody>\n" + parts + "</worldbody></mujoco>";
+  };
+  EXPECT_EQ(complaint(world(body)), "");
+  EXPECT_THAT(complaint(world(body + "<geom size='1' pos = \"0 NaN 1\"/>")),
+              EndsWith("nan.xml: `pos` is NaN (line 4)"));
+  EXPECT_THAT(complaint(world("<geom size='-nan'/>")), EndsWith("nan.xml: `size` is NaN (line 3)"));
+  const std::filesystem::path part =
+      file_with("has_nan.xml", "<mujoco><worldbody><geom size='nan'/></worldbody></mujoco>");
+  EXPECT_THAT(complaint("<mujoco><include file='" + part.filename().string() + "'/></mujoco>"),
+              EndsWith("a number is NaN, here or in a file that is included"));
+}
+
+TEST(Engine, SaysWhatIsNoFileOfAWorld) {
+  using ::testing::EndsWith;
+  const std::string folder = std::filesystem::path(file_with("empty.xml", "")).parent_path().string();
+  const auto complaint = [](const std::string& path) { return sim::Physics::load(path).problem(); };
+  EXPECT_THAT(complaint(file_with("empty.xml", "")), EndsWith("empty.xml: the file is empty"));
+  EXPECT_THAT(complaint(folder), EndsWith("is a folder; name the file in it"));
+  EXPECT_THAT(complaint(folder + "/nowhere.xml"), EndsWith("nowhere.xml: there is no such file"));
+  EXPECT_THAT(complaint("/dev/zero"), EndsWith("is no regular file"));
+  const std::string pipe = folder + "/pipe.xml";
+  std::filesystem::remove(pipe);
+  ASSERT_EQ(mkfifo(pipe.c_str(), 0600), 0);
+  EXPECT_THAT(complaint(pipe), EndsWith("is no regular file")) << "and nobody waits";
+  std::filesystem::remove(pipe);
+}
+
+TEST(Engine, RefusesSensorsWithInfiniteNoise) {
+  using ::testing::EndsWith;
+  const auto complaint = [](const std::string& options) {
+    return sim::Physics::load(file_with("sensor.xml",
+                                        "<mujoco><worldbody><body><joint name='j'/><geom size='1'/>"
+                                        "</body></worldbody><sensor><jointpos name='s' joint='j' " +
+                                            options + "/></sensor></mujoco>"))
+        .problem();
+  };
+  EXPECT_EQ(complaint("noise='0.1' cutoff='3'"), "");
+  for (const char* wrong : {"noise='inf'", "cutoff='inf'", "noise='1e999'"})
+    EXPECT_NE(complaint(wrong), "") << wrong;
+  EXPECT_THAT(complaint("noise='inf'"), EndsWith("the `noise` or `cutoff` of sensor 's' is infinite"));
 }
 
 TEST(Engine, AnActuatorWithoutANameHasThatOfItsJoint) {

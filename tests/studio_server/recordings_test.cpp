@@ -113,6 +113,8 @@ TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirst
   EXPECT_EQ(whole.at("values").at("robot.control.line.left"), json({{0, true}}));
   EXPECT_EQ(whole.at("truncated"), false);
   EXPECT_EQ(whole.at("cut"), false);
+  EXPECT_EQ(whole.at("lacks_beginning"), true);
+  EXPECT_EQ(get("/api/recordings/run.tsr").json().at("lacks_beginning"), false);
   EXPECT_EQ(get("/api/recordings/run.tsr").json().at("cut"), true);
   EXPECT_EQ(whole.at("path"), json::array());
   EXPECT_TRUE(whole.at("track").is_null());

@@ -250,6 +250,14 @@ class RecordingReader {
   Recording recording_;
 };
 
+/// Whether the limit of the recording has dropped its first segments.
+[[nodiscard]] bool lacks_beginning(const Recording& recording);
+/// "its beginning is gone: it holds what happened from 812.300 s on; ...", and how a run keeps everything. Empty:
+/// it has its beginning. Precondition: the first entries that are left are among `recording.entries`.
+[[nodiscard]] std::string note_on_beginning(const Recording& recording);
+/// The same, of one that has lost its beginning. from_ns: time of the first entry that is left; nullopt: none is.
+[[nodiscard]] std::string note_on_lost_beginning(std::optional<std::int64_t> from_ns);
+
 /// The path of a segment that is not the newest: "run.tsr" -> "run.3.tsr".
 [[nodiscard]] std::string segment_path(const std::string& path, std::uint64_t number);
 
@@ -258,6 +266,14 @@ class RecordingReader {
 
 /// The number in the header of a file; nullopt: the file is no segment of a recording with a limit.
 [[nodiscard]] std::optional<std::uint64_t> segment_number_in(const std::string& file);
+
+/// How a file ends, as far as its last event tells.
+enum class FileEnd : std::uint8_t {
+  cut,      ///< there is no last event: the file was cut off, grows, or is no recording
+  goes_on,  ///< a full segment: the next one follows
+  final     ///< the run has ended
+};
+[[nodiscard]] FileEnd end_of(const std::string& file);
 
 /// Reads a recording. A folder stands for the recording_file_name in it. A recording with a limit gives all
 /// segments that exist before the named file, even if that file itself is missing or empty; a segment that is

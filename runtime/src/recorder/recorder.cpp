@@ -246,7 +246,7 @@ Recorder::Result Recorder::close() {
     lost = file_.lost();
     for (const auto& lane : lanes_) lost += lane->lost();
   }
-  return {.lost = lost, .failure = file_.failure()};
+  return {.lost = lost, .failure = file_.failure(), .kept_from_ns = file_.kept_from_ns()};
 }
 
 }  // namespace tessera

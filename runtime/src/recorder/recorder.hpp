@@ -4,7 +4,9 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -33,7 +35,8 @@ struct RecordingHeader {
 class RecordingFile {
  public:
   /// track: from the start of the run; not nullptr if there is a limit. false and `error` if the file
-  /// cannot be created, or if the limit is too small for the header.
+  /// cannot be created, or if the limit is too small for the header. A pipe or a device has no limit: it keeps
+  /// nothing, and must not be renamed.
   [[nodiscard]] bool open(const std::string& path, const RecordingHeader& header, std::string& error,
                           RunOptions::Limit limit = {}, std::unique_ptr<MarkingTrack> track = nullptr);
   RecordingFile() = default;
@@ -58,6 +61,10 @@ class RecordingFile {
   void hurry() { hurry_.store(true, std::memory_order_relaxed); }
   [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
   [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
+  /// The time from which on events are left, if the limit has dropped the first ones.
+  [[nodiscard]] std::optional<std::int64_t> kept_from_ns() const {
+    return track_ == nullptr || segment_ < limit_.segments ? std::nullopt : std::optional(began_ns_.front());
+  }
   /// nullptr: there is no limit.
   [[nodiscard]] const MarkingTrack* track() const { return track_.get(); }
 
@@ -74,8 +81,9 @@ class RecordingFile {
   RunOptions::Limit limit_;
   std::unique_ptr<MarkingTrack> track_;
   std::uint64_t segment_ = 0, segment_bytes_ = 0;
-  std::uint64_t pieces_left_ = 0;  // of the text of the last event
-  std::int64_t last_ns_ = 0;       // time of the latest event
+  std::deque<std::int64_t> began_ns_;  // of the segments that are kept
+  std::uint64_t pieces_left_ = 0;      // of the text of the last event
+  std::int64_t last_ns_ = 0;           // time of the latest event
   int descriptor_ = -1;
   std::array<Event, 2048> buffer_{};
   std::size_t filled_ = 0;
@@ -159,6 +167,7 @@ class Recorder {
   struct Result {
     std::uint64_t lost = 0;
     std::string failure;
+    std::optional<std::int64_t> kept_from_ns;  ///< as in RecordingFile
   };
   /// Writes the remaining events. Only after the producers have ended.
   [[nodiscard]] Result close();

@@ -24,7 +24,8 @@ constexpr int look_up_ms = 50;
 static_assert(std::endian::native == std::endian::little, "recordings are little-endian");
 
 /// Removes segments of an earlier recording with that name, which would be read together with this one.
-/// Other files with such a name are neither removed nor overwritten: false and `error`.
+/// Other files with such a name are neither removed nor overwritten, nor is a recording of a run that has ended
+/// in it: false and `error`.
 bool remove_segments(const std::string& path, std::string& error) {
   namespace fs = std::filesystem;
   const fs::path whole(path);
@@ -35,14 +36,24 @@ bool remove_segments(const std::string& path, std::string& error) {
     const std::string name = entry.path().string();
     if (fs::path(without_segment_number(name)).filename() != whole.filename()) continue;
     const auto number = segment_number_in(name);
-    if (!number || fs::path(segment_path(path, *number)).filename() != entry.path().filename()) {
-      error = fmt::format("'{}' is in the way: a recording with a limit leaves files of such names", name);
+    const bool is_segment =
+        number && fs::path(segment_path(path, *number)).filename() == entry.path().filename();
+    if (!is_segment || end_of(name) == FileEnd::final) {
+      error = fmt::format(
+          "'{}' is in the way: a recording with a limit leaves files of such names\n"
+          "hint: name another file with --record, or keep all in one file with --record-limit none",
+          name);
       return false;
     }
     segments.push_back(entry.path());
   }
   for (const fs::path& segment : segments) fs::remove(segment, ignored);
   return true;
+}
+
+[[nodiscard]] bool is_pipe_or_device(const std::string& path) {
+  struct stat status {};
+  return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
 }
 
 }  // namespace
@@ -53,8 +64,8 @@ bool RecordingFile::open(const std::string& path, const RecordingHeader& header,
   header_ = header.json;
   if (header.has_scene) magic_ = recording_magic_with_poses;
   if (header.has_memory) magic_ = recording_magic_with_memory;
-  limit_ = limit;
-  track_ = limit.segment_bytes == 0 ? nullptr : std::move(track);
+  if (!is_pipe_or_device(path)) limit_ = limit;
+  track_ = limit_.segment_bytes == 0 ? nullptr : std::move(track);
   if (track_ != nullptr) {
     const std::size_t least = 2 * header_.size() + 64 * sizeof(Event);
     if (limit.segment_bytes < least || limit.segments < 2) {
@@ -63,6 +74,7 @@ bool RecordingFile::open(const std::string& path, const RecordingHeader& header,
       return false;
     }
     if (!remove_segments(path, error)) return false;
+    began_ns_.push_back(0);
   }
   if (open_segment()) return true;
   error = fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
@@ -139,7 +151,11 @@ void RecordingFile::begin_segment(std::int64_t time_ns) {
   descriptor_ = -1;
   if (std::rename(path_.c_str(), segment_path(path_, segment_).c_str()) != 0) failure_ = std::strerror(errno);
   ++segment_;
-  if (segment_ >= limit_.segments) ::unlink(segment_path(path_, segment_ - limit_.segments).c_str());
+  began_ns_.push_back(time_ns);
+  if (segment_ >= limit_.segments) {
+    ::unlink(segment_path(path_, segment_ - limit_.segments).c_str());
+    began_ns_.pop_front();
+  }
   if (failure_.empty() && !open_segment()) failure_ = std::strerror(errno);
   const std::string marked = track_->known() ? track_->marked() : std::string();
   put({.time_ns = time_ns,

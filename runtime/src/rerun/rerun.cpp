@@ -61,8 +61,8 @@ class Play {
           recording_.net_hash, system.net_hash);
     if (recording_.buffers.empty())
       return "it holds no values of buffers: record the run with --record-values small or all";
-    if (recording_.segment.value_or(0) > 0)
-      return "its beginning is gone (--record-limit), and with it what the code remembered from then";
+    if (lacks_beginning(recording_))
+      return note_on_beginning(recording_) + "\nwithout the beginning nobody knows what the code remembered";
     if (std::ranges::any_of(recording_.entries,
                             [](const Entry& entry) { return entry.event.kind() == Event::Kind::process; }))
       return "a process dies in it, and forgets what its code would remember here";

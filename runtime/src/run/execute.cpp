@@ -42,6 +42,12 @@ void close_recording(Assembly& assembly, RunSummary& summary) {
   if (assembly.recorder == nullptr) return;
   const Recorder::Result result = assembly.recorder->close();
   summary.lost_events = result.lost;
+  if (result.kept_from_ns) {
+    summary.recorded_from = Duration(*result.kept_from_ns);
+    warn(summary, fmt::format("the recording begins at {:.3f} s: what was before is beyond its limit "
+                              "(--record-limit none keeps everything)",
+                              seconds(*summary.recorded_from)));
+  }
   if (!result.failure.empty())
     warn(summary, fmt::format("the recording '{}' is cut: {}", assembly.options.recording, result.failure));
   else if (result.lost > 0)

@@ -24,6 +24,7 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
       {"lines_not_printed", summary.lines_not_printed},
       {"warnings", summary.warnings},
   };
+  if (summary.recorded_from) json["recorded_from_s"] = seconds(*summary.recorded_from);
   if (summary.world_time) json["world_s"] = seconds(*summary.world_time);
   if (options.world && !options.world->track.empty()) json["track"] = options.world->track;
   const auto judgement =

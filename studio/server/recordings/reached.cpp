@@ -51,7 +51,9 @@ json missing_in(const Coverage& coverage, const net::Net& net) {
 void Reached::begin(const Recording& header) {
   const std::lock_guard lock(mutex_);
   if (counts_.runs() == 0) counts_.begin_run();
-  if (header.segment.value_or(0) > 0) counts_.lack_events();
+  // A segment that was not read is gone.
+  if (header.segment.value_or(0) != next_segment_) counts_.lack_events();
+  next_segment_ = header.segment.value_or(0) + 1;
 }
 
 void Reached::add(const std::vector<net::TransitionId>& fired, const std::vector<net::PlaceId>& marked) {

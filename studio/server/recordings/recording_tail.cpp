@@ -113,7 +113,7 @@ RecordingTail::Batch RecordingTail::next() {
       if (reached_ != nullptr) reached_->begin(*stream_.recording());
       if (first) {
         batch.parameters = stream_.recording()->parameters;
-        batch.lacks_parameters = stream_.recording()->segment.value_or(0) > 0;
+        batch.lacks_parameters = lacks_beginning(*stream_.recording());
       }
     }
     if (!stream_.recording()) continue;

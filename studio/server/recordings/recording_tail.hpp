@@ -58,6 +58,7 @@ class Reached {
  private:
   mutable std::mutex mutex_;
   replay::FiringCounts counts_;
+  std::uint64_t next_segment_ = 0;
 };
 
 /// Follows a run by its recording: the firings, the marking, and the values of the buffers.

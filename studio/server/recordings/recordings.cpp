@@ -132,9 +132,10 @@ class Content {
         {"net_hash", recording.net_hash}, {"system", recording.system}, {"subsystems", recording.instances}};
     poses_.begin(recording);
     content_["scene"] = poses_.scene();
+    content_["lacks_beginning"] = lacks_beginning(recording);
     is_ordered_ = recording.clock == "simulated";
     // The first segment that is left, but not the first of the run; its marking follows.
-    begins_ = recording.segment.value_or(0) > 0 ? Begins::unknown : Begins::initial;
+    begins_ = lacks_beginning(recording) ? Begins::unknown : Begins::initial;
   }
 
   void add(const Recording::Entry& entry) {

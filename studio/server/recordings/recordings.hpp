@@ -29,7 +29,7 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "cut", "truncated", "path", "track", "scene"} of docs/studio.md, within the time span: at most
+  /// "values", "lacks_beginning", "cut", "truncated", "path", "track", "scene"} of docs/studio.md, within the time span: at most
   /// most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
   /// name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;

@@ -683,6 +683,8 @@ export interface Outcome {
   lost_events: number;
   lines_not_printed: number;
   warnings: string[];
+  /** The recording begins there: its limit has dropped what was before. Absent: it has its beginning. */
+  recorded_from_s?: number;
   world_s?: number;
   track?: string;
   /** Those of the simulated world. */
@@ -780,6 +782,8 @@ export interface Recording {
   track: string | null;
   /** Null: it was recorded without poses. */
   scene: SceneShown | null;
+  /** Its limit (--record-limit) has dropped what was before `first`. */
+  lacks_beginning: boolean;
   /** Its end is missing: the controller was killed, or still runs. */
   cut: boolean;
   /** Something of it is not in this answer. */

@@ -36,6 +36,8 @@ export class Replay {
   /** The first and the last time of the recording. */
   readonly first: number;
   readonly last: number;
+  /** Whether the limit of the recording has dropped what was before `first`. */
+  readonly lacksBeginning: boolean;
   /** Whether the end is missing. */
   readonly cut: boolean;
   private readonly path: readonly PathRow[];
@@ -60,6 +62,7 @@ export class Replay {
   ) {
     this.first = recording.first ?? 0;
     this.last = recording.last ?? this.first;
+    this.lacksBeginning = recording.lacks_beginning;
     this.cut = recording.cut;
     this.path = recording.path;
     this.take(recording, this.first);

@@ -1,9 +1,7 @@
 /** The largest part of the time of the page that drawing may take. */
 const ownShare = 1 / 3;
-/**
- * The largest part of the time in which a picture may be under way, in this process or in the one that draws.
- */
-const wholeShare = 1 / 2;
+/** The largest part of the time in which a picture may be under way, in this process or in the one that draws. */
+export const wholeShare = 1 / 2;
 
 /**
  * When the next picture may be drawn. If WebGL runs on the processor, it takes time from everything else:
@@ -14,7 +12,8 @@ export class Pace {
   own = 0;
   whole = 0;
   private begun = 0;
-  private due = 0;
+  /** When the next picture may be drawn. */
+  due = 0;
 
   isDue(now: number): boolean {
     return now >= this.due;

@@ -64,6 +64,12 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
       <span className="position">
         {clock(time)}
         <span className="whole"> / {clock(last)} s</span>
+        {replay.lacksBeginning && (
+          <span title="Its limit has dropped what was before. tessera simulate --record-limit none keeps everything.">
+            {" "}
+            from {clock(first)} s on
+          </span>
+        )}
         {replay.cut && <span title="The controller was killed, or is still running"> cut off</span>}
         {loading && <span role="status"> loading…</span>}
       </span>

@@ -27,6 +27,7 @@ import { Bodies3d, still } from "./bodies_3d";
 import type { Rays } from "../../model/net/views";
 import { Pace } from "../run/pace";
 import { Rays3d } from "./rays_3d";
+import { Sharpness } from "./sharpness";
 
 /** Whether WebGL runs on the processor, which makes every pixel expensive. Throws if there is none. */
 function isSoftware(): boolean {
@@ -48,6 +49,9 @@ export class World3d {
   private readonly controls: OrbitControls;
   private readonly isSoftware = isSoftware();
   private readonly pace = new Pace();
+  private readonly sharpness = new Sharpness();
+  /** The part of the pixels that the picture shown has. */
+  private scale = 1;
   /** Their poses; the drawn objects are in `drawn`. */
   private bodies: Object3D[] = [];
   private drawn: Bodies3d | null = null;
@@ -163,26 +167,37 @@ export class World3d {
     const size = [width, height, devicePixelRatio, background].join();
     if (size !== this.size && width > 0 && height > 0) {
       this.size = size;
-      this.renderer.setPixelRatio(this.isSoftware ? 1 : devicePixelRatio);
-      this.renderer.setSize(width, height, false);
+      this.scale = 0;
+      this.sharpness.fit(width * height);
       this.camera.aspect = width / height;
       this.camera.updateProjectionMatrix();
       this.scene.background = new Color(background);
       this.changed = true;
     }
-    const isSeen = width > 0 && height > 0;
-    if (isSeen && this.changed && this.pace.isDue(performance.now())) this.draw();
+    const now = performance.now();
+    if (width === 0 || height === 0 || !this.pace.isDue(now)) return;
+    if (this.changed || this.sharpness.isBlurred(now, this.scale)) this.draw(now);
   };
 
-  private draw(): void {
+  private draw(now: number): void {
+    this.resize(this.isSoftware ? this.sharpness.scale(now) : 1);
+    if (this.changed) this.sharpness.moved(now);
     this.changed = false;
-    this.pace.begin(performance.now());
+    this.pace.begin(now);
     this.show();
     this.rays.show(this.scans, this.bodies);
     this.renderer.render(this.scene, this.camera);
     this.canvas.dataset.drawn = String(Number(this.canvas.dataset.drawn ?? 0) + 1);
     this.pace.ordered(performance.now());
     this.waitUntilDrawn();
+  }
+
+  /** What is drawn has so many pixels, and is stretched to the canvas. */
+  private resize(scale: number): void {
+    if (scale === this.scale) return;
+    this.scale = scale;
+    this.renderer.setPixelRatio(this.isSoftware ? scale : devicePixelRatio);
+    this.renderer.setSize(this.canvas.clientWidth, this.canvas.clientHeight, false);
   }
 
   /** `render` only queues the work of another process. */
@@ -197,6 +212,7 @@ export class World3d {
       }
       gl.deleteSync(fence);
       this.pace.drawn(performance.now());
+      this.sharpness.drawn(this.scale, this.pace);
     };
     this.waiting = setTimeout(look);
   }

@@ -13,6 +13,7 @@ export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings
     path: [],
     track: null,
     scene: null,
+    lacks_beginning: false,
     cut: false,
     truncated: false,
     first: firings[0]?.[0] ?? null,

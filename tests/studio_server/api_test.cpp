@@ -196,10 +196,10 @@ TEST_F(Api, AFileThatAPageCannotSeeAsItIsIsNotReplaced) {
   const std::string code = content_of(source) + "// gr\xfcn\n";
   write(source, code);
   const json shown = get("/api/sources?file=src/control.cpp").json();
-  EXPECT_EQ(put("/api/sources",
-                {{"file", "src/control.cpp"}, {"text", "x"}, {"revision", shown.at("revision")}})
-                .status,
-            500);
+  EXPECT_EQ(
+      put("/api/sources", {{"file", "src/control.cpp"}, {"text", "x"}, {"revision", shown.at("revision")}})
+          .status,
+      500);
   EXPECT_EQ(content_of(source), code);
 }
 

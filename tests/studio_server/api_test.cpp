@@ -192,14 +192,14 @@ TEST_F(Api, AFileThatAPageCannotSeeAsItIsIsNotReplaced) {
   EXPECT_EQ(latin.status, 500);
   EXPECT_THAT(latin.body, HasSubstr("a byte in line 2 is not UTF-8"));
   EXPECT_EQ(content_of(spec()), "# one\n# gr\xfcn\n");
-  const fs::path source = project() / "src/control.cpp";
+  const fs::path source = spec().parent_path() / "src/control.cpp";
   const std::string code = content_of(source) + "// gr\xfcn\n";
   write(source, code);
   const json shown = get("/api/sources?file=src/control.cpp").json();
-  EXPECT_EQ(put("/api/sources",
-                {{"file", "src/control.cpp"}, {"text", "x"}, {"revision", shown.at("revision")}})
-                .status,
-            500);
+  EXPECT_EQ(
+      put("/api/sources", {{"file", "src/control.cpp"}, {"text", "x"}, {"revision", shown.at("revision")}})
+          .status,
+      500);
   EXPECT_EQ(content_of(source), code);
 }
 

@@ -351,21 +351,21 @@ bool ConditionNames::read_subscript(std::size_t& at, Value& value, const std::st
     out_.error("E212", span_of(open), path + " has no elements: it is " + in_words(value, scope_.types));
     return false;
   }
-  const Token& number = tokens_[at + 1];
+  const bool is_negative = tokens_[at + 1].is("-");
+  const Token* const number = &tokens_[at + (is_negative ? 2 : 1)];
   std::uint64_t element = 0;
-  const char* const end = number.text.data() + number.text.size();
-  const bool is_constant = number.kind == Token::Kind::number && tokens_[at + 2].is("]") &&
-                           !(number.text.size() > 1 && number.text.front() == '0') &&
-                           std::from_chars(number.text.data(), end, element).ptr == end;
-  if (is_constant && element >= value.type.extent)
-    out_.error(
-        "E204", span_of(number),
-        path + " has no element " + std::string(number.text) + ": it is " + in_words(value, scope_.types),
-        "elements count from 0: the last one is " + std::to_string(value.type.extent - 1));
+  const char* const end = number->text.data() + number->text.size();
+  const bool is_constant = number->kind == Token::Kind::number && number[1].is("]") &&
+                           !(number->text.size() > 1 && number->text.front() == '0') &&
+                           std::from_chars(number->text.data(), end, element).ptr == end;
+  if (is_constant && (element >= value.type.extent || (is_negative && element > 0)))
+    out_.error("E204", span_of(*number),
+               path + " has no element " + (is_negative ? "-" : "") + std::string(number->text) + ": it is " +
+                   in_words(value, scope_.types),
+               "elements count from 0: the last one is " + std::to_string(value.type.extent - 1));
   at = behind_bracket(at);
-  Type element_type = value.type;
-  element_type.extent = 0;
-  value = value_of(element_type);
+  value.type.extent = 0;
+  value = value_of(Type(value.type));
   return true;
 }
 

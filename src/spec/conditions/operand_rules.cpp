@@ -15,6 +15,13 @@ namespace {
 using diagnostics::quoted;
 using Is = Value::Kind;
 
+/// For a number where a duration belongs. It may have letters that are no unit: "500msec".
+std::string unit_hint(const std::string& number) {
+  if (number.find_first_not_of("0123456789.'") == std::string::npos)
+    return fmt::format("write the unit: {0} s or {0} ms", number);
+  return "durations are written like 500 ms; the units are h, min, s, ms, us and ns";
+}
+
 }  // namespace
 
 Value ConditionOperators::combine(const Token& mark, const Value& left, const Value& right) {
@@ -71,7 +78,7 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
     if (one.kind == Is::duration && other.is_plain()) {
       std::string hint = "compare it with a duration such as 500 ms";
       if (other.literal)
-        hint = fmt::format("write the unit: {0} s or {0} ms", text_of(other));
+        hint = unit_hint(text_of(other));
       else if (other.declared && other.type.unit == "s")
         hint = fmt::format("write tessera::seconds({})", text_of(one));
       if (one.literal && other.declared && !other.type.unit.empty())
@@ -150,7 +157,7 @@ Value ConditionOperators::add(const Token& mark, const Value& left, const Value&
   if (durations && (left.is_plain() || right.is_plain())) {
     const Value& plain = left.is_plain() ? left : right;
     mistake("E212", plain, described(left.is_plain() ? right : left) + ", " + described(plain),
-            plain.literal ? fmt::format("write the unit: {0} s or {0} ms", text_of(plain)) : "");
+            plain.literal ? unit_hint(text_of(plain)) : "");
     return result;
   }
   if (left.kind == Is::time && right.kind == Is::time) {

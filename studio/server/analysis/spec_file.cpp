@@ -46,8 +46,10 @@ std::string not_shown(const SpecFile::Content& content) {
   if (content.revision.empty()) return content.error;
   const std::optional<std::size_t> byte = diagnostics::first_invalid_byte(content.text);
   if (!byte) return {};
-  const auto line = 1 + std::count(content.text.begin(), content.text.begin() + static_cast<std::ptrdiff_t>(*byte), '\n');
-  return fmt::format("a byte in line {} is not UTF-8, and would be lost; save it in the encoding UTF-8 first", line);
+  const auto line =
+      1 + std::count(content.text.begin(), content.text.begin() + static_cast<std::ptrdiff_t>(*byte), '\n');
+  return fmt::format("a byte in line {} is not UTF-8, and would be lost; save it in the encoding UTF-8 first",
+                     line);
 }
 
 }  // namespace

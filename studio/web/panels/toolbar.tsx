@@ -17,7 +17,7 @@ export function Toolbar() {
     <header className="toolbar">
       <About />
       <h1 className="project" title={project ? `${project.folder}/${project.file}` : ""}>
-        {project?.name ?? "…"}
+        <span className="name">{project?.name ?? "…"}</span>
         {dirty && <span className="unsaved" title="Not saved yet" aria-label="not saved" role="img" />}
       </h1>
       <div className="segmented" role="tablist" aria-label="View">

@@ -65,7 +65,7 @@ export const button = (page, name) => page.getByRole("button", { name, exact: tr
 /** The text of the specification as the page has it. */
 export const draftText = (page) =>
   page.evaluate(() => {
-    const key = Object.keys(sessionStorage).find((one) => one.startsWith("tessera.draft "));
+    const key = Object.keys(sessionStorage).find((one) => one.startsWith("tessera.draft"));
     return key && JSON.parse(sessionStorage.getItem(key)).text;
   });
 

@@ -242,3 +242,37 @@ test("at 200 % of a usual window all parts are reached, and none covers another"
     const whole = await page.evaluate(() => [document.documentElement.scrollWidth, innerWidth]);
     assert.ok(whole[0] <= whole[1], `sideways: ${whole}`);
   }));
+
+test("beside a long name and its verdicts, every button of the head is in the window, and lines are told whole", () =>
+  onPage(folder("standoff"), async (page, server) => {
+    writeFileSync(
+      server.file,
+      server
+        .text()
+        .replace("system: standoff", "system: warehouse_with_autonomous_collectors_and_a_crane_for_stations")
+        .replaceAll(/\bright\b/g, "autonomous_ball_collector_south")
+        .replaceAll(/\brest\b/g, "wait_until_the_situation_is_clear"),
+    );
+    await page.locator("h1").getByText("warehouse_with").waitFor();
+    await page.getByTestId("editor").locator(".cm-content").focus();
+    await page.keyboard.type("# ");
+    await tab(page, "Verify").click();
+    await button(page, "Verify").click();
+    await page.locator(".toolbar").getByText("violated").waitFor();
+    for (const width of [640, 920, 1024, 1440]) {
+      await page.setViewportSize({ width, height: 900 });
+      await drawn(page);
+      const beyond = await page
+        .locator(".toolbar button, .toolbar .unsaved")
+        .evaluateAll(
+          (all, width) => all.filter((one) => one.getBoundingClientRect().right > width).map((one) => one.outerHTML),
+          width,
+        );
+      assert.deepEqual(beyond, [], `${width} px`);
+      assert.equal(await page.getByLabel("not saved").evaluate((dot) => dot.getBoundingClientRect().width), 7);
+      const [lines, broken] = await page
+        .locator(".at-end .choice .faint")
+        .evaluateAll((all) => [all.length, all.filter((one) => one.getClientRects().length > 1).length]);
+      assert.ok(lines > 0 && broken === 0, `${broken} of ${lines} broken at ${width} px`);
+    }
+  }));

@@ -47,12 +47,12 @@ class Parameters {
           largest = std::max(largest, bytes_of(parameter.type));
     }
     storage_.resize(largest);
-    for (spec::Index index = 0; index < model.instances.size(); ++index) {
+    for (const spec::InstanceId index : model.instances.ids()) {
       std::vector<Bindings::Parameter>& own = of_instance_.emplace_back();
       for (const auto* parameters : {&model.parameters, &model.subsystem(index).parameters})
         for (const spec::Parameter& parameter : *parameters) own.push_back(bound(parameter));
     }
-    for (spec::Index index = 0; index < model.instances.size(); ++index)
+    for (const spec::InstanceId index : model.instances.ids())
       owners_.push_back({model.instance_path(index), of_instance_[index]});
   }
 
@@ -82,7 +82,7 @@ class Parameters {
   }
 
   std::vector<std::byte> storage_;
-  std::vector<std::vector<Bindings::Parameter>> of_instance_;
+  Numbered<spec::InstanceId, std::vector<Bindings::Parameter>> of_instance_;
   std::vector<ParameterOwner> owners_;
 };
 static_assert(static_cast<int>(spec::Scalar::boolean) == static_cast<int>(ValueKind::boolean) &&

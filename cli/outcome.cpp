@@ -57,6 +57,7 @@ std::vector<report::JudgedCurve> judged_in(const RunOutcome& outcome) {
     curve.is_check = written.value("check", false);
     curve.is_truth = written.value("truth", false);
     curve.every_s = written.value("every_s", curve.every_s);
+    curve.unit = written.value("unit", "");
     if (written.contains("limit")) curve.limit = written.at("limit").get<double>();
     for (const json& span : written.value("spans", json::array()))
       curve.spans.push_back(

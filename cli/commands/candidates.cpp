@@ -62,7 +62,7 @@ std::vector<std::string> parameter_values(const std::string& given) {
   if (!known.model) return names;
   const spec::Model& model = *known.model;
   for (const spec::Parameter& parameter : model.parameters) names.push_back(parameter.name + "=");
-  for (spec::Index instance = 0; instance < model.instances.size(); ++instance)
+  for (const spec::InstanceId instance : model.instances.ids())
     for (const spec::Parameter& parameter : model.subsystem(instance).parameters)
       if (names.size() < most_candidates)
         names.push_back(model.instance_path(instance) + "." + parameter.name + "=");

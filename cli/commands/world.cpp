@@ -86,7 +86,7 @@ std::optional<AskedWorld> world_named(const std::string& file) {
   if (!world) return complain(fmt::format("there is no world {}", simulation->world)), std::nullopt;
   AskedWorld asked{std::move(*world), {}};
   for (const spec::Agent& agent : specification->model.agents)
-    asked.agents.push_back({agent.path, agent.fleet != spec::none});
+    asked.agents.push_back({agent.path, agent.fleet.valid()});
   return asked;
 }
 

@@ -21,10 +21,14 @@ std::string judgement_lines(const std::string& text) {
   const nlohmann::json measures = json.value("measures", nlohmann::json::object());
   for (const auto& [name, measure] : measures.items()) {
     if (!measure.is_object()) continue;
-    fmt::format_to(out, "  {}: {:.6g} (at {:.3f} s) to {:.6g} (at {:.3f} s), mean {:.6g}\n", name,
-                   measure["least"].get<double>(), measure["least_at_s"].get<double>(),
+    const std::string unit = measure.value("unit", "");
+    fmt::format_to(out,
+                   "  {}: {:.6g}{space}{unit} (at {:.3f} s) to {:.6g}{space}{unit} (at {:.3f} s), mean "
+                   "{:.6g}{space}{unit}\n",
+                   name, measure["least"].get<double>(), measure["least_at_s"].get<double>(),
                    measure["greatest"].get<double>(), measure["greatest_at_s"].get<double>(),
-                   measure["mean"].get<double>());
+                   measure["mean"].get<double>(), fmt::arg("space", unit.empty() ? "" : " "),
+                   fmt::arg("unit", unit));
   }
   return lines;
 }

@@ -38,10 +38,11 @@ Result<Check> check_of(const json& written) {
 }
 
 Result<checks::Measure> measure_of(const std::string& name, const json& written) {
-  const auto text = written.get<std::string>();
+  const auto text = (written.is_object() ? written.at("number") : written).get<std::string>();
   checks::Parsed<checks::Number> number = checks::parse_number(text, checks::no_units);
   if (!number.value) return unreadable(text, number.mistake.text);
-  return checks::Measure{name, *std::move(number.value)};
+  return checks::Measure{name, *std::move(number.value),
+                         written.is_object() ? written.value("unit", "") : std::string()};
 }
 
 json json_of(const CheckResult& result) {
@@ -53,15 +54,18 @@ json json_of(const CheckResult& result) {
 
 json json_of(const checks::MeasureResult& result) {
   if (result.samples == 0) return nullptr;
-  return {{"least", result.least},       {"least_at_s", result.least_at_s},
-          {"greatest", result.greatest}, {"greatest_at_s", result.greatest_at_s},
-          {"mean", result.mean},         {"last", result.last}};
+  json one{{"least", result.least},       {"least_at_s", result.least_at_s},
+           {"greatest", result.greatest}, {"greatest_at_s", result.greatest_at_s},
+           {"mean", result.mean},         {"last", result.last}};
+  if (!result.unit.empty()) one["unit"] = result.unit;
+  return one;
 }
 
 json json_of(const checks::Judge::Plotted& plotted) {
   json one{{"name", plotted.name}, {"check", plotted.is_check}, {"every_s", plotted.curve.every_s()}};
   if (plotted.is_truth) one["truth"] = true;
   if (plotted.limit) one["limit"] = *plotted.limit;
+  if (!plotted.unit.empty()) one["unit"] = plotted.unit;
   json& spans = one["spans"] = json::array();
   for (const checks::Curve::Span& span : plotted.curve.spans())
     spans.push_back(span.known ? json::array({span.least, span.greatest}) : json(nullptr));

@@ -74,8 +74,12 @@ Result<Judge> Judge::bind(std::vector<Check> checks, const std::vector<Measure>&
     Result<BoundNumber> number = checks::bind(measure.number, scene);
     if (!number) return Problem{fmt::format("measure '{}': {}", measure.name, number.problem())};
     judge.numbers_.push_back(std::move(*number));
-    judge.measures_.emplace_back().name = measure.name;
-    judge.plotted_.emplace_back().name = measure.name;
+    MeasureResult& result = judge.measures_.emplace_back();
+    result.name = measure.name;
+    result.unit = measure.unit;
+    Plotted& plotted = judge.plotted_.emplace_back();
+    plotted.name = measure.name;
+    plotted.unit = measure.unit;
   }
   return judge;
 }

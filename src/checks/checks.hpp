@@ -29,6 +29,7 @@ struct Check {
 struct Measure {
   std::string name;
   Number number;
+  std::string unit{};  ///< "m/s"; empty: none, or not known
 };
 
 struct CheckResult {
@@ -49,6 +50,7 @@ struct MeasureResult {
   std::uint64_t samples = 0;
   double least = 0, greatest = 0, mean = 0, last = 0;
   double least_at_s = 0, greatest_at_s = 0;
+  std::string unit;  ///< as Measure::unit
 };
 
 /// Judges the checks and takes the measures of one run.
@@ -75,6 +77,7 @@ class Judge {
     bool is_check = false;
     bool is_truth = false;        ///< 1 or 0: whether the formula held
     std::optional<double> limit;  ///< of a check that compares with it
+    std::string unit;             ///< of a measure, as Measure::unit
     Curve curve;
   };
   [[nodiscard]] const std::vector<Plotted>& plotted() const { return plotted_; }

@@ -20,7 +20,7 @@ Dimension dimension_of_unit(std::string_view unit) {
   return dimension;
 }
 
-std::string name_of(const Dimension& dimension) {
+std::string unit_of(const Dimension& dimension) {
   std::string above, below;
   for (const auto& [unit, power] : std::to_array<std::pair<const char*, int>>(
            {{"m", dimension.length}, {"rad", dimension.angle}, {"s", dimension.time}}))
@@ -28,8 +28,13 @@ std::string name_of(const Dimension& dimension) {
       std::string& part = power > 0 ? above : below;
       part += (part.empty() ? "" : power > 0 ? " " : "/") + std::string(unit);
     }
-  if (above.empty() && below.empty()) return "a plain number";
+  if (above.empty() && below.empty()) return {};
   return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
+}
+
+std::string name_of(const Dimension& dimension) {
+  const std::string unit = unit_of(dimension);
+  return unit.empty() ? "a plain number" : unit;
 }
 
 bool fits(const Dimension& one, const Dimension& other) {

@@ -20,7 +20,9 @@ struct Dimension {
 
 /// unit: of SI, such as "m", "rad", "Hz" or "m/s".
 [[nodiscard]] Dimension dimension_of_unit(std::string_view unit);
-/// "m/s"; a plain number: "a plain number".
+/// "m/s"; empty: a plain number, or one whose unit is not known.
+[[nodiscard]] std::string unit_of(const Dimension& dimension);
+/// The same for a message; a plain number: "a plain number".
 [[nodiscard]] std::string name_of(const Dimension& dimension);
 
 /// Whether both may be compared and added.

@@ -21,7 +21,7 @@ bool decided(const spec::Behaviour& behaviour) {
 }
 
 std::string goal(const spec::Subsystem& subsystem, const spec::Next& next) {
-  return next.behaviour == spec::none ? "end" : subsystem.behaviours[next.behaviour].name;
+  return next.behaviour.valid() ? subsystem.behaviours[next.behaviour].name : "end";
 }
 
 /// The expression at its column in the specification; further lines of a block text at the same one.
@@ -54,11 +54,11 @@ Conditions::Conditions(const Project& project, const Unit& unit)
       asked.terminal = add_all(behaviour, behaviour.terminal, "terminal");
     asked.next.resize(behaviour.next.size());
     const spec::Endings endings(behaviour);
-    for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
+    for (const spec::NextId entry : behaviour.next.ids()) {
       const spec::Next& next = behaviour.next[entry];
       if (!endings.can_be_taken(entry)) continue;
       if (next.when.kind == spec::When::Kind::expression)
-        asked.next[entry] = add(fmt::format("{}_next_{}", behaviour.name, entry + 1), next.when.text,
+        asked.next[entry] = add(fmt::format("{}_next_{}", behaviour.name, entry.value + 1), next.when.text,
                                 fmt::format("{} -> {}", behaviour.name, goal(subsystem_, next)));
       if (next.when.kind == spec::When::Kind::terminal)
         functions_[asked.terminal[next.when.expression]].remembered = true;
@@ -69,9 +69,10 @@ Conditions::Conditions(const Project& project, const Unit& unit)
   }
 }
 
-std::vector<std::size_t> Conditions::add_all(const spec::Behaviour& behaviour,
-                                             const spec::Condition& condition, std::string_view kind) {
-  std::vector<std::size_t> added;
+Numbered<spec::ExpressionId, std::size_t> Conditions::add_all(const spec::Behaviour& behaviour,
+                                                              const spec::Condition& condition,
+                                                              std::string_view kind) {
+  Numbered<spec::ExpressionId, std::size_t> added;
   if (condition.kind != spec::Condition::Kind::expressions) return added;
   for (const spec::Expression& expression : condition.expressions) {
     const std::string suffix = expression.name.empty() ? "" : '_' + expression.name;
@@ -97,7 +98,7 @@ std::string Conditions::decide() const {
   }
 )";
   std::string cases;
-  for (std::size_t behaviour = 0; behaviour < asked_.size(); ++behaviour) cases += decide_case(behaviour);
+  for (const spec::BehaviourId behaviour : asked_.ids()) cases += decide_case(behaviour);
   const bool remembers = std::ranges::any_of(functions_, &Function::remembered);
   return fmt::format(R"(  tessera::Outcome decide(std::uint16_t behaviour, bool failed) override {{
 {}    if (failed) return tessera::Outcome::error;
@@ -110,7 +111,7 @@ std::string Conditions::decide() const {
                      remembers ? "    held_ = {};\n" : "", cases);
 }
 
-std::string Conditions::decide_case(std::size_t behaviour) const {
+std::string Conditions::decide_case(spec::BehaviourId behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
   if (!decided(what)) return {};
   std::string out = fmt::format("      case Behaviour::{}:\n", what.name);
@@ -141,7 +142,7 @@ std::string Conditions::route() const {
   if (std::ranges::none_of(subsystem_.behaviours, conditional))
     return "  int route(std::uint16_t, bool) override { return 0; }\n";
   std::string cases;
-  for (std::size_t behaviour = 0; behaviour < asked_.size(); ++behaviour) cases += route_case(behaviour);
+  for (const spec::BehaviourId behaviour : asked_.ids()) cases += route_case(behaviour);
   return fmt::format(R"(  int route(std::uint16_t behaviour, [[maybe_unused]] bool failed) override {{
     switch (static_cast<Behaviour>(behaviour)) {{
 {}      default:
@@ -152,24 +153,25 @@ std::string Conditions::route() const {
                      cases);
 }
 
-std::string Conditions::route_case(std::size_t behaviour) const {
+std::string Conditions::route_case(spec::BehaviourId behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
   if (!conditional(what)) return {};
   std::vector<Declaration> lines;
   const spec::Endings endings(what);
   bool ends = false;  // by an entry without condition
-  for (spec::Index entry = 0; entry < what.next.size() && !ends; ++entry) {
+  for (const spec::NextId entry : what.next.ids()) {
+    if (ends) break;
     if (!endings.can_be_taken(entry)) continue;
     const std::string when = asks(behaviour, entry);
     ends = when.empty();
-    lines.push_back({fmt::format("{}return {};", when, entry), goal(subsystem_, what.next[entry])});
+    lines.push_back({fmt::format("{}return {};", when, entry.value), goal(subsystem_, what.next[entry])});
   }
   if (!ends) lines.push_back({"return -1;", ""});
   return fmt::format("      case Behaviour::{}:\n{}", what.name, declarations(lines, 8));
 }
 
 /// "if (failed) ", or nothing for an entry without condition.
-std::string Conditions::asks(std::size_t behaviour, std::size_t entry) const {
+std::string Conditions::asks(spec::BehaviourId behaviour, spec::NextId entry) const {
   const spec::When& when = subsystem_.behaviours[behaviour].next[entry].when;
   const Asked& asked = asked_[behaviour];
   switch (when.kind) {

@@ -38,25 +38,25 @@ class Conditions {
   /// The conditions that one behaviour asks for, as indices into functions_, in the order
   /// of the specification.
   struct Asked {
-    std::vector<std::size_t> error, terminal;
-    std::vector<std::size_t> next;  ///< per entry; only meaningful for expressions
+    Numbered<spec::ExpressionId, std::size_t> error, terminal;
+    Numbered<spec::NextId, std::size_t> next;  ///< only meaningful for expressions
   };
 
   /// Whether some condition names such a thing.
   [[nodiscard]] bool name(spec::Reference::Kind kind) const;
   std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);
-  std::vector<std::size_t> add_all(const spec::Behaviour& behaviour, const spec::Condition& condition,
-                                   std::string_view kind);
-  [[nodiscard]] std::string decide_case(std::size_t behaviour) const;
+  Numbered<spec::ExpressionId, std::size_t> add_all(const spec::Behaviour& behaviour,
+                                                    const spec::Condition& condition, std::string_view kind);
+  [[nodiscard]] std::string decide_case(spec::BehaviourId behaviour) const;
   [[nodiscard]] std::string ask(const std::vector<std::size_t>& functions, std::string_view outcome) const;
-  [[nodiscard]] std::string route_case(std::size_t behaviour) const;
-  [[nodiscard]] std::string asks(std::size_t behaviour, std::size_t entry) const;
+  [[nodiscard]] std::string route_case(spec::BehaviourId behaviour) const;
+  [[nodiscard]] std::string asks(spec::BehaviourId behaviour, spec::NextId entry) const;
 
   const Project& project_;
   const Unit& unit_;
   const spec::Subsystem& subsystem_;
   std::vector<Function> functions_;
-  std::vector<Asked> asked_;  ///< per behaviour
+  Numbered<spec::BehaviourId, Asked> asked_;
   std::set<std::string> names_;
 };
 

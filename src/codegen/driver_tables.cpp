@@ -105,14 +105,14 @@ class Writer {
   std::string value(const spec::Driver& driver) {
     const Unit& unit = unit_of(driver.instance);
     headers_.insert(quoted(unit_header(unit)));
-    if (driver.real == spec::none) return fmt::format("::{}::Real", unit_namespace(model_, unit));
+    if (!driver.real.valid()) return fmt::format("::{}::Real", unit_namespace(model_, unit));
     const spec::Type& type = unit.subsystem->real[driver.real].type;
     std::set<std::string_view> hidden;  // qualified, since it stands in our namespace
     if (type.kind == spec::Type::Kind::structure) hidden.insert(model_.structures[type.structure].name);
     return type_name(model_, type, hidden);
   }
 
-  const Unit& unit_of(spec::Index instance) const {
+  const Unit& unit_of(spec::InstanceId instance) const {
     const spec::Subsystem* const subsystem = &model_.subsystem(instance);
     return *std::ranges::find(project_.units, subsystem, &Unit::subsystem);
   }
@@ -167,7 +167,7 @@ DriverTables driver_tables(const Project& project) {
 
 bool has_whole_driver(const Project& project, const Unit& unit) {
   const auto serves_unit = [&](const spec::Driver& driver) {
-    return driver.real == spec::none && &project.model.subsystem(driver.instance) == unit.subsystem;
+    return !driver.real.valid() && &project.model.subsystem(driver.instance) == unit.subsystem;
   };
   return std::ranges::any_of(project.model.drivers, serves_unit) ||
          std::ranges::any_of(simulated_drivers(project.model), serves_unit);

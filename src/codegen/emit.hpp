@@ -14,7 +14,8 @@ namespace tessera::codegen {
 [[nodiscard]] File subsystem_source(const Project& project, const Unit& unit, const NetVariants& variants);
 [[nodiscard]] File subsystems_header(const Project& project);
 [[nodiscard]] File system_header(const Project& project);
-[[nodiscard]] File system_source(const Project& project, const std::vector<ChannelPorts>& ports);
+[[nodiscard]] File system_source(const Project& project,
+                                 const Numbered<spec::ChannelId, ChannelPorts>& ports);
 [[nodiscard]] File testing_header(const Project& project);
 [[nodiscard]] File main_source(const Project& project);
 [[nodiscard]] File cmake_lists(const Project& project);

@@ -21,13 +21,13 @@ struct Parts {
   explicit Parts(const net::Net& net, std::size_t instances) : places(instances), transitions(instances) {
     for (std::uint32_t id = 0; id < net.places().size(); ++id)
       if (const net::SubsystemId owner = net.places()[id].subsystem; owner.valid())
-        places[owner.value].push_back({id});
+        places[owner].push_back({id});
     for (std::uint32_t id = 0; id < net.transitions().size(); ++id)
       if (const net::SubsystemId owner = net.transitions()[id].subsystem; owner.valid())
-        transitions[owner.value].push_back({id});
+        transitions[owner].push_back({id});
   }
-  std::vector<std::vector<PlaceId>> places;
-  std::vector<std::vector<TransitionId>> transitions;
+  Numbered<net::SubsystemId, std::vector<PlaceId>> places;
+  Numbered<net::SubsystemId, std::vector<TransitionId>> transitions;
 };
 
 /// The local name of a transition that a subsystem executes.
@@ -69,7 +69,7 @@ Step step_of(const net::Transition& transition) {
 /// Extracts the net of one instance.
 class Extraction {
  public:
-  Extraction(const net::Net& net, const spec::Model& model, const Parts& parts, spec::Index instance)
+  Extraction(const net::Net& net, const spec::Model& model, const Parts& parts, spec::InstanceId instance)
       : net_(net),
         model_(model),
         places_(parts.places[instance]),
@@ -97,7 +97,7 @@ class Extraction {
     for (const TransitionId id : transitions_) {
       if (!net_[id].block.valid()) continue;
       const net::Parts::Block& block = net_.parts()[net_[id].block];
-      const spec::Channel& channel = model_.channels[block.channel.value];
+      const spec::Channel& channel = model_.channels[block.channel];
       const std::string& buffer = block.sends ? subsystem_.outputs[channel.from.buffer].name
                                               : subsystem_.inputs[channel.to.buffer].name;
       const LocalNet::Port port{block.name, buffer, block.sends, block.channel};
@@ -129,7 +129,7 @@ class Extraction {
         return {};
       case net::Operation::Kind::transition_function:
         return fmt::format("tessera::calls({})",
-                           quoted(subsystem_.behaviours[place.operation.behaviour.value].name));
+                           quoted(subsystem_.behaviours[place.operation.behaviour].name));
       case net::Operation::Kind::next_iteration:
         return "tessera::counts()";
       case net::Operation::Kind::write:
@@ -143,7 +143,7 @@ class Extraction {
   [[nodiscard]] std::string transfer(std::string_view what, const net::Operation& operation,
                                      bool sends) const {
     // Each side of a channel between processes has a memory of its own, which is all that it sees.
-    const bool crosses = model_.crosses_processes(model_.channels[operation.channel.value]);
+    const bool crosses = model_.crosses_processes(model_.channels[operation.channel]);
     const std::string slot = crosses || operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
     return fmt::format("tessera::{}({}{})", what, quoted(port(operation.channel, sends)), slot);
   }
@@ -193,7 +193,7 @@ class Extraction {
     const net::BehaviourId behaviour =
         step == Step::leave ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
     std::string text = fmt::format("tessera::Step::{}", name_of(step));
-    if (behaviour.valid()) text += ", " + quoted(subsystem_.behaviours[behaviour.value].name);
+    if (behaviour.valid()) text += ", " + quoted(subsystem_.behaviours[behaviour].name);
     if (transition.block.valid()) text += ", " + quoted(port(net_.parts()[transition.block].channel, sends));
     return '{' + text + '}';
   }
@@ -210,7 +210,7 @@ class Extraction {
       const auto found = std::ranges::lower_bound(places_, arc.place);
       LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
       place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes",
-                               quoted(subsystem_.behaviours[place.behaviour.value].name));
+                               quoted(subsystem_.behaviours[place.behaviour].name));
     }
   }
 
@@ -248,10 +248,10 @@ LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model,
   for (const Unit& unit : units) {
     NetVariants& variants = all.of_unit.emplace_back();
     std::unordered_map<std::string, std::uint32_t> known;
-    for (const spec::Index instance : unit.instances) {
+    for (const spec::InstanceId instance : unit.instances) {
       LocalNet local = Extraction(net.net(), model, parts, instance).result();
       for (const LocalNet::Port& port : local.ports) {
-        ChannelPorts& ends = all.of_channel[port.channel.value];
+        ChannelPorts& ends = all.of_channel[port.channel];
         (port.sends ? ends.from : ends.to) = port.name;
       }
       const auto [variant, is_new] =

@@ -50,7 +50,7 @@ struct ChannelPorts {
 
 struct LocalNets {
   std::vector<NetVariants> of_unit;
-  std::vector<ChannelPorts> of_channel;
+  Numbered<net::ChannelId, ChannelPorts> of_channel;
 };
 
 struct Unit;

@@ -111,7 +111,7 @@ std::string table(const Project& project, const spec::Subsystem& subsystem, std:
     std::size_t end = begin;
     while (end < rows.size() && rows[end].behaviour == id) ++end;
     if (id.valid()) {
-      const spec::Behaviour& behaviour = subsystem.behaviours[id.value];
+      const spec::Behaviour& behaviour = subsystem.behaviours[id];
       out += fmt::format("    // {}, {}\n", behaviour.name, project.at(behaviour.span));
     }
     out += group_lines(rows.subspan(begin, end - begin));

@@ -9,18 +9,18 @@
 namespace tessera::codegen {
 
 std::vector<Unit> units_of(const spec::Model& model) {
-  std::vector<std::vector<Unit>> of_definition;
+  Numbered<spec::DefinitionId, Numbered<spec::DefinedSubsystemId, Unit>> of_definition;
   for (const spec::Definition& definition : model.definitions) {
     of_definition.emplace_back();
     for (const spec::Subsystem& subsystem : definition.subsystems)
       of_definition.back().push_back({&definition, &subsystem, {}});
   }
-  for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
+  for (const spec::InstanceId instance : model.instances.ids()) {
     const spec::Instance& what = model.instances[instance];
     of_definition[model.agents[what.agent].definition][what.subsystem].instances.push_back(instance);
   }
   std::vector<Unit> units;
-  for (std::vector<Unit>& row : of_definition)
+  for (auto& row : of_definition)
     for (Unit& unit : row)
       if (!unit.instances.empty()) units.push_back(std::move(unit));
   return units;

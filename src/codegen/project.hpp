@@ -17,7 +17,7 @@ namespace tessera::codegen {
 struct Unit {
   const spec::Definition* definition = nullptr;
   const spec::Subsystem* subsystem = nullptr;
-  std::vector<spec::Index> instances;  ///< the instances that run it, in the order of the model
+  std::vector<spec::InstanceId> instances;  ///< the instances that run it, in the order of the model
 };
 
 /// Every unit, definition by definition, except those that no agent uses. Linear in the instances.

@@ -21,7 +21,9 @@ class Header {
         subsystem_(*unit.subsystem),
         parameters_(parameters_of(project.model, unit)) {
     for (const spec::Behaviour& behaviour : subsystem_.behaviours) hidden_.insert(behaviour.name);
-    for (const auto* fields : {&subsystem_.inputs, &subsystem_.outputs, &subsystem_.memory, &subsystem_.real})
+    using Fields = const std::vector<spec::Field>*;
+    for (const Fields fields : std::initializer_list<Fields>{&subsystem_.inputs, &subsystem_.outputs,
+                                                             &subsystem_.memory, &subsystem_.real})
       for (const spec::Field& field : *fields) {
         hidden_.insert(field.name);
         add_headers(field.type, headers_);

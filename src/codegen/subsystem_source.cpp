@@ -27,7 +27,7 @@ std::string bind_parameter(const spec::Parameter& parameter) {
 }
 
 /// whole: a driver serves all real buffers at once.
-std::string bind_real(const Project& project, const spec::Subsystem& subsystem, std::size_t at, bool whole) {
+std::string bind_real(const Project& project, const spec::Subsystem& subsystem, spec::RealId at, bool whole) {
   const spec::Field& field = subsystem.real[at];
   const std::string part = whole ? fmt::format(", &real.{}", field.name) : "";
   if (subsystem.kind == SubsystemKind::receptor)
@@ -36,7 +36,7 @@ std::string bind_real(const Project& project, const spec::Subsystem& subsystem, 
   std::set<std::string_view> hidden;
   if (field.type.kind == spec::Type::Kind::structure)
     hidden.insert(project.model.structures[field.type.structure].name);
-  const std::string safe = at < subsystem.safe.size() ? subsystem.safe[at] : "";
+  const std::string safe = subsystem.safe.has(at) ? subsystem.safe[at] : "";
   return fmt::format("bindings.real_output(\"{0}\", out.{0}, {1}{{{2}}}{3});", field.name,
                      type_name(project.model, field.type, hidden), safe, part);
 }
@@ -68,7 +68,7 @@ std::string bind(const Project& project, const Unit& unit) {
     lines.emplace_back("constexpr double infinity = std::numeric_limits<double>::infinity();");
   const bool whole = has_whole_driver(project, unit);
   if (whole) lines.emplace_back("yours::Real& real = bindings.all_real<yours::Real>();");
-  for (std::size_t at = 0; at < subsystem.real.size(); ++at) {
+  for (const spec::RealId at : subsystem.real.ids()) {
     lines.push_back(bind_real(project, subsystem, at, whole));
     for (const spec::Limit& limit : subsystem.limits)
       if (limit.real == at) lines.push_back(bind_limit(subsystem, limit));

@@ -47,7 +47,7 @@ std::string policies(const spec::Subsystem& subsystem) {
   return members.empty() ? "" : fmt::format(", {{{}}}", fmt::join(members, ", "));
 }
 
-std::string instance_row(const Project& project, const Unit& unit, spec::Index instance,
+std::string instance_row(const Project& project, const Unit& unit, spec::InstanceId instance,
                          std::uint32_t variant) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   const std::string space = fmt::format("units::{}::{}", unit.definition->name, subsystem.name);
@@ -65,10 +65,10 @@ std::string instance_row(const Project& project, const Unit& unit, spec::Index i
 
 /// Units go definition by definition, instances agent by agent.
 std::string instance_rows(const Project& project) {
-  std::vector<std::string> rows(project.model.instances.size());
+  Numbered<spec::InstanceId, std::string> rows(project.model.instances.size());
   for (std::size_t unit = 0; unit < project.units.size(); ++unit)
     for (std::size_t at = 0; at < project.units[unit].instances.size(); ++at) {
-      const spec::Index instance = project.units[unit].instances[at];
+      const spec::InstanceId instance = project.units[unit].instances[at];
       rows[instance] =
           instance_row(project, project.units[unit], instance, project.nets[unit].of_instance[at]);
     }
@@ -76,7 +76,7 @@ std::string instance_rows(const Project& project) {
 }
 
 std::string memory_of(const spec::Model& model, const spec::Channel& channel) {
-  if (channel.model != spec::none) return "models::" + model.models[channel.model].name;
+  if (channel.model.valid()) return "models::" + model.models[channel.model].name;
   if (model.crosses_processes(channel)) {
     if (channel.send == Mode::blocking && !channel.send_timeout) return "tessera::networked_single";
     const bool exchanged = channel.send != Mode::blocking && channel.receive != Mode::blocking;
@@ -99,13 +99,13 @@ std::string models_table(const spec::Model& model) {
 }
 
 /// A channel that no behaviour uses has no places and no row.
-std::string channel_rows(const spec::Model& model, const std::vector<ChannelPorts>& ports) {
+std::string channel_rows(const spec::Model& model, const Numbered<spec::ChannelId, ChannelPorts>& ports) {
   std::string rows;
-  for (std::size_t at = 0; at < model.channels.size(); ++at) {
+  for (const spec::ChannelId at : model.channels.ids()) {
     const spec::Channel& channel = model.channels[at];
     if (ports[at].from.empty() && ports[at].to.empty()) continue;
     std::string times;
-    const std::uint32_t slots = channel.model == spec::none ? 1 : model.models[channel.model].slots;
+    const std::uint32_t slots = channel.model.valid() ? model.models[channel.model].slots : 1;
     const auto time = [](const std::optional<spec::Duration>& timeout) {
       return ", " + duration(timeout.value_or(spec::Duration{0}));
     };
@@ -113,8 +113,8 @@ std::string channel_rows(const spec::Model& model, const std::vector<ChannelPort
     if (channel.receive_timeout || slots > 1) times += time(channel.receive_timeout);
     if (slots > 1) times += fmt::format(", {}", slots);
     rows += fmt::format("    {{\"{}\", {{{}, \"{}\"}}, {{{}, \"{}\"}}, {}{}}},\n",
-                        model.channel_name(channel), channel.from.instance, ports[at].from,
-                        channel.to.instance, ports[at].to, memory_of(model, channel), times);
+                        model.channel_name(channel), channel.from.instance.value, ports[at].from,
+                        channel.to.instance.value, ports[at].to, memory_of(model, channel), times);
   }
   return rows;
 }
@@ -135,7 +135,7 @@ std::string process_tables(const spec::Model& model) {
     rows += fmt::format("    {{{}, {}, {}}},\n", quoted(process.name), quoted(process.host),
                         quoted(process.interface));
   for (const spec::Instance& instance : model.instances)
-    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", model.agents[instance.agent].process);
+    numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", model.agents[instance.agent].process.value);
   return table("Process", "processes", rows) +
          fmt::format("constexpr std::uint32_t process_of[] = {{{}}};\n", numbers);
 }
@@ -202,7 +202,7 @@ namespace tessera_generated {{
                                     project.banner(), shorter)};
 }
 
-File system_source(const Project& project, const std::vector<ChannelPorts>& ports) {
+File system_source(const Project& project, const Numbered<spec::ChannelId, ChannelPorts>& ports) {
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
   const DriverTables drivers = driver_tables(project);

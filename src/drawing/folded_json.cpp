@@ -1,5 +1,6 @@
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <tuple>
 
 #include "drawing/drawing.hpp"
@@ -7,8 +8,6 @@
 
 namespace tessera::drawing {
 namespace {
-
-constexpr std::uint32_t none = UINT32_MAX;
 
 /// The elements `first`, `first + 1`, ... of one kind.
 struct Range {
@@ -19,7 +18,7 @@ struct Range {
 /// The part of a net that belongs to one agent, and the memories of channels that it uses.
 struct Part {
   Range pages, places, transitions;
-  std::uint32_t subsystem = 0;          ///< the first one
+  net::SubsystemId subsystem{};         ///< the first one; none: it has none
   std::vector<std::uint32_t> channels;  ///< in the order in which its pages use them
   std::vector<std::uint32_t> memory;    ///< numbers of fused places, in that order
   std::vector<std::uint32_t> fusions;   ///< the same as fusion sets
@@ -57,15 +56,17 @@ class Folding {
   [[nodiscard]] const std::vector<std::uint32_t>& firsts() const { return firsts_; }
   /// The fused places of each channel.
   [[nodiscard]] const std::vector<Range>& memories() const { return memories_; }
-  /// The fused place of a set that has members.
-  [[nodiscard]] std::uint32_t place_of(net::FusionId set) const { return place_of_[set.value]; }
+  /// The fused place of a set; nullopt: it has no members.
+  [[nodiscard]] std::optional<std::uint32_t> place_of(net::FusionId set) const {
+    return place_of_[set.value];
+  }
   [[nodiscard]] Range places_of_the_system() const { return {0, first_of(net_.places(), 1)}; }
   [[nodiscard]] Range transitions_of_the_system() const { return {0, first_of(net_.transitions(), 1)}; }
 
  private:
   void find_memories() {
     memories_.resize(pages_.parts.channels.size());
-    place_of_.assign(pages_.fusions.size(), none);
+    place_of_.resize(pages_.fusions.size());
     std::vector<bool> used(pages_.fusions.size());
     for (const net::Page& page : pages_.pages)
       for (const net::Node& node : page.nodes)
@@ -96,16 +97,15 @@ class Folding {
     part.places.size = first_of(net_.places(), end) - part.places.first;
     part.transitions.first = first_of(net_.transitions(), part.pages.first);
     part.transitions.size = first_of(net_.transitions(), end) - part.transitions.first;
-    part.subsystem = none;
     for (std::uint32_t page = part.pages.first; page < end; ++page) {
       const net::Page& drawn = pages_.pages[page];
-      if (drawn.subsystem.valid()) part.subsystem = std::min(part.subsystem, drawn.subsystem.value);
+      if (drawn.subsystem.valid()) part.subsystem = std::min(part.subsystem, drawn.subsystem);
       for (const net::Node& node : drawn.nodes) {
         if (node.operation.channel.valid()) index_in(part.channels, node.operation.channel.value);
         if (!node.fusion.valid()) continue;
         index_in(part.channels, pages_.fusions[node.fusion.value].channel.value);
         index_in(part.fusions, node.fusion.value);
-        part.use.push_back(index_in(part.memory, place_of_[node.fusion.value]));
+        part.use.push_back(index_in(part.memory, place_of_[node.fusion.value].value()));
       }
       for (const net::PageTransition& transition : drawn.transitions)
         if (transition.condition.channel.valid()) index_in(part.channels, transition.condition.channel.value);
@@ -155,8 +155,8 @@ class Folding {
   /// top: the pages of the agents themselves, which have other names.
   [[nodiscard]] static bool are_alike(const Part& one, const net::Page& a, const Part& other,
                                       const net::Page& b, bool top) {
-    const auto relative = [](std::uint32_t number, std::uint32_t first) {
-      return number == none ? none : number - first;
+    const auto relative = [](auto id, std::uint32_t first) {
+      return id.valid() ? std::optional(id.value - first) : std::nullopt;
     };
     const auto same_channel = [&](net::ChannelId of_a, net::ChannelId of_b) {
       return index_of(one.channels, of_a.value) == index_of(other.channels, of_b.value);
@@ -172,8 +172,7 @@ class Folding {
              x.entry == y.entry && x.text == y.text && same_channel(x.channel, y.channel);
     };
     const auto same_node = [&](const net::Node& x, const net::Node& y) {
-      return x.name == y.name &&
-             relative(x.page.value, one.pages.first) == relative(y.page.value, other.pages.first) &&
+      return x.name == y.name && relative(x.page, one.pages.first) == relative(y.page, other.pages.first) &&
              x.fusion.valid() == y.fusion.valid() && x.tokens == y.tokens &&
              same_operation(x.operation, y.operation);
     };
@@ -181,10 +180,10 @@ class Folding {
       return x.name == y.name && x.inputs == y.inputs && x.outputs == y.outputs &&
              same_condition(x.condition, y.condition) && x.role == y.role && same_span(x.span, y.span);
     };
-    return (top || (a.name == b.name && relative(a.parent.value, one.pages.first) ==
-                                            relative(b.parent.value, other.pages.first))) &&
+    return (top || (a.name == b.name &&
+                    relative(a.parent, one.pages.first) == relative(b.parent, other.pages.first))) &&
            a.layer == b.layer &&
-           relative(a.subsystem.value, one.subsystem) == relative(b.subsystem.value, other.subsystem) &&
+           relative(a.subsystem, one.subsystem.value) == relative(b.subsystem, other.subsystem.value) &&
            a.input == b.input && a.output == b.output && same_span(a.span, b.span) &&
            std::ranges::equal(a.nodes, b.nodes, same_node) &&
            std::ranges::equal(a.transitions, b.transitions, same_transition);
@@ -195,7 +194,7 @@ class Folding {
   std::vector<Part> parts_;
   std::vector<std::uint32_t> shapes_, firsts_;
   std::vector<Range> memories_;
-  std::vector<std::uint32_t> place_of_;
+  std::vector<std::optional<std::uint32_t>> place_of_;
 };
 
 /// Writes the system's own net: numbers of the whole net.
@@ -205,7 +204,9 @@ class SystemWriter : public NetWriter {
 
  protected:
   using NetWriter::written;
-  [[nodiscard]] std::uint32_t written(net::FusionId id) const override { return folding_.place_of(id); }
+  [[nodiscard]] std::optional<std::uint32_t> written(net::FusionId id) const override {
+    return folding_.place_of(id);
+  }
   const Folding& folding_;
 };
 
@@ -216,22 +217,23 @@ class ShapeWriter : public SystemWriter {
       : SystemWriter(folding), part_(part), prefix_(prefix) {}
 
  protected:
-  [[nodiscard]] std::uint32_t written(net::PageId id) const override {
-    return id.value < part_.pages.first ? none : id.value - part_.pages.first;
+  [[nodiscard]] std::optional<std::uint32_t> written(net::PageId id) const override {
+    if (id.value < part_.pages.first) return std::nullopt;
+    return id.value - part_.pages.first;
   }
-  [[nodiscard]] std::uint32_t written(net::PlaceId id) const override {
+  [[nodiscard]] std::optional<std::uint32_t> written(net::PlaceId id) const override {
     const std::uint32_t own = id.value - part_.places.first;
     return id.value >= part_.places.first && own < part_.places.size
                ? own
                : part_.places.size + index_of(part_.memory, id.value);
   }
-  [[nodiscard]] std::uint32_t written(net::FusionId id) const override {
+  [[nodiscard]] std::optional<std::uint32_t> written(net::FusionId id) const override {
     return part_.places.size + index_of(part_.fusions, id.value);
   }
-  [[nodiscard]] std::uint32_t written(net::SubsystemId id) const override {
-    return id.value - part_.subsystem;
+  [[nodiscard]] std::optional<std::uint32_t> written(net::SubsystemId id) const override {
+    return id.value - part_.subsystem.value;
   }
-  [[nodiscard]] std::uint32_t written(net::ChannelId id) const override {
+  [[nodiscard]] std::optional<std::uint32_t> written(net::ChannelId id) const override {
     return index_of(part_.channels, id.value);
   }
   [[nodiscard]] std::string_view name(std::string_view path) const override {
@@ -250,7 +252,7 @@ class MemoryWriter : public NetWriter {
 
  protected:
   using NetWriter::written;
-  [[nodiscard]] std::uint32_t written(net::ChannelId) const override { return 0; }
+  [[nodiscard]] std::optional<std::uint32_t> written(net::ChannelId) const override { return 0; }
   [[nodiscard]] std::string_view name(std::string_view path) const override {
     return path.substr(std::min(path.size(), prefix_));
   }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -109,21 +110,20 @@ class NetWriter : public JsonWriter {
   }
 
  protected:
-  static constexpr std::uint32_t none = UINT32_MAX;  ///< is written as null
-  /// The elements' numbers and names as they are written: those of the net.
-  [[nodiscard]] virtual std::uint32_t written(net::PageId id) const { return id.value; }
-  [[nodiscard]] virtual std::uint32_t written(net::PlaceId id) const { return id.value; }
-  [[nodiscard]] virtual std::uint32_t written(net::FusionId id) const { return id.value; }
-  [[nodiscard]] virtual std::uint32_t written(net::SubsystemId id) const { return id.value; }
-  [[nodiscard]] virtual std::uint32_t written(net::ChannelId id) const { return id.value; }
+  /// The elements' numbers and names as they are written: those of the net. nullopt is written as null.
+  [[nodiscard]] virtual std::optional<std::uint32_t> written(net::PageId id) const { return id.value; }
+  [[nodiscard]] virtual std::optional<std::uint32_t> written(net::PlaceId id) const { return id.value; }
+  [[nodiscard]] virtual std::optional<std::uint32_t> written(net::FusionId id) const { return id.value; }
+  [[nodiscard]] virtual std::optional<std::uint32_t> written(net::SubsystemId id) const { return id.value; }
+  [[nodiscard]] virtual std::optional<std::uint32_t> written(net::ChannelId id) const { return id.value; }
   [[nodiscard]] virtual std::string_view name(std::string_view path) const { return path; }
 
  private:
   template <class Id>
   void number(std::string_view member_name, Id id) {
     member(member_name, [&] {
-      const std::uint32_t value_of = id.valid() ? written(id) : none;
-      value_of == none ? null() : value(value_of);
+      const std::optional<std::uint32_t> number = id.valid() ? written(id) : std::nullopt;
+      number ? value(*number) : null();
     });
   }
 

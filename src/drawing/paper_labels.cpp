@@ -128,12 +128,12 @@ class PaperLabels : public Labels {
   }
 
   [[nodiscard]] Symbol symbol(net::SubsystemId id) const {
-    const spec::Instance& given = model_.instances[id.value];
+    const spec::Instance& given = model_.instances[id];
     const auto& subsystems = model_.definition_of(model_.agents[given.agent]).subsystems;
     const spec::SubsystemKind kind = subsystems[given.subsystem].kind;
-    const auto before = std::count_if(subsystems.begin(), subsystems.begin() + given.subsystem + 1,
+    const auto before = std::count_if(subsystems.begin(), subsystems.begin() + given.subsystem.value + 1,
                                       [&](const spec::Subsystem& other) { return other.kind == kind; });
-    return {letter_of(kind), std::to_string(given.agent + 1),
+    return {letter_of(kind), std::to_string(given.agent.value + 1),
             kind == spec::SubsystemKind::control ? "" : std::to_string(before)};
   }
 
@@ -167,7 +167,7 @@ class PaperLabels : public Labels {
   }
 
   [[nodiscard]] std::string behaviour_number(net::PageId id) const {
-    const auto& behaviours = model_.subsystem(net_.pages[id.value].subsystem.value).behaviours;
+    const auto& behaviours = model_.subsystem(net_.pages[id.value].subsystem).behaviours;
     const auto found = std::ranges::find(behaviours, net_.pages[id.value].name, &spec::Behaviour::name);
     return std::to_string(found - behaviours.begin() + 1);
   }
@@ -179,10 +179,10 @@ class PaperLabels : public Labels {
 
   /// The buffer at one end of a channel.
   [[nodiscard]] Label buffer(net::ChannelId id, bool output) const {
-    const spec::Channel& channel = model_.channels[id.value];
+    const spec::Channel& channel = model_.channels[id];
     const spec::ChannelEnd& own = output ? channel.from : channel.to;
     const spec::ChannelEnd& other = output ? channel.to : channel.from;
-    const Symbol here = symbol({own.instance}), there = symbol({other.instance});
+    const Symbol here = symbol(own.instance), there = symbol(other.instance);
     const bool transmission = here.letter == "c" && there.letter == "c";
     const std::string& far = there.own.empty() || here.agent != there.agent ? there.agent : there.own;
     // A receptor has only one control subsystem as a partner.
@@ -191,7 +191,7 @@ class PaperLabels : public Labels {
     label.add(transmission ? "T" : there.letter, Level::raised).add(output ? "y" : "x", Level::lowered);
     label.add(here.letter, Level::base, true)
         .add(implied ? here.indices() : here.indices() + "," + far, Level::lowered);
-    if (neighbours({own.instance}, {other.instance}) > 1) {
+    if (neighbours(own.instance, other.instance) > 1) {
       const spec::Subsystem& owner = model_.subsystem(own.instance);
       label.add(" (" + (output ? owner.outputs : owner.inputs)[own.buffer].name + ")");
     }
@@ -200,8 +200,8 @@ class PaperLabels : public Labels {
 
   [[nodiscard]] std::ptrdiff_t neighbours(net::SubsystemId a, net::SubsystemId b) const {
     return std::ranges::count_if(model_.channels, [&](const spec::Channel& channel) {
-      return (channel.from.instance == a.value && channel.to.instance == b.value) ||
-             (channel.from.instance == b.value && channel.to.instance == a.value);
+      return (channel.from.instance == a && channel.to.instance == b) ||
+             (channel.from.instance == b && channel.to.instance == a);
     });
   }
 

@@ -45,13 +45,13 @@ class UnitSearch {
   /// Whether the place may still be added: with the token of the unit in it, no other
   /// place with a token may be.
   [[nodiscard]] bool is_open(std::uint32_t place) const {
-    return state_[place] == State::open && (token_at_ == nowhere || net_.initial()[place] == 0);
+    return state_[place] == State::open && (!token_at_ || net_.initial()[place] == 0);
   }
 
   bool decide(std::uint32_t place, State state) {
     if (state_[place] != State::open) return (state_[place] == State::in) == (state == State::in);
     if (state == State::in && net_.initial()[place] == 1) {
-      if (token_at_ != nowhere) return false;
+      if (token_at_) return false;
       token_at_ = place;
     }
     state_[place] = state;
@@ -62,7 +62,7 @@ class UnitSearch {
   void take_back(std::size_t length) {
     for (; trail_.size() > length; trail_.pop_back()) {
       state_[trail_.back()] = State::open;
-      if (trail_.back() == token_at_) token_at_ = nowhere;
+      if (token_at_ == trail_.back()) token_at_.reset();
     }
     settled_ = std::min(settled_, length);
   }
@@ -171,8 +171,7 @@ class UnitSearch {
   const PtNet& net_;
   const std::vector<char>& covered_;
   std::vector<State> state_;
-  static constexpr std::uint32_t nowhere = UINT32_MAX;
-  std::uint32_t token_at_ = nowhere;  // the place in the set that is marked initially
+  std::optional<std::uint32_t> token_at_;  // the place in the set that is marked initially
   std::vector<std::uint32_t> trail_;
   std::size_t settled_ = 0;
   Losses losses_ = Losses::forbidden;

@@ -73,7 +73,7 @@ Ending ending(const spec::Behaviour& behaviour) {
 /// Layer 4, a behaviour (paper, sec. IV-D). The paper joins t5 and t6; apart, an error can be routed.
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
                            net::BehaviourId id) {
-  const spec::Behaviour& behaviour = draft.model.subsystem(subsystem.value).behaviours[id.value];
+  const spec::Behaviour& behaviour = draft.model.subsystem(subsystem).behaviours[id];
   Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, subsystem, behaviour.span);
   sheet.drawn().behaviour = id;
   const std::uint32_t in = sheet.input({.kind = net::Operation::Kind::transition_function, .behaviour = id});

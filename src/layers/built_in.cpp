@@ -86,7 +86,7 @@ std::array<CommunicationModel, 32> all_built_in() {
 
 const CommunicationModel& model_of(const spec::Model& model, const spec::Channel& channel) {
   static const std::array<CommunicationModel, 32> built_in = all_built_in();
-  if (channel.model != spec::none) return model.models[channel.model];
+  if (channel.model.valid()) return model.models[channel.model];
   return built_in[static_cast<std::size_t>(channel.send) | static_cast<std::size_t>(channel.receive) << 1U |
                   static_cast<std::size_t>(channel.send_timeout.has_value()) << 2U |
                   static_cast<std::size_t>(channel.receive_timeout.has_value()) << 3U |

@@ -20,8 +20,7 @@ net::TransitionId add_side(net::Net& net, const ModelSide& side, const std::stri
                      .tokens = places.size() == ModelSide::in ? 1U : 0U,
                      .layer = net::Layer::communication,
                      .span = place.span};
-    if (place.slot != ModelSide::no_slot)
-      added.operation = {.kind = kind, .channel = {0}, .slot = place.slot};
+    if (place.slot) added.operation = {.kind = kind, .channel = {0}, .slot = *place.slot};
     places.push_back(net.add(std::move(added)));
   }
   const auto arcs = [&](std::uint32_t own, const std::vector<std::uint32_t>& shared) {

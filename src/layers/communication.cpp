@@ -15,19 +15,19 @@ struct Block {
 };
 
 /// Blocks are named after their buffers; those of an output that feeds several channels are numbered.
-std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::Index>& channels,
-                             const std::vector<spec::Field>& buffers, Direction direction) {
-  std::vector<std::uint32_t> count(buffers.size(), 0), number(buffers.size(), 0);
-  const auto buffer_of = [&](spec::Index channel) {
+std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::ChannelId>& channels,
+                             const Numbered<spec::BufferId, spec::Field>& buffers, Direction direction) {
+  Numbered<spec::BufferId, std::uint32_t> count(buffers.size(), 0), number(buffers.size(), 0);
+  const auto buffer_of = [&](spec::ChannelId channel) {
     return end_of(model.channels[channel], direction).buffer;
   };
-  for (const spec::Index channel : channels) ++count[buffer_of(channel)];
+  for (const spec::ChannelId channel : channels) ++count[buffer_of(channel)];
   std::vector<Block> blocks;
-  for (const spec::Index channel : channels) {
-    const spec::Index buffer = buffer_of(channel);
+  for (const spec::ChannelId channel : channels) {
+    const spec::BufferId buffer = buffer_of(channel);
     std::string name = buffers[buffer].name;
     if (count[buffer] > 1) name += "#" + std::to_string(++number[buffer]);
-    blocks.push_back({{channel}, std::move(name)});
+    blocks.push_back({channel, std::move(name)});
   }
   return blocks;
 }
@@ -59,7 +59,7 @@ class BlockPen {
   std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name,
                      net::PlaceRole out_role) {
     sheet_.in_block(block.id);
-    const spec::Channel& channel = draft_.model.channels[block.channel.value];
+    const spec::Channel& channel = draft_.model.channels[block.channel];
     const spec::CommunicationModel& model = model_of(draft_.model, channel);
     const spec::ModelSide& side = direction_ == Direction::send ? model.send : model.receive;
     const auto local = [&](const std::string& part) { return block.name + "." + part; };
@@ -70,8 +70,7 @@ class BlockPen {
     nodes[ModelSide::in] = in;
     nodes[ModelSide::out] = sheet_.place(out_name, {}, out_role);
     for (std::size_t place = 0; place < model.shared.size(); ++place)
-      shared.push_back(
-          sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel.value][place]));
+      shared.push_back(sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel][place]));
     for (const ModelSide::Transition& transition : side.transitions) {
       std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
       for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
@@ -89,10 +88,10 @@ class BlockPen {
   using ModelSide = spec::ModelSide;
 
   [[nodiscard]] net::Operation operation(const ModelSide::Place& place, const Block& block) const {
-    if (place.slot == ModelSide::no_slot) return {};
+    if (!place.slot) return {};
     const auto kind =
         direction_ == Direction::send ? net::Operation::Kind::write : net::Operation::Kind::read;
-    return {.kind = kind, .channel = block.channel, .slot = place.slot};
+    return {.kind = kind, .channel = block.channel, .slot = *place.slot};
   }
 
   [[nodiscard]] net::Condition elapsed(const spec::Channel& channel, const Block& block) const {
@@ -149,12 +148,12 @@ net::PageId draw_nothing(Sheet& sheet) {
 net::PageId draw_communication(Draft& draft, net::PageId parent, net::SubsystemId id,
                                net::BehaviourId behaviour_id, Direction direction) {
   const bool sends = direction == Direction::send;
-  const spec::Subsystem& subsystem = draft.model.subsystem(id.value);
-  const spec::Behaviour& behaviour = subsystem.behaviours[behaviour_id.value];
+  const spec::Subsystem& subsystem = draft.model.subsystem(id);
+  const spec::Behaviour& behaviour = subsystem.behaviours[behaviour_id];
   Sheet sheet(draft, parent, net::Layer::communication,
               std::string(sends ? words::send_page : words::receive_page), id, behaviour.span);
   sheet.drawn().behaviour = behaviour_id;
-  std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(id.value, behaviour, direction),
+  std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(id, behaviour, direction),
                                         sends ? subsystem.outputs : subsystem.inputs, direction);
   if (blocks.empty()) return draw_nothing(sheet);
   enlist(blocks, draft.net.parts, id, behaviour_id, direction);

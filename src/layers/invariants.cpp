@@ -135,21 +135,20 @@ class Subsystems {
     Nodes first, branch;
   };
   /// One side of a channel; those of several behaviours use one memory.
-  using SideOfChannel = std::pair<std::uint32_t, bool>;
+  using SideOfChannel = std::pair<net::ChannelId, bool>;
 
   void gather_detour(net::PageId id, std::uint32_t node, const Branches& found, std::size_t branch) {
     const net::Node& drawn = pages_.pages[id.value].nodes[node];
     if (!drawn.block.valid() || drawn.operation.kind == net::Operation::Kind::none) return;
     const net::Parts::Block& block = pages_.parts[drawn.block];
-    if (!model_.crosses_processes(model_.channels[block.channel.value])) return;
-    detours_[{block.channel.value, block.sends}].push_back(
-        {id, found.branches.front(), found.branches[branch]});
+    if (!model_.crosses_processes(model_.channels[block.channel])) return;
+    detours_[{block.channel, block.sends}].push_back({id, found.branches.front(), found.branches[branch]});
   }
 
   [[nodiscard]] Invariant by_way_of(const SideOfChannel& side, const std::vector<Detour>& detours) const {
     Invariant token = tokens_[pages_.pages[detours.front().page.value].subsystem.value];
     token.name += ", by the branches that " + std::string(side.second ? "send " : "receive ") +
-                  pages_.parts[net::ChannelId{side.first}];
+                  pages_.parts[side.first];
     for (const Detour& detour : detours) {
       const auto places = places_.of(detour.page);
       std::erase_if(token.terms, [&](const Invariant::Term& term) {
@@ -211,7 +210,7 @@ class Channels {
   Gathered& at(net::ChannelId id) {
     Gathered& gathered = of_channel_[id.value];
     if (gathered.model != nullptr) return gathered;
-    const spec::Channel& channel = model_.channels[id.value];
+    const spec::Channel& channel = model_.channels[id];
     gathered.model = &model_of(model_, channel);
     const auto [known, added] = known_.try_emplace(gathered.model);
     if (added) known->second = pair_invariants(*gathered.model);

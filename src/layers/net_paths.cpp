@@ -64,10 +64,10 @@ NetPaths::NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, 
     below_[page.parent.value].push_back({index});
     if (page.layer == net::Layer::agent) agents_.emplace(page.name, PageId{index});
   }
-  for (std::uint32_t index = 0; index < model.channels.size(); ++index) {
-    const spec::Channel& channel = model.channels[index];
-    channels_[channel.from.instance].push_back({index});
-    if (channel.to.instance != channel.from.instance) channels_[channel.to.instance].push_back({index});
+  for (const net::ChannelId id : model.channels.ids()) {
+    const spec::Channel& channel = model.channels[id];
+    channels_[channel.from.instance].push_back(id);
+    if (channel.to.instance != channel.from.instance) channels_[channel.to.instance].push_back(id);
   }
 }
 
@@ -87,7 +87,7 @@ Found NetPaths::in_page(PageId page, const spec::NetPath& path, std::size_t part
   if (const auto place = own_place(page, joined(path.parts, part))) return marked(*place);
   if (pages_.pages[page.value].layer == net::Layer::subsystem) {
     const net::SubsystemId id = pages_.pages[page.value].subsystem;
-    const spec::Subsystem& subsystem = model_.subsystem(id.value);
+    const spec::Subsystem& subsystem = model_.subsystem(id);
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       if (std::ranges::count(*buffers, path.parts[part].name, &spec::Field::name) > 0)
         return of_buffer(id, path, out);
@@ -100,10 +100,10 @@ Found NetPaths::in_page(PageId page, const spec::NetPath& path, std::size_t part
 Found NetPaths::of_buffer(net::SubsystemId subsystem, const spec::NetPath& path, Diagnostics& out) const {
   const spec::PathPart& buffer = path.parts[1];
   std::vector<std::string> names;
-  for (const net::ChannelId id : channels_[subsystem.value]) {
-    const spec::Channel& channel = model_.channels[id.value];
-    const auto is = [&](const spec::ChannelEnd& end, const std::vector<spec::Field>& buffers) {
-      return end.instance == subsystem.value && buffers[end.buffer].name == buffer.name;
+  for (const net::ChannelId id : channels_[subsystem]) {
+    const spec::Channel& channel = model_.channels[id];
+    const auto is = [&](const spec::ChannelEnd& end, const Numbered<spec::BufferId, spec::Field>& buffers) {
+      return end.instance == subsystem && buffers[end.buffer].name == buffer.name;
     };
     if (is(channel.to, model_.subsystem(channel.to.instance).inputs) ||
         is(channel.from, model_.subsystem(channel.from.instance).outputs))
@@ -182,7 +182,7 @@ void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& ou
     if (!node.page.valid()) names.push_back(node.name);
   const net::Layer layer = pages_.pages[page.value].layer;
   if (layer == net::Layer::subsystem) {
-    const spec::Subsystem& subsystem = model_.subsystem(pages_.pages[page.value].subsystem.value);
+    const spec::Subsystem& subsystem = model_.subsystem(pages_.pages[page.value].subsystem);
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       for (const spec::Field& buffer : *buffers) names.push_back(buffer.name);
   }

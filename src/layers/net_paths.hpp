@@ -41,9 +41,10 @@ class NetPaths {
   const net::HierarchicalNet& pages_;
   std::unordered_map<std::string, net::PlaceId> places_;
   std::unordered_map<std::string, net::PageId> agents_;
-  std::vector<std::vector<net::PlaceId>> own_;         // per page
-  std::vector<std::vector<net::PageId>> below_;        // per page
-  std::vector<std::vector<net::ChannelId>> channels_;  // per subsystem: those that begin or end there
+  std::vector<std::vector<net::PlaceId>> own_;   // per page
+  std::vector<std::vector<net::PageId>> below_;  // per page
+  Numbered<net::SubsystemId, std::vector<net::ChannelId>>
+      channels_;  // per subsystem: those that begin or end there
 };
 
 }  // namespace tessera::layers

@@ -10,23 +10,23 @@ namespace tessera::layers {
 Draft::Draft(const spec::Model& specification)
     : model(specification), wiring(specification), memory(specification.channels.size()) {
   for (const spec::Agent& agent : model.agents) net.parts.agents.push_back(agent.path);
-  for (spec::Index instance = 0; instance < model.instances.size(); ++instance) {
+  for (const spec::InstanceId instance : model.instances.ids()) {
     net::Parts::Subsystem& part = net.parts.subsystems.emplace_back();
     part.path = model.instance_path(instance);
-    part.agent = {model.instances[instance].agent};
+    part.agent = model.instances[instance].agent;
     for (const spec::Behaviour& behaviour : model.subsystem(instance).behaviours)
       part.behaviours.push_back(behaviour.name);
   }
   for (const spec::Channel& channel : model.channels)
     net.parts.channels.push_back(model.channel_name(channel));
-  const std::vector<bool> used = wiring.used_channels();
-  for (spec::Index index = 0; index < model.channels.size(); ++index) {
-    if (!used[index]) continue;
-    const spec::Channel& channel = model.channels[index];
-    const std::string& name = net.parts.channels[index];
+  const Numbered<spec::ChannelId, bool> used = wiring.used_channels();
+  for (const spec::ChannelId id : model.channels.ids()) {
+    if (!used[id]) continue;
+    const spec::Channel& channel = model.channels[id];
+    const std::string& name = net.parts[id];
     for (const spec::SharedPlace& place : model_of(model, channel).shared) {
-      memory[index].push_back({static_cast<std::uint32_t>(net.fusions.size())});
-      net.fusions.push_back({name + "." + place.name, place.tokens, {index}, channel.span, role_of(place)});
+      memory[id].push_back({static_cast<std::uint32_t>(net.fusions.size())});
+      net.fusions.push_back({name + "." + place.name, place.tokens, id, channel.span, role_of(place)});
     }
   }
 }

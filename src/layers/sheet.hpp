@@ -17,9 +17,9 @@ struct Draft {
   const spec::Model& model;
   Wiring wiring;
   net::HierarchicalNet net;
-  /// For each channel, the fusion sets of the shared places of its model. None if no behaviour
+  /// The fusion sets of the shared places of its model. None if no behaviour
   /// uses the channel.
-  std::vector<std::vector<net::FusionId>> memory;
+  Numbered<spec::ChannelId, std::vector<net::FusionId>> memory;
 };
 
 /// One page while it is drawn. Its id exists from the start, so that pages below it can name it

@@ -47,7 +47,7 @@ class SidePen {
     place(words::output);
   }
 
-  void place(std::string_view name, std::uint32_t slot = spec::ModelSide::no_slot) {
+  void place(std::string_view name, std::optional<std::uint32_t> slot = {}) {
     side_.places.push_back({std::string(name), slot, {}});
   }
 

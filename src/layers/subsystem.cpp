@@ -36,7 +36,7 @@ std::string text_of(const spec::When& when, const spec::Behaviour& behaviour) {
 }
 
 /// The truth of an entry of `next` over the possible endings.
-Known known(const spec::Endings& endings, spec::Index entry, bool with_failures) {
+Known known(const spec::Endings& endings, spec::NextId entry, bool with_failures) {
   std::optional<Truth> all;
   bool exhaustive = true;
   for (const spec::Ending ending : spec::all_endings) {
@@ -55,15 +55,16 @@ Condition::After after(Possible possible) {
 
 /// The initial conditions of a behaviour's successors: of the entries of `next`, the first that
 /// holds is taken.
-std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
-  if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always) return {{}};
-  std::vector<Condition> conditions;
+Numbered<spec::NextId, Condition> initial_conditions(const spec::Behaviour& behaviour) {
+  if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always)
+    return {Condition{}};
+  Numbered<spec::NextId, Condition> conditions;
   const spec::Endings endings(behaviour);
-  for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
+  for (const spec::NextId entry : behaviour.next.ids()) {
     const Known now = known(endings, entry, false);
     Condition made{.kind = Condition::Kind::next,
                    .truth = now.truth,
-                   .entry = entry,
+                   .entry = entry.value,
                    .text = text_of(behaviour.next[entry].when, behaviour),
                    .exhaustive = now.exhaustive};
     made.set_with_failures(known(endings, entry, true));
@@ -79,22 +80,23 @@ std::vector<Condition> initial_conditions(const spec::Behaviour& behaviour) {
 
 /// Layer 3, a subsystem (paper, sec. IV-C): a graph of behaviours, of which one is active.
 net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id) {
-  const spec::Subsystem& subsystem = draft.model.subsystem(id.value);
+  const spec::Subsystem& subsystem = draft.model.subsystem(id);
   Sheet sheet(draft, parent, net::Layer::subsystem, subsystem.name, id, subsystem.span);
   const std::uint32_t in = sheet.input();
-  std::vector<std::uint32_t> behaviours;
-  for (spec::Index behaviour = 0; behaviour < subsystem.behaviours.size(); ++behaviour)
-    behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), id, {behaviour})));
+  Numbered<spec::BehaviourId, std::uint32_t> behaviours;
+  for (const spec::BehaviourId behaviour : subsystem.behaviours.ids())
+    behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), id, behaviour)));
   const std::uint32_t out = sheet.output();
 
   sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = net::TransitionRole::start;
-  for (spec::Index index = 0; index < subsystem.behaviours.size(); ++index) {
+  for (const spec::BehaviourId index : subsystem.behaviours.ids()) {
     const spec::Behaviour& behaviour = subsystem.behaviours[index];
-    const std::vector<Condition> conditions = initial_conditions(behaviour);
-    for (spec::Index entry = 0; entry < behaviour.next.size(); ++entry) {
+    const auto conditions = initial_conditions(behaviour);
+    for (const spec::NextId entry : behaviour.next.ids()) {
       const spec::Next& next = behaviour.next[entry];
-      const std::string name = std::string(words::leave) + behaviour.name + "_" + std::to_string(entry + 1);
-      const std::uint32_t to = next.behaviour == spec::none ? out : behaviours[next.behaviour];
+      const std::string name =
+          std::string(words::leave) + behaviour.name + "_" + std::to_string(entry.value + 1);
+      const std::uint32_t to = next.behaviour.valid() ? behaviours[next.behaviour] : out;
       net::PageTransition& drawn = sheet.transition(name, {behaviours[index]}, {to}, conditions[entry]);
       drawn.span = next.span;
       drawn.role = net::TransitionRole::leave;

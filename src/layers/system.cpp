@@ -11,10 +11,10 @@ namespace {
 
 /// The transitions that carry the values of a channel between processes. They are drawn on the page with both
 /// agents, and belong to neither.
-void draw_medium_of(const Draft& draft, Sheet& sheet, spec::Index channel) {
+void draw_medium_of(const Draft& draft, Sheet& sheet, spec::ChannelId channel) {
   const spec::CommunicationModel& model = model_of(draft.model, draft.model.channels[channel]);
   if (draft.memory[channel].empty() || model.medium.empty()) return;
-  const std::string prefix = draft.net.parts.channels[channel] + ".";
+  const std::string prefix = draft.net.parts[channel] + ".";
   std::vector<std::uint32_t> nodes;
   for (std::size_t place = 0; place < model.shared.size(); ++place)
     nodes.push_back(sheet.fused(prefix + model.shared[place].name, draft.memory[channel][place]));
@@ -39,13 +39,12 @@ net::PageId draw_system(Draft& draft) {
   Sheet sheet(draft, {}, net::Layer::system, "", {}, {});
   const std::uint32_t in = sheet.input({}, 1);
   std::vector<std::uint32_t> agents;
-  for (spec::Index agent = 0; agent < draft.model.agents.size(); ++agent)
-    agents.push_back(sheet.page(draw_agent(draft, sheet.id(), {agent})));
+  for (const spec::AgentId agent : draft.model.agents.ids())
+    agents.push_back(sheet.page(draw_agent(draft, sheet.id(), agent)));
   const std::uint32_t out = sheet.output();
   sheet.transition(words::start, {in}, agents).role = net::TransitionRole::start;
   sheet.transition(words::end, agents, {out}).role = net::TransitionRole::end;
-  for (spec::Index channel = 0; channel < draft.model.channels.size(); ++channel)
-    draw_medium_of(draft, sheet, channel);
+  for (const spec::ChannelId channel : draft.model.channels.ids()) draw_medium_of(draft, sheet, channel);
   return sheet.finish(in, out);
 }
 

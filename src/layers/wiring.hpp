@@ -16,15 +16,15 @@ class Wiring {
   /// The channels that a behaviour of `instance` sends to or receives from, in the order of the blocks
   /// of its page: its `send:`/`receive:` list (channels of one output in channel order), else the
   /// order of Model::channels.
-  [[nodiscard]] std::vector<spec::Index> used(spec::Index instance, const spec::Behaviour& behaviour,
-                                              Direction direction) const;
+  [[nodiscard]] std::vector<spec::ChannelId> used(spec::InstanceId instance, const spec::Behaviour& behaviour,
+                                                  Direction direction) const;
 
   /// Per channel: does any behaviour of either end use it?
-  [[nodiscard]] std::vector<bool> used_channels() const;
+  [[nodiscard]] Numbered<spec::ChannelId, bool> used_channels() const;
 
  private:
   const spec::Model& model_;
-  std::vector<std::vector<spec::Index>> outgoing_, incoming_;
+  Numbered<spec::InstanceId, std::vector<spec::ChannelId>> outgoing_, incoming_;
 };
 
 /// The end of a channel that the given side holds.

@@ -34,7 +34,7 @@ std::vector<const spec::Parameter*> parameters_at(const spec::Model& model, std:
       if (one.name == name) found.push_back(&one);
   };
   add_of(model.parameters);
-  for (spec::Index index = 0; index < model.instances.size(); ++index)
+  for (const spec::InstanceId index : model.instances.ids())
     if (const std::string own = without_indices(model.instance_path(index)),
         given = without_indices(path.substr(0, dot));
         dot == std::string_view::npos || given == own || given == own.substr(0, own.rfind('.')))

@@ -76,7 +76,7 @@ class Agglomeration {
 
   [[nodiscard]] Draft::Transition one_after_the_other(const Draft::Transition& first,
                                                       const Draft::Transition& second) const {
-    work_.sequences.emplace_back(first.sequence, second.sequence);
+    work_.sequences.push_back({first.sequence, second.sequence});
     return {.inputs = sum(first.inputs, without(second.inputs, index_)),
             .outputs = sum(without(first.outputs, index_), second.outputs),
             .sequence = static_cast<std::uint32_t>(work_.sequences.size() - 1),

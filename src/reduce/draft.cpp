@@ -89,8 +89,8 @@ void Draft::fire(std::uint32_t index) {
   for (const Arc& arc : transitions_[index].outputs) places_[arc.place.value].tokens += arc.weight;
 }
 
-std::uint32_t Draft::take(std::vector<std::uint32_t>& open, std::vector<bool>& is_open) {
-  if (open.empty()) return UINT32_MAX;
+std::optional<std::uint32_t> Draft::take(std::vector<std::uint32_t>& open, std::vector<bool>& is_open) {
+  if (open.empty()) return std::nullopt;
   const std::uint32_t item = open.back();
   open.pop_back();
   is_open[item] = false;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -40,12 +41,12 @@ class Draft {
   /// Moves the tokens of one firing. The caller removes the transition next, which reopens its places.
   void fire(std::uint32_t transition);
 
-  /// A place that changed and may now be reduced; UINT32_MAX: none is left.
-  std::uint32_t next_place() { return take(open_places_, place_is_open_); }
-  std::uint32_t next_transition() { return take(open_transitions_, transition_is_open_); }
+  /// A place that changed and may now be reduced; nullopt: none is left.
+  std::optional<std::uint32_t> next_place() { return take(open_places_, place_is_open_); }
+  std::optional<std::uint32_t> next_transition() { return take(open_transitions_, transition_is_open_); }
 
  private:
-  static std::uint32_t take(std::vector<std::uint32_t>& open, std::vector<bool>& is_open);
+  static std::optional<std::uint32_t> take(std::vector<std::uint32_t>& open, std::vector<bool>& is_open);
   static void put(std::uint32_t item, std::vector<std::uint32_t>& open, std::vector<bool>& is_open);
   void touch(const Transition& transition);
 
@@ -76,7 +77,7 @@ struct Work {
   const Preserve& what;
   const Rules& on;
   Statistics& count;
-  std::vector<std::pair<std::uint32_t, std::uint32_t>>& sequences;  ///< one after another; see Reduced
+  std::vector<Sequence>& sequences;  ///< one after another
   std::vector<std::uint32_t>& start;
   std::vector<std::uint32_t>& delayed;
 };

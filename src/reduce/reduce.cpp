@@ -20,13 +20,13 @@ void drop_impossible(const net::Net& net, Work& work) {
 /// Transitions come first: they are cheap, and the remaining ones decide about the places.
 void exhaust(Work& work) {
   for (;;) {
-    if (const std::uint32_t transition = work.draft.next_transition(); transition != UINT32_MAX) {
-      if (work.draft.transitions()[transition].alive) reduce_transition(work, transition);
+    if (const auto transition = work.draft.next_transition()) {
+      if (work.draft.transitions()[*transition].alive) reduce_transition(work, *transition);
       continue;
     }
-    const std::uint32_t place = work.draft.next_place();
-    if (place == UINT32_MAX) return;
-    if (work.draft.places()[place].alive && !reduce_place(work, place)) agglomerate(work, place);
+    const auto place = work.draft.next_place();
+    if (!place) return;
+    if (work.draft.places()[*place].alive && !reduce_place(work, *place)) agglomerate(work, *place);
   }
 }
 
@@ -40,33 +40,33 @@ std::string joined_name(const std::string& first, const std::string& last) {
 Reduced reduce(const net::Net& net, const Preserve& what, const Rules& on) {
   Reduced result;
   Draft draft(net, what);
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> sequences(net.transitions().size(), {0, UINT32_MAX});
+  std::vector<Sequence> sequences(net.transitions().size());
   Work work{draft, what, on, result.statistics, sequences, result.start_, result.delayed_};
   drop_impossible(net, work);
   exhaust(work);
 
   result.original_ = &net;
-  result.place_of_.assign(net.places().size(), UINT32_MAX);
+  result.place_of_.resize(net.places().size());
   for (std::uint32_t index = 0; index < net.places().size(); ++index) {
     if (!draft.places()[index].alive) continue;
     net::Place place = net.places()[index];
     place.tokens = draft.places()[index].tokens;
-    result.place_of_[index] = result.net.add(std::move(place)).value;
+    result.place_of_[index] = result.net.add(std::move(place));
   }
   // Sequences are made of earlier ones, so their ends can be found in order.
   std::vector<std::uint32_t> first(sequences.size()), last(sequences.size());
   for (std::uint32_t index = 0; index < sequences.size(); ++index) {
     const auto [before, after] = sequences[index];
-    result.sequences_.push_back({before, after});
-    first[index] = after == UINT32_MAX ? index : first[before];
-    last[index] = after == UINT32_MAX ? index : last[after];
+    first[index] = after ? first[before] : index;
+    last[index] = after ? last[*after] : index;
   }
+  result.sequences_ = std::move(sequences);
   result.sets.resize(what.sets.size());
   for (const Draft::Transition& transition : draft.transitions()) {
     if (!transition.alive) continue;
     Arcs inputs = transition.inputs, outputs = transition.outputs;
     for (Arcs* arcs : {&inputs, &outputs})
-      for (Arc& arc : *arcs) arc.place.value = result.place_of_[arc.place.value];
+      for (Arc& arc : *arcs) arc.place = result.place_of_[arc.place.value];
     net::Transition made = net.transitions()[first[transition.sequence]];
     made.name = joined_name(made.name, net.transitions()[last[transition.sequence]].name);
     const net::TransitionId id = result.net.add(std::move(made), inputs, outputs);
@@ -81,9 +81,8 @@ Reduced reduce(const net::Net& net, const Preserve& what, const Rules& on) {
 }
 
 std::optional<net::PlaceId> Reduced::find(net::PlaceId original) const {
-  const std::uint32_t place = place_of_[original.value];
-  if (place == UINT32_MAX) return std::nullopt;
-  return net::PlaceId{place};
+  const net::PlaceId place = place_of_[original.value];
+  return place.valid() ? std::optional(place) : std::nullopt;
 }
 
 void Reduced::append(std::uint32_t sequence, std::vector<net::TransitionId>& to) const {
@@ -91,12 +90,13 @@ void Reduced::append(std::uint32_t sequence, std::vector<net::TransitionId>& to)
   while (!open.empty()) {
     const std::uint32_t at = open.back();
     open.pop_back();
-    if (sequences_[at].second == UINT32_MAX) {
+    const Sequence& found = sequences_[at];
+    if (!found.second) {
       to.push_back({at});
       continue;
     }
-    open.push_back(sequences_[at].second);
-    open.push_back(sequences_[at].first);
+    open.push_back(*found.second);
+    open.push_back(found.first);
   }
 }
 

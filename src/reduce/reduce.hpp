@@ -70,6 +70,12 @@ struct Statistics {
   std::size_t start = 0, post_agglomeration = 0, pre_agglomeration = 0;
 };
 
+/// A firing sequence as a tree: an original transition (without a second), or one sequence after another.
+struct Sequence {
+  std::uint32_t first = 0;
+  std::optional<std::uint32_t> second{};
+};
+
 /// A smaller net and the way back. Observed places keep their numbers of tokens, and remaining places keep
 /// their bounds. Whether a removed place was safe is lost.
 class Reduced {
@@ -89,18 +95,14 @@ class Reduced {
  private:
   friend Reduced reduce(const net::Net& net, const Preserve& what, const Rules& on);
 
-  /// A firing sequence as a tree: an original transition (second is invalid), or one sequence after another.
-  struct Sequence {
-    std::uint32_t first = 0, second = UINT32_MAX;
-  };
   void append(std::uint32_t sequence, std::vector<net::TransitionId>& to) const;
   void settle(std::vector<net::TransitionId>& trace) const;
 
   const net::Net* original_ = nullptr;
-  std::vector<std::uint32_t> place_of_;  // per original place
-  std::vector<Sequence> sequences_;      // the first ones are the original transitions
-  std::vector<std::uint32_t> fires_;     // per transition of `net`: a sequence
-  std::vector<std::uint32_t> start_;     // sequences fired at once
+  std::vector<net::PlaceId> place_of_;  // per original place; none: it is gone
+  std::vector<Sequence> sequences_;     // the first ones are the original transitions
+  std::vector<std::uint32_t> fires_;    // per transition of `net`: a sequence
+  std::vector<std::uint32_t> start_;    // sequences fired at once
   std::vector<std::uint32_t> delayed_;  // sequences that pre-agglomeration put off, in the order of the rules
 };
 

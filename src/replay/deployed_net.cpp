@@ -34,7 +34,7 @@ DeployedNet::DeployedNet(const net::Net& net, const ProcessMap& processes)
 void DeployedNet::find_channels(const ProcessMap& processes) {
   for (const net::Parts::Block& block : net_.parts().blocks) {
     Channel& channel = channels_[block.channel.value];
-    const std::uint32_t process = processes.of_agents[net_.parts()[block.subsystem].agent.value];
+    const ProcessId process = processes.of_agents[net_.parts()[block.subsystem].agent];
     (block.sends ? channel.sender : channel.receiver) = block.subsystem;
     (block.sends ? channel.sending : channel.receiving) = process;
   }
@@ -80,7 +80,7 @@ void DeployedNet::find_transitions(const ProcessMap& processes) {
     const net::Transition& drawn = net_[id];
     Transition& transition = transitions_[index];
     transition.channel = net_.channel_of(id);
-    if (drawn.agent.valid()) transition.process = processes.of_agents[drawn.agent.value];
+    if (drawn.agent.valid()) transition.process = processes.of_agents[drawn.agent];
     if (drawn.layer == net::Layer::system && drawn.role == net::TransitionRole::start) start_ = id;
     if (!transition.channel.valid() || !channels_[transition.channel.value].networked) {
       // `timeout` uses no shared place, and is one end of a wait all the same.
@@ -120,17 +120,17 @@ void DeployedNet::find_owners(const ProcessMap& processes) {
   for (std::uint32_t index = 0; index < net_.places().size(); ++index) {
     const net::Place& place = net_.places()[index];
     const bool local = place.fused() && !channels_[place.channel.value].networked;
-    process_of_places_.push_back(place.agent.valid() ? processes.of_agents[place.agent.value]
+    process_of_places_.push_back(place.agent.valid() ? processes.of_agents[place.agent]
                                  : local             ? channels_[place.channel.value].sending
-                                                     : none);
+                                                     : ProcessId{});
   }
   std::vector<bool> seen(net_.places().size(), false);
-  makers_.assign(net_.places().size(), none);
+  makers_.assign(net_.places().size(), {});
   for (std::uint32_t index = 0; index < transitions_.size(); ++index)
     for (const Arc& arc : net_.postset({index})) {
-      const std::uint32_t subsystem = net_.transitions()[index].subsystem.value;
-      std::uint32_t& maker = makers_[arc.place.value];
-      maker = seen[arc.place.value] && maker != subsystem ? none : subsystem;
+      const net::SubsystemId subsystem = net_.transitions()[index].subsystem;
+      net::SubsystemId& maker = makers_[arc.place.value];
+      maker = seen[arc.place.value] && maker != subsystem ? net::SubsystemId{} : subsystem;
       seen[arc.place.value] = true;
     }
 }

@@ -10,8 +10,8 @@ namespace tessera::replay {
 
 /// Which agents of a deployed system run in which process.
 struct ProcessMap {
-  std::vector<std::string> names;        ///< of the processes
-  std::vector<std::uint32_t> of_agents;  ///< per agent of the net, into names
+  Numbered<ProcessId, std::string> names;
+  Numbered<net::AgentId, ProcessId> of_agents;
 };
 
 /// The effect of a firing on the sender or on the receiver of a channel between processes.
@@ -33,8 +33,6 @@ class DeployedNet {
  public:
   DeployedNet(const net::Net& net, const ProcessMap& processes);
 
-  static constexpr std::uint32_t none = UINT32_MAX;
-
   /// The tokens that a firing takes from and gives to the shared places of a channel: one bit per place.
   struct Move {
     std::uint32_t takes = 0, gives = 0;
@@ -43,16 +41,16 @@ class DeployedNet {
   struct Channel {
     bool networked = false;
     net::SubsystemId sender{}, receiver{};
-    std::uint32_t sending = none, receiving = none;  ///< processes
-    std::vector<net::PlaceId> places;                ///< networked: its shared places, a bit each
-    std::vector<Move> medium;                        ///< the moves that are not recorded
-    bool exchange = false;                           ///< both sides are non-blocking
+    ProcessId sending{}, receiving{};
+    std::vector<net::PlaceId> places;  ///< networked: its shared places, a bit each
+    std::vector<Move> medium;          ///< the moves that are not recorded
+    bool exchange = false;             ///< both sides are non-blocking
   };
   struct Transition {
     net::ChannelId channel{};  ///< whose memory it uses
     ChannelStep step = ChannelStep::none;
-    bool carries_number = false;   ///< its firing carries the number of a value, not the version of a word
-    std::uint32_t process = none;  ///< none: of the whole system, or of a medium
+    bool carries_number = false;  ///< its firing carries the number of a value, not the version of a word
+    ProcessId process{};          ///< none: of the whole system, or of a medium
     /// For a channel between processes: its own move, and those of the transitions with the same effect on
     /// its subsystem, which cannot know which of them happened.
     std::vector<Move> moves;
@@ -64,14 +62,14 @@ class DeployedNet {
   [[nodiscard]] std::size_t process_count() const { return process_count_; }
   [[nodiscard]] std::size_t channel_count() const { return channels_.size(); }
   /// The process that owns the tokens of a place; none: the system, or a channel between processes.
-  [[nodiscard]] std::uint32_t process_of(net::PlaceId place) const { return process_of_places_[place.value]; }
+  [[nodiscard]] ProcessId process_of(net::PlaceId place) const { return process_of_places_[place.value]; }
   /// Is it a shared place of a channel between processes?
   [[nodiscard]] bool is_hidden(net::PlaceId place) const {
     return net_[place].fused() && (*this)[net_[place].channel].networked;
   }
   /// Do only firings of this subsystem fill the place?
   [[nodiscard]] bool is_made_by(net::PlaceId place, net::SubsystemId subsystem) const {
-    return makers_[place.value] == subsystem.value;
+    return makers_[place.value] == subsystem;
   }
   /// The transition that starts all agents.
   [[nodiscard]] net::TransitionId start() const { return start_; }
@@ -89,8 +87,8 @@ class DeployedNet {
   std::vector<Channel> channels_;
   std::vector<Transition> transitions_;
   std::vector<std::uint32_t> bits_;  // per place: its bit in its channel
-  std::vector<std::uint32_t> process_of_places_;
-  std::vector<std::uint32_t> makers_;  // per place: the subsystem that alone fills it
+  std::vector<ProcessId> process_of_places_;
+  std::vector<net::SubsystemId> makers_;  // per place: the subsystem that alone fills it
   net::TransitionId start_{};
 };
 

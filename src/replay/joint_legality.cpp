@@ -20,6 +20,7 @@ namespace {
 
 using net::ChannelId;
 using net::TransitionId;
+using StartId = JointPlay::StartId;
 using JointVerdict = Legality::Verdict;
 using Firing = JointPlay::Firing;
 using Obstruction = JointPlay::Obstacle;
@@ -70,23 +71,27 @@ class JointOrder {
   std::vector<JointPlay::Start> starts() {
     std::vector<JointPlay::Start> all;
     if (one_run_)
-      for (std::uint32_t process = 0; process < processes_.names.size(); ++process)
+      for (const ProcessId process : processes_.names.ids())
         all.push_back({.process = process, .incarnation = 1});
     else
       for (const JointSource& source : sources_)
-        all.push_back({.process = source.recording().process->number,
+        all.push_back({.process = {source.recording().process->number},
                        .incarnation = source.recording().process->incarnation});
     return all;
   }
 
   // ------------------------------------------------------------------------------------------ events
 
-  [[nodiscard]] std::uint32_t start_of(std::size_t recording, TransitionId id) const {
-    return one_run_ ? net_[id].process : static_cast<std::uint32_t>(recording);
+  /// With all in one run, processes and starts have the same numbers.
+  [[nodiscard]] static StartId start_of(ProcessId process) { return {process.value}; }
+  [[nodiscard]] static StartId start_of(std::size_t recording) {
+    return {static_cast<std::uint32_t>(recording)};
   }
   [[nodiscard]] Firing firing_of(std::size_t recording, const Event& event) const {
     const TransitionId id = sources_[recording].transition(event);
-    return {.transition = id, .start = start_of(recording, id), .version = event.version};
+    return {.transition = id,
+            .start = one_run_ ? start_of(net_[id].process) : start_of(recording),
+            .version = event.version};
   }
 
   /// Fires, or changes a peer. nullopt: done. Precondition of a firing: no obstacle.
@@ -113,13 +118,12 @@ class JointOrder {
   }
 
   /// The start whose side of the channel hears.
-  [[nodiscard]] std::uint32_t start_of_lane(std::size_t recording, const Event& event,
-                                            ChannelId channel) const {
-    if (!one_run_) return static_cast<std::uint32_t>(recording);
+  [[nodiscard]] StartId start_of_lane(std::size_t recording, const Event& event, ChannelId channel) const {
+    if (!one_run_) return start_of(recording);
     const DeployedNet::Channel& ends = net_[channel];
     const bool sends = ends.sender.valid() && event.instance() != system_instance &&
                        net_.net().parts()[ends.sender].path == sources_[recording].path_of(event);
-    return sends ? ends.sending : ends.receiving;
+    return start_of(sends ? ends.sending : ends.receiving);
   }
 
   enum class Turn : std::uint8_t { next, gap, back };
@@ -264,7 +268,7 @@ class JointOrder {
   /// All that is recorded of a start has been played.
   void end(std::size_t recording) {
     if (!parts_[recording].is_whole) {
-      play_->assume_rest(static_cast<std::uint32_t>(recording));
+      play_->assume_rest(start_of(recording));
       for (std::vector<std::size_t>& lanes : waiting_) {
         std::ranges::copy(lanes, std::back_inserter(ready_));
         lanes.clear();
@@ -272,7 +276,7 @@ class JointOrder {
     }
     const std::size_t next = recording + 1;
     if (next == sources_.size() || !are_of_one(recording, next)) return;
-    play_->restart(static_cast<std::uint32_t>(next));
+    play_->restart(start_of(next));
     begin(next);
   }
 
@@ -338,8 +342,8 @@ class JointOrder {
 
   /// The recording that it waits for is whole, and everything in it has been played.
   [[nodiscard]] bool never_comes(const Obstruction& waits) const {
-    return parts_[waits.awaited].is_whole && parts_[waits.awaited].unplayed == 0 &&
-           parts_[waits.awaited].begun;
+    const Part& awaited = parts_[waits.awaited.value];
+    return awaited.is_whole && awaited.unplayed == 0 && awaited.begun;
   }
 
   [[nodiscard]] JointJudgement of_the_end() const {

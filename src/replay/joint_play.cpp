@@ -26,8 +26,8 @@ JointPlay::JointPlay(const DeployedNet& net, std::vector<Start> starts, bool one
       after_start_(marking_),
       versions_(net.channel_count(), 0),
       links_(net.channel_count()) {
-  for (std::uint32_t start = 0; start < starts_.size(); ++start) {
-    std::vector<std::uint32_t>& all = of_process_[starts_[start].process];
+  for (const StartId start : starts_.ids()) {
+    std::vector<StartId>& all = of_process_[starts_[start].process];
     ordinals_.push_back(static_cast<std::uint32_t>(all.size()));
     all.push_back(start);
   }
@@ -40,14 +40,14 @@ void JointPlay::link_up(ChannelId id, bool one_run) {
   const DeployedNet::Channel& channel = net_[id];
   Link& link = links_[id.value];
   // A side that no behaviour uses has no process.
-  const auto starts = [&](std::uint32_t process) {
-    return process == none ? std::vector<std::uint32_t>() : of_process_[process];
+  const auto starts = [&](ProcessId process) {
+    return process.valid() ? of_process_[process] : std::vector<StartId>();
   };
-  const std::vector<std::uint32_t> senders = starts(channel.sending), receivers = starts(channel.receiving);
+  const std::vector<StartId> senders = starts(channel.sending), receivers = starts(channel.receiving);
   link.sending.resize(senders.size());
   link.receiving.resize(receivers.size());
-  link.tracked = (channel.sending == none || senders.size() == 1) &&
-                 (channel.receiving == none || receivers.size() == 1);
+  link.tracked = (!channel.sending.valid() || senders.size() == 1) &&
+                 (!channel.receiving.valid() || receivers.size() == 1);
   if (one_run && !senders.empty() && !receivers.empty()) {
     link.sending.front().peer = receivers.front();
     link.receiving.front().peer = senders.front();
@@ -60,8 +60,8 @@ void JointPlay::link_up(ChannelId id, bool one_run) {
 
 void JointPlay::start_system() { marking_ = after_start_; }
 
-void JointPlay::restart(std::uint32_t start) {
-  const std::uint32_t process = starts_[start].process;
+void JointPlay::restart(StartId start) {
+  const ProcessId process = starts_[start].process;
   for (std::uint32_t place = 0; place < marking_.size(); ++place)
     if (net_.process_of({place}) == process) marking_[place] = after_start_[place];
   for (std::uint32_t channel = 0; channel < versions_.size(); ++channel)
@@ -69,16 +69,16 @@ void JointPlay::restart(std::uint32_t start) {
       versions_[channel] = 0;
 }
 
-JointPlay::Sending& JointPlay::sending(ChannelId channel, std::uint32_t start) {
+JointPlay::Sending& JointPlay::sending(ChannelId channel, StartId start) {
   return links_[channel.value].sending[ordinals_[start]];
 }
-const JointPlay::Sending& JointPlay::sending(ChannelId channel, std::uint32_t start) const {
+const JointPlay::Sending& JointPlay::sending(ChannelId channel, StartId start) const {
   return links_[channel.value].sending[ordinals_[start]];
 }
-JointPlay::Receiving& JointPlay::receiving(ChannelId channel, std::uint32_t start) {
+JointPlay::Receiving& JointPlay::receiving(ChannelId channel, StartId start) {
   return links_[channel.value].receiving[ordinals_[start]];
 }
-const JointPlay::Receiving& JointPlay::receiving(ChannelId channel, std::uint32_t start) const {
+const JointPlay::Receiving& JointPlay::receiving(ChannelId channel, StartId start) const {
   return links_[channel.value].receiving[ordinals_[start]];
 }
 
@@ -149,7 +149,7 @@ JointPlay::Obstacle JointPlay::acknowledgement_obstacle(const Firing& firing) co
   const Sending& side = sending(channel, firing.start);
   if (firing.version != side.written)
     return {.kind = Kind::never, .reason = Reason::number, .due = side.written};
-  if (side.peer == none) return {.kind = Kind::never, .reason = Reason::no_peer};
+  if (!side.peer.valid()) return {.kind = Kind::never, .reason = Reason::no_peer};
   if (side.peer == unknown) return {};
   if (is_read_later(firing, side)) return {.kind = Kind::never, .reason = Reason::taken_already};
   const auto read = std::ranges::find(side.reads, side.peer, &Read::start);
@@ -164,7 +164,7 @@ JointPlay::Obstacle JointPlay::read_obstacle(const Firing& firing, bool exchange
   const std::uint32_t number = firing.version;
   if (number == 0 && exchange && side.last == 0 && side.peer_incarnation == 0) return {};
   if (number == 0) return {.kind = Kind::never, .reason = Reason::no_number};
-  if (side.peer == none) return {.kind = Kind::never, .reason = Reason::no_peer};
+  if (!side.peer.valid()) return {.kind = Kind::never, .reason = Reason::no_peer};
   if (side.last != 0 && (is_before(number, side.last) || (number == side.last && !exchange)))
     return {.kind = Kind::never, .reason = Reason::read_already, .due = side.last};
   if (was_left_behind(channel, firing, side)) return {.kind = Kind::never, .reason = Reason::taken_already};
@@ -178,9 +178,9 @@ JointPlay::Obstacle JointPlay::read_obstacle(const Firing& firing, bool exchange
 bool JointPlay::was_left_behind(ChannelId channel, const Firing& firing, const Receiving& side) const {
   const std::uint32_t ordinal = ordinals_[firing.start];
   if (ordinal == 0 || side.last != 0) return false;
-  if (side.peer < unknown) {
+  if (is_given(side.peer)) {
     const Sending& sender = sending(channel, side.peer);
-    if (sender.acknowledged != 0 && sender.peer < unknown && ordinals_[sender.peer] < ordinal &&
+    if (sender.acknowledged != 0 && is_given(sender.peer) && ordinals_[sender.peer] < ordinal &&
         !is_before(sender.acknowledged, firing.version))
       return true;
   }
@@ -268,16 +268,15 @@ void JointPlay::stop_tracking(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
   const DeployedNet::Channel& ends = net_[channel];
   const bool sends = starts_[firing.start].process == ends.sending;
-  const std::uint32_t peer =
-      sends ? sending(channel, firing.start).peer : receiving(channel, firing.start).peer;
-  if (peer < unknown && assumed_[peer]) links_[channel.value].tracked = false;
+  const StartId peer = sends ? sending(channel, firing.start).peer : receiving(channel, firing.start).peer;
+  if (is_given(peer) && assumed_[peer]) links_[channel.value].tracked = false;
 }
 
 /// nullptr: the sender is not given.
 JointPlay::Read* JointPlay::read_by(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
-  const std::uint32_t sender = receiving(channel, firing.start).peer;
-  if (sender >= unknown) return nullptr;
+  const StartId sender = receiving(channel, firing.start).peer;
+  if (!is_given(sender)) return nullptr;
   std::vector<Read>& reads = sending(channel, sender).reads;
   if (reads.empty() || reads.back().start != firing.start) reads.push_back({.start = firing.start});
   return &reads.back();
@@ -340,14 +339,14 @@ std::uint64_t JointPlay::with_medium(ChannelId channel, std::uint64_t markings) 
 
 // -------------------------------------------------------------------------------------------------- peers
 
-std::uint32_t JointPlay::find_start(std::uint32_t process, std::uint64_t incarnation) const {
-  for (const std::uint32_t start : of_process_[process])
+JointPlay::StartId JointPlay::find_start(ProcessId process, std::uint64_t incarnation) const {
+  for (const StartId start : of_process_[process])
     if (starts_[start].incarnation == incarnation) return start;
   return unknown;
 }
 
 /// false: it is an earlier one.
-bool JointPlay::turn(Sending& side, std::uint32_t peer, std::uint64_t incarnation) const {
+bool JointPlay::turn(Sending& side, StartId peer, std::uint64_t incarnation) const {
   if (incarnation <= side.peer_incarnation) return false;
   side.peer = peer;
   side.peer_incarnation = incarnation;
@@ -355,7 +354,7 @@ bool JointPlay::turn(Sending& side, std::uint32_t peer, std::uint64_t incarnatio
   return true;
 }
 
-bool JointPlay::turn(ChannelId channel, std::uint32_t start, std::uint32_t peer, std::uint64_t incarnation) {
+bool JointPlay::turn(ChannelId channel, StartId start, StartId peer, std::uint64_t incarnation) {
   std::vector<Receiving>& all = links_[channel.value].receiving;
   Receiving& side = receiving(channel, start);
   const bool goes_back =
@@ -366,16 +365,16 @@ bool JointPlay::turn(ChannelId channel, std::uint32_t start, std::uint32_t peer,
   return !goes_back;
 }
 
-std::string JointPlay::hear(ChannelId channel, std::uint32_t start, std::uint64_t incarnation) {
+std::string JointPlay::hear(ChannelId channel, StartId start, std::uint64_t incarnation) {
   const DeployedNet::Channel& ends = net_[channel];
   const std::string& name = net_.net().parts()[channel];
-  const std::uint32_t process = starts_[start].process;
+  const ProcessId process = starts_[start].process;
   if (!ends.networked || (process != ends.sending && process != ends.receiving))
     return fmt::format("'{}' does not join this process with another", name);
   const bool sends = process == ends.sending;
-  const std::uint32_t other = sends ? ends.receiving : ends.sending;
-  if (other == none) return fmt::format("no process is at the other end of '{}'", name);
-  const std::uint32_t peer = find_start(other, incarnation);
+  const ProcessId other = sends ? ends.receiving : ends.sending;
+  if (!other.valid()) return fmt::format("no process is at the other end of '{}'", name);
+  const StartId peer = find_start(other, incarnation);
   const bool forwards =
       sends ? turn(sending(channel, start), peer, incarnation) : turn(channel, start, peer, incarnation);
   if (!forwards) return fmt::format("at '{}' it turns back to an earlier start of the other process", name);

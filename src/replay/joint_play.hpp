@@ -21,12 +21,12 @@ namespace tessera::replay {
 /// Threads: one at a time.
 class JointPlay {
  public:
+  using StartId = Id<struct StartTag>;  ///< of the starts that are given
   /// One start of a process whose recording is given.
   struct Start {
-    std::uint32_t process = 0;
+    ProcessId process{0};
     std::uint64_t incarnation = 1;
   };
-  static constexpr std::uint32_t none = DeployedNet::none;
 
   /// starts: of each process in the order of their incarnations. one_run: they are of one simulated run, in
   /// which each process starts once and its peers are known.
@@ -34,8 +34,8 @@ class JointPlay {
 
   struct Firing {
     net::TransitionId transition{};
-    std::uint32_t start = none;  ///< of the process that fired; none: the whole system
-    std::uint32_t version = 0;   ///< as recorded: of a word, or the number of a value
+    StartId start{};            ///< of the process that fired; none: the whole system
+    std::uint32_t version = 0;  ///< as recorded: of a word, or the number of a value
   };
   /// Why a firing cannot be the next.
   struct Obstacle {
@@ -57,7 +57,7 @@ class JointPlay {
     } reason = Reason::token;
     net::PlaceId place{};
     std::uint32_t due = 0;
-    std::uint32_t awaited = none;  ///< the start that has to go on
+    StartId awaited{};  ///< the start that has to go on
   };
   [[nodiscard]] Obstacle obstacle(const Firing& firing) const;
   /// "'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
@@ -66,13 +66,13 @@ class JointPlay {
   [[nodiscard]] std::string fire(const Firing& firing);
 
   /// From here on a side of a channel hears this incarnation of the other process. Returns what is wrong.
-  [[nodiscard]] std::string hear(net::ChannelId channel, std::uint32_t start, std::uint64_t incarnation);
+  [[nodiscard]] std::string hear(net::ChannelId channel, StartId start, std::uint64_t incarnation);
   /// The transition of the system that starts all agents; no process records it.
   void start_system();
   /// The rest of what this start did is not known: whatever others need of it, it has done.
-  void assume_rest(std::uint32_t start) { assumed_[start] = true; }
+  void assume_rest(StartId start) { assumed_[start] = true; }
   /// A process begins again: what it held is gone. Its start before has been played.
-  void restart(std::uint32_t start);
+  void restart(StartId start);
 
   [[nodiscard]] const net::Marking& marking() const { return marking_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
@@ -80,21 +80,23 @@ class JointPlay {
   [[nodiscard]] const std::string& unknown_peer() const { return unknown_peer_; }
 
  private:
-  static constexpr std::uint32_t unknown = none - 1;  ///< a start whose recording is not given
+  static constexpr StartId unknown{UINT32_MAX - 1};  ///< a start whose recording is not given
+  [[nodiscard]] static bool is_given(StartId start) { return start < unknown; }
   /// The numbers that one start of the receiver has read from one start of the sender.
   struct Read {
-    std::uint32_t start = none, first = 0, ended = 0;
+    StartId start{};
+    std::uint32_t first = 0, ended = 0;
   };
   /// One side of a channel between processes, in one start of its process.
   struct Sending {
     std::uint32_t written = 0, acknowledged = 0;  ///< the last numbers; 0: none
-    std::uint32_t peer = none;                    ///< the start that acknowledges
+    StartId peer{};                               ///< the start that acknowledges
     std::uint64_t peer_incarnation = 0;
     std::vector<Read> reads{};  ///< of the starts of the receiver, in their order
   };
   struct Receiving {
     std::uint32_t last = 0;  ///< the number that was last read of this peer; 0: none
-    std::uint32_t peer = none;
+    StartId peer{};
     std::uint64_t peer_incarnation = 0;
   };
   struct Link {
@@ -104,10 +106,10 @@ class JointPlay {
     std::vector<Receiving> receiving;  ///< per start of the receiving process
   };
 
-  [[nodiscard]] Sending& sending(net::ChannelId channel, std::uint32_t start);
-  [[nodiscard]] const Sending& sending(net::ChannelId channel, std::uint32_t start) const;
-  [[nodiscard]] Receiving& receiving(net::ChannelId channel, std::uint32_t start);
-  [[nodiscard]] const Receiving& receiving(net::ChannelId channel, std::uint32_t start) const;
+  [[nodiscard]] Sending& sending(net::ChannelId channel, StartId start);
+  [[nodiscard]] const Sending& sending(net::ChannelId channel, StartId start) const;
+  [[nodiscard]] Receiving& receiving(net::ChannelId channel, StartId start);
+  [[nodiscard]] const Receiving& receiving(net::ChannelId channel, StartId start) const;
   [[nodiscard]] Obstacle token_obstacle(const Firing& firing) const;
   [[nodiscard]] Obstacle version_obstacle(const Firing& firing) const;
   [[nodiscard]] Obstacle number_obstacle(const Firing& firing) const;
@@ -121,17 +123,16 @@ class JointPlay {
   void count(const Firing& firing);
   [[nodiscard]] bool move_markings(const Firing& firing);
   [[nodiscard]] std::uint64_t with_medium(net::ChannelId channel, std::uint64_t markings) const;
-  [[nodiscard]] std::uint32_t find_start(std::uint32_t process, std::uint64_t incarnation) const;
-  [[nodiscard]] bool turn(Sending& side, std::uint32_t peer, std::uint64_t incarnation) const;
-  [[nodiscard]] bool turn(net::ChannelId channel, std::uint32_t start, std::uint32_t peer,
-                          std::uint64_t incarnation);
+  [[nodiscard]] StartId find_start(ProcessId process, std::uint64_t incarnation) const;
+  [[nodiscard]] bool turn(Sending& side, StartId peer, std::uint64_t incarnation) const;
+  [[nodiscard]] bool turn(net::ChannelId channel, StartId start, StartId peer, std::uint64_t incarnation);
   void link_up(net::ChannelId id, bool one_run);
 
   const DeployedNet& net_;
-  std::vector<Start> starts_;
-  std::vector<bool> assumed_;                           // per start: what is not recorded of it is assumed
-  std::vector<std::uint32_t> ordinals_;                 // per start: which of its process
-  std::vector<std::vector<std::uint32_t>> of_process_;  // starts
+  Numbered<StartId, Start> starts_;
+  Numbered<StartId, bool> assumed_;            // what is not recorded of it is assumed
+  Numbered<StartId, std::uint32_t> ordinals_;  // which of its process
+  Numbered<ProcessId, std::vector<StartId>> of_process_;
   net::Marking marking_, after_start_;
   std::vector<std::uint32_t> versions_;  // per local channel: the last
   std::vector<Link> links_;              // per channel

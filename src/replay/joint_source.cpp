@@ -45,7 +45,7 @@ std::string JointSource::stranger(const Event& event, const DeployedNet& net) co
   const char* whose = nullptr;
   if (recording_.transitions[event.subject].instance != event.instance())
     whose = "subsystem";
-  else if (recording_.process && net[id].process != recording_.process->number)
+  else if (recording_.process && net[id].process.value != recording_.process->number)
     whose = "process";
   if (whose == nullptr) return {};
   return fmt::format("{}'{}' fired, which is no transition of this {}", place_of(event), net.net()[id].name,

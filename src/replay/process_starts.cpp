@@ -17,16 +17,16 @@ class Splitter {
     std::unordered_map<std::string_view, std::uint32_t> by_name;
     for (std::uint32_t index = 0; index < net.net().transitions().size(); ++index)
       by_name.emplace(net.net().transitions()[index].name, index);
-    process_of_instance_.resize(run.instances.size(), DeployedNet::none);
+    process_of_instance_.resize(run.instances.size());
     for (const Recording::Transition& transition : run.transitions) {
       const auto found = by_name.find(transition.name);
-      const std::uint32_t process =
-          found == by_name.end() ? DeployedNet::none : net[net::TransitionId{found->second}].process;
+      const ProcessId process =
+          found == by_name.end() ? ProcessId{} : net[net::TransitionId{found->second}].process;
       process_of_transition_.push_back(process);
       if (transition.instance < process_of_instance_.size())
         process_of_instance_[transition.instance] = process;
     }
-    for (std::uint32_t process = 0; process < processes.names.size(); ++process) begin(process, 1);
+    for (const ProcessId process : processes.names.ids()) begin(process, 1);
   }
 
   std::vector<Recording> result() {
@@ -39,7 +39,7 @@ class Splitter {
   }
 
  private:
-  void begin(std::uint32_t process, std::uint64_t incarnation) {
+  void begin(ProcessId process, std::uint64_t incarnation) {
     current_.resize(processes_.names.size());
     current_[process] = starts_.size();
     Recording& start = starts_.emplace_back();
@@ -47,7 +47,7 @@ class Splitter {
     start.transitions = run_.transitions;
     start.processes = run_.processes;
     start.networked = run_.networked;
-    start.process = Recording::OneProcess{processes_.names[process], process, incarnation};
+    start.process = Recording::OneProcess{processes_.names[process], process.value, incarnation};
     system_events_.push_back(0);
     for (std::size_t instance = 0; instance < base_.size(); ++instance)
       if (process_of_instance_[instance] == process) base_[instance] = next_[instance];
@@ -56,8 +56,9 @@ class Splitter {
   void take(const Recording::Entry& entry) {
     if (!is_counted(entry.event)) return;
     if (entry.event.instance() == system_instance) return take_of_system(entry);
-    const std::uint32_t instance = entry.event.instance(), process = process_of_instance_[instance];
-    if (process == DeployedNet::none) return;
+    const std::uint32_t instance = entry.event.instance();
+    const ProcessId process = process_of_instance_[instance];
+    if (!process.valid()) return;
     next_[instance] = entry.event.sequence + 1;
     Recording::Entry& own = starts_[current_[process]].entries.emplace_back(entry);
     own.event.sequence -= base_[instance];
@@ -70,8 +71,8 @@ class Splitter {
     next_of_system_ = event.sequence + 1;
     if (event.kind() == Event::Kind::process && event.version == 1) return take_start(entry.text);
     if (event.kind() != Event::Kind::firing) return;
-    const std::uint32_t process = process_of_transition_[event.subject];
-    if (process == DeployedNet::none) return;
+    const ProcessId process = process_of_transition_[event.subject];
+    if (!process.valid()) return;
     Recording::Entry& own = starts_[current_[process]].entries.emplace_back(entry);
     own.event.sequence = system_events_[current_[process]]++;
   }
@@ -84,16 +85,16 @@ class Splitter {
     if (found == processes_.names.end() || incarnation == 0)
       ++missing_;  // of an event that says nothing
     else
-      begin(static_cast<std::uint32_t>(found - processes_.names.begin()), incarnation);
+      begin({static_cast<std::uint32_t>(found - processes_.names.begin())}, incarnation);
   }
 
   const Recording& run_;
   const ProcessMap& processes_;
-  std::vector<std::uint32_t> process_of_instance_, process_of_transition_;
+  std::vector<ProcessId> process_of_instance_, process_of_transition_;
   std::vector<std::uint32_t> next_,
       base_;  // per instance: sequences, in the whole run and where a start begins
   std::vector<Recording> starts_;
-  std::vector<std::size_t> current_;          // per process, into starts_
+  Numbered<ProcessId, std::size_t> current_;  // into starts_
   std::vector<std::uint32_t> system_events_;  // per start
   std::uint32_t next_of_system_ = 0;
   std::uint64_t missing_ = 0;

@@ -99,6 +99,7 @@ void put_paths(std::string& html, const ReportInput& input) {
 void put_judged_curve(std::string& html, const JudgedCurve& curve, double end_s) {
   const char* kind = curve.verdict == "failed" ? "bad" : curve.verdict == "held" ? "good" : "warn";
   put(html, R"(<div class="panel plot"><p><b>{}</b>)", escaped(shortened(curve.name, 80, 1)));
+  if (!curve.unit.empty()) put(html, " in {}", escaped(curve.unit));
   if (curve.is_check) put(html, R"( <span class="{}">{}</span>)", kind, escaped(curve.verdict));
   html += "</p>";
   if (!curve.text.empty())

@@ -17,6 +17,7 @@ struct JudgedCurve {
   bool is_check = false;
   bool is_truth = false;           ///< 1 or 0: whether the formula held
   std::optional<double> limit;     ///< of a check that compares
+  std::string unit;                ///< of a measure: "m/s"; empty: none, or not known
   std::string verdict, detail;     ///< of a check: "held", "failed", "open"; what was seen then
   std::string text;                ///< of a check: what it demands
   std::optional<double> failed_s;  ///< when

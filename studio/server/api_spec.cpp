@@ -56,7 +56,7 @@ void Api::put_spec(const Request& request, Response& response) {
   RequestBody body(request, response);
   const std::string text = body.text("text"), revision = body.text("revision");
   if (!body.good()) return;
-  const SpecFile::Outcome outcome = parts_.file.write(text, revision);
+  const SpecFile::Outcome outcome = parts_.file.write_shown(text, revision);
   switch (outcome.written) {
     case SpecFile::Written::yes:
       return answer_with_analysis(request, response, fmt::format(R"("revision":"{}")", outcome.now.revision),

@@ -112,6 +112,16 @@ TEST(ParserOfChecks, NumbersOfOneComparisonHaveOneUnit) {
   EXPECT_FALSE(checks::parse_number("speed(robot) + 1 deg", metres).value);
 }
 
+TEST(ParserOfChecks, NumbersHaveAUnitIfItIsKnown) {
+  const auto unit_of = [](std::string_view text) {
+    return checks::unit_of(checks::parse_number(text, metres).value.value().dimension);
+  };
+  EXPECT_EQ(unit_of("distance(a, b) - 0.5"), "m");
+  EXPECT_EQ(unit_of("-distance(a, b) / 2 s"), "m/s");
+  EXPECT_EQ(unit_of("laps(a)"), "");
+  EXPECT_EQ(unit_of("3 * sensor(a)"), "");
+}
+
 TEST(ParserOfChecks, DeepAndRandomTextsAreRefusedNotFollowed) {
   EXPECT_EQ(read(std::string(100'000, '(')), "");
   EXPECT_EQ(read("speed(a) > " + std::string(100'000, '-') + "1"), "");

@@ -67,9 +67,11 @@ TEST_F(Project, TwoRoversShareACrossing) {
   ASSERT_EQ(run.at("checks").size(), 5U);
   for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
   EXPECT_GT(run.at("measures").at("nearest").at("least"), 0.3);
+  EXPECT_EQ(run.at("measures").at("nearest").at("unit"), "m");
   // One rover has another stop line: in the middle of the crossing.
   const project::Exit hit = tessera("simulate depot --for 5s --set 'robot[1].control.stop=0.05'");
   EXPECT_EQ(hit.code, 1);
+  EXPECT_NE(hit.text.find(" m (at "), std::string::npos) << hit.text;
   EXPECT_NE(hit.text.find("check nobody touches: failed at 1."), std::string::npos) << hit.text;
   EXPECT_NE(hit.text.find("robot[0], robot[1] touch"), std::string::npos) << hit.text;
   const project::Exit tests = tessera("test depot");

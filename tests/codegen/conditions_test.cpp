@@ -148,7 +148,7 @@ std::string behaviour_text(std::uint32_t number, std::uint32_t of, std::uint64_t
                      ", error: " + condition_text(behaviour.error) + ", next: [";
   for (const spec::Next& next : behaviour.next)
     text += std::string(&next == &behaviour.next.front() ? "" : ", ") +
-            "{ to: " + (next.behaviour == spec::none ? "end" : "b" + std::to_string(next.behaviour)) +
+            "{ to: " + (next.behaviour.valid() ? "b" + std::to_string(next.behaviour.value) : "end") +
             when_text(next.when, behaviour) + " }";
   return text + "] }\n";
 }

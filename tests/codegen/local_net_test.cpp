@@ -83,14 +83,13 @@ TEST(LocalNet, EveryPlaceAndTransitionOfASubsystemIsInItsTables) {
       if (file.path.ends_with(".cpp")) tables += file.text;
     for (const net::Place& place : generated.net.places()) {
       if (!place.subsystem.valid()) continue;
-      const std::string local =
-          place.name.substr(generated.model.instance_path(place.subsystem.value).size() + 1);
+      const std::string local = place.name.substr(generated.model.instance_path(place.subsystem).size() + 1);
       EXPECT_THAT(tables, HasSubstr("{\"" + local + "\"")) << place.name;
     }
     for (const net::Transition& transition : generated.net.transitions()) {
       if (!transition.subsystem.valid()) continue;
       const std::string local =
-          transition.name.substr(generated.model.instance_path(transition.subsystem.value).size() + 1);
+          transition.name.substr(generated.model.instance_path(transition.subsystem).size() + 1);
       EXPECT_THAT(tables, HasSubstr("{\"" + local + "\",")) << transition.name;
     }
   }

@@ -38,7 +38,8 @@ TEST(Rename, NamesOfEveryExampleCanBeChangedAndChangedBack) {
     const Document document(text, grammar());
     const auto before = codes(text);
     // One in four: each is parsed four times.
-    for (auto id = static_cast<SymbolId>(renamed % 4); id < document.index().symbols().size(); id += 4) {
+    for (SymbolId id{static_cast<std::uint32_t>(renamed % 4)}; document.index().symbols().has(id);
+         id.value += 4) {
       const Symbol& symbol = document.index()[id];
       const Position at = document.lines().position(symbol.definition.begin);
       if (!renameable(document, nullptr, at)) continue;

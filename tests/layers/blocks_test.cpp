@@ -92,8 +92,8 @@ TEST(Blocks, OfAnOutputWithTwoChannelsAreNumbered) {
 
 TEST(Blocks, FollowTheListOfTheBehaviour) {
   spec::Model model = pair({{N, N}, {N, N}, {N, N}});
-  model.definitions[0].subsystems[0].behaviours[0].send = std::vector<spec::Index>{2, 0};
-  model.definitions[0].subsystems[1].behaviours[0].receive = std::vector<spec::Index>{};
+  model.definitions[0].subsystems[0].behaviours[0].send = std::vector<spec::BufferId>{{2}, {0}};
+  model.definitions[0].subsystems[1].behaviours[0].receive = std::vector<spec::BufferId>{};
   const Built built = build(model);
   EXPECT_THAT(places_of(built.pages, "a.control.give.snd"),
               ElementsAre("in", "y3.2", "y3.out", "y1.2", "out"));
@@ -102,8 +102,8 @@ TEST(Blocks, FollowTheListOfTheBehaviour) {
 
 TEST(Blocks, OfAChannelNobodyUsesHaveNoPlaces) {
   spec::Model model = pair({{N, N}, {B, B}});
-  model.definitions[0].subsystems[0].behaviours[0].send = std::vector<spec::Index>{0};
-  model.definitions[0].subsystems[1].behaviours[0].receive = std::vector<spec::Index>{0};
+  model.definitions[0].subsystems[0].behaviours[0].send = std::vector<spec::BufferId>{{0}};
+  model.definitions[0].subsystems[1].behaviours[0].receive = std::vector<spec::BufferId>{{0}};
   const Built built = build(model);
   ASSERT_EQ(built.pages.fusions.size(), 1U);
   EXPECT_EQ(built.pages.fusions[0].name, "a.control.y1->a.motor.x1.channel");

@@ -76,7 +76,7 @@ TEST(Conditions, OfABehavioursEndFollowFromItsConstants) {
 spec::Next entry(When kind) {
   spec::Next next;
   next.when.kind = kind;
-  next.when.expression = 0;
+  next.when.expression = {0};
   next.when.text = {"", "memory.n > 7", {}};
   return next;
 }

@@ -39,10 +39,10 @@ TEST(LayerInvariants, BoundAnAcknowledgementWaitedForInSeveralBranches) {
   auto& behaviours = model.definitions[0].subsystems[0].behaviours;
   spec::Behaviour back = behaviours[0];
   back.name = "back";
-  back.send = std::vector<spec::Index>{2, 1, 0};
+  back.send = std::vector<spec::BufferId>{{2}, {1}, {0}};
   spec::Behaviour single = behaviours[0];
   single.name = "single";
-  single.send = std::vector<spec::Index>{1};
+  single.send = std::vector<spec::BufferId>{{1}};
   behaviours.push_back(back);
   behaviours.push_back(single);
   EXPECT_EQ(why(model), "holds");

@@ -20,7 +20,7 @@ spec::Behaviour behaviour(std::string name) {
   return made;
 }
 
-spec::Behaviour behaviour(std::string name, spec::Index next) {
+spec::Behaviour behaviour(std::string name, spec::BehaviourId next) {
   spec::Behaviour made = behaviour(std::move(name));
   made.next.front().behaviour = next;
   made.next_given = true;
@@ -39,7 +39,7 @@ spec::Subsystem subsystem(spec::SubsystemKind kind, std::string name, const std:
   return made;
 }
 
-spec::Index ModelBuilder::agent(std::string path, std::vector<spec::Subsystem> subsystems) {
+spec::InstanceId ModelBuilder::agent(std::string path, std::vector<spec::Subsystem> subsystems) {
   spec::Definition definition;
   definition.name = path;
   definition.subsystems = std::move(subsystems);
@@ -47,16 +47,15 @@ spec::Index ModelBuilder::agent(std::string path, std::vector<spec::Subsystem> s
   return enlist(std::move(path));
 }
 
-spec::Index ModelBuilder::again(std::string path) { return enlist(std::move(path)); }
+spec::InstanceId ModelBuilder::again(std::string path) { return enlist(std::move(path)); }
 
-spec::Index ModelBuilder::enlist(std::string path) {
+spec::InstanceId ModelBuilder::enlist(std::string path) {
   spec::Agent agent;
   agent.path = std::move(path);
-  agent.definition = static_cast<spec::Index>(model_.definitions.size() - 1);
-  agent.first_instance = static_cast<spec::Index>(model_.instances.size());
-  const auto index = static_cast<spec::Index>(model_.agents.size());
-  for (spec::Index part = 0; part < model_.definitions.back().subsystems.size(); ++part)
-    model_.instances.push_back({index, part});
+  agent.definition = {static_cast<std::uint32_t>(model_.definitions.size() - 1)};
+  agent.first_instance = model_.instances.next_id();
+  for (const spec::DefinedSubsystemId part : model_.definitions.back().subsystems.ids())
+    model_.instances.push_back({model_.agents.next_id(), part});
   model_.agents.push_back(agent);
   return agent.first_instance;
 }
@@ -72,7 +71,7 @@ spec::Channel& ModelBuilder::channel(spec::ChannelEnd from, spec::ChannelEnd to)
 namespace {
 
 std::vector<spec::Subsystem> follower() {
-  spec::Behaviour init = behaviour("init", 1);
+  spec::Behaviour init = behaviour("init", {1});
   init.terminal.kind = spec::Condition::Kind::always;
   return {
       subsystem(spec::SubsystemKind::control, "control", {"line"}, {"motion"}, {init, behaviour("follow")}),
@@ -81,9 +80,10 @@ std::vector<spec::Subsystem> follower() {
   };
 }
 
-void join_follower(ModelBuilder& builder, spec::Index first) {
-  builder.channel({first + 1, 0}, {first, 0});
-  spec::Channel& motion = builder.channel({first, 0}, {first + 2, 0});
+void join_follower(ModelBuilder& builder, spec::InstanceId control) {
+  const spec::InstanceId sensor{control.value + 1}, motor{control.value + 2};
+  builder.channel({sensor, {0}}, {control, {0}});
+  spec::Channel& motion = builder.channel({control, {0}}, {motor, {0}});
   motion.receive = Mode::blocking;
   motion.receive_timeout = 200ms;
 }
@@ -116,8 +116,8 @@ spec::Model pair(const std::vector<Modes>& channels, spec::Transfer transfer) {
   ModelBuilder builder;
   builder.agent("a", {subsystem(spec::SubsystemKind::control, "control", {}, outputs, {give}),
                       subsystem(spec::SubsystemKind::effector, "motor", inputs, {}, {take})});
-  for (spec::Index index = 0; index < channels.size(); ++index) {
-    spec::Channel& channel = builder.channel({0, index}, {1, index});
+  for (std::uint32_t index = 0; index < channels.size(); ++index) {
+    spec::Channel& channel = builder.channel({{0}, {index}}, {{1}, {index}});
     channel.send = channels[index].send;
     channel.receive = channels[index].receive;
     if (channels[index].send_timeout) channel.send_timeout = 1500ms;
@@ -138,12 +138,11 @@ class RandomModel {
       std::vector<spec::Subsystem> subsystems;
       const std::uint32_t count = between(1, 3);
       for (std::uint32_t index = 0; index < count; ++index) subsystems.push_back(any_subsystem(index));
-      spec::Index instance = builder_.agent("a" + std::to_string(agent), subsystems);
+      spec::InstanceId instance = builder_.agent("a" + std::to_string(agent), subsystems);
       for (const spec::Subsystem& made : subsystems) {
-        for (spec::Index output = 0; output < made.outputs.size(); ++output)
-          outputs_.push_back({instance, output});
-        for (spec::Index input = 0; input < made.inputs.size(); ++input) inputs_.push_back({instance, input});
-        ++instance;
+        for (const spec::BufferId output : made.outputs.ids()) outputs_.push_back({instance, output});
+        for (const spec::BufferId input : made.inputs.ids()) inputs_.push_back({instance, input});
+        ++instance.value;
       }
     }
     for (const spec::ChannelEnd& input : inputs_) join(input);
@@ -176,14 +175,14 @@ class RandomModel {
 
   spec::Next any_next(std::uint32_t behaviours) {
     spec::Next next;
-    if (coin()) next.behaviour = between(0, behaviours - 1);
+    if (coin()) next.behaviour = {between(0, behaviours - 1)};
     if (coin()) next.when.kind = spec::When::Kind::error;
     return next;
   }
 
-  std::vector<spec::Index> some(std::size_t buffers) {
-    std::vector<spec::Index> list;
-    for (spec::Index buffer = 0; buffer < buffers; ++buffer)
+  std::vector<spec::BufferId> some(std::size_t buffers) {
+    std::vector<spec::BufferId> list;
+    for (const spec::BufferId buffer : Ids<spec::BufferId>(buffers))
       if (coin()) list.push_back(buffer);
     std::shuffle(list.begin(), list.end(), random_);
     return list;

@@ -14,7 +14,7 @@ inline constexpr auto N = spec::Mode::non_blocking, B = spec::Mode::blocking;
 
 spec::Behaviour behaviour(std::string name);
 /// A behaviour with one unconditional successor, `none` for `end`.
-spec::Behaviour behaviour(std::string name, spec::Index next);
+spec::Behaviour behaviour(std::string name, spec::BehaviourId next);
 
 spec::Subsystem subsystem(spec::SubsystemKind kind, std::string name, const std::vector<std::string>& inputs,
                           const std::vector<std::string>& outputs, std::vector<spec::Behaviour> behaviours);
@@ -23,14 +23,14 @@ spec::Subsystem subsystem(spec::SubsystemKind kind, std::string name, const std:
 class ModelBuilder {
  public:
   /// Returns the instance of the agent's first subsystem.
-  spec::Index agent(std::string path, std::vector<spec::Subsystem> subsystems);
+  spec::InstanceId agent(std::string path, std::vector<spec::Subsystem> subsystems);
   /// Another agent of the same definition as the last one.
-  spec::Index again(std::string path);
+  spec::InstanceId again(std::string path);
   spec::Channel& channel(spec::ChannelEnd from, spec::ChannelEnd to);
   [[nodiscard]] spec::Model result() const { return model_; }
 
  private:
-  spec::Index enlist(std::string path);
+  spec::InstanceId enlist(std::string path);
   spec::Model model_;
 };
 

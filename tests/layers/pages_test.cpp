@@ -49,7 +49,7 @@ TEST(Pages, OfABehaviourStartItsTransitionFunctionAndNextIteration) {
 
 TEST(Pages, BeginWithTheStartBehaviour) {
   spec::Model model = line_follower();
-  model.definitions[0].subsystems[0].start = 1;
+  model.definitions[0].subsystems[0].start = {1};
   EXPECT_EQ(transitions_of(build(model).pages, "robot.control").front(), "t_in: in -> follow");
 }
 

@@ -153,7 +153,7 @@ class Walker {
     for (const net::Parts::Block& block : net_.parts().blocks)
       if (block.channel == channel && block.sends != of_sender)
         return net_.parts()[channel] + "\n" +
-               std::to_string(1 + processes_.of_agents[net_.parts()[block.subsystem].agent.value]);
+               std::to_string(1 + processes_.of_agents[net_.parts()[block.subsystem].agent].value);
     throw std::logic_error("a channel without an end");
   }
 
@@ -198,11 +198,12 @@ TransitionId any_of_group(const net::Net& net, TransitionId id, std::mt19937& ra
 Deployed each_apart(spec::Model model) {
   spec::Deployment deployment;
   ProcessMap processes;
-  for (spec::Index agent = 0; agent < model.agents.size(); ++agent) {
-    deployment.processes.push_back({.name = "p" + std::to_string(agent), .agents = {agent}});
-    model.agents[agent].process = agent;
+  for (const spec::AgentId agent : model.agents.ids()) {
+    const spec::ProcessId process = deployment.processes.next_id();
+    deployment.processes.push_back({.name = "p" + std::to_string(process.value), .agents = {agent}});
+    model.agents[agent].process = process;
     processes.names.push_back(deployment.processes.back().name);
-    processes.of_agents.push_back(agent);
+    processes.of_agents.push_back(process);
   }
   model.deployment = std::move(deployment);
   net::Net net = test::build(model).net;
@@ -221,7 +222,7 @@ std::vector<Recording> deployed_run(const Deployed& system, std::size_t firings,
   for (std::size_t step = 0; step < firings && walker.step(fired, noted); ++step) {
     const net::Transition& transition = system.net[fired];
     if (!transition.agent.valid()) continue;  // of the system, or of a medium
-    const std::uint32_t process = system.processes.of_agents[transition.agent.value];
+    const std::uint32_t process = system.processes.of_agents[transition.agent].value;
     const std::uint32_t instance =
         transition.subsystem.valid() ? transition.subsystem.value : system_instance;
     const auto add = [&](Event::Kind kind, std::uint32_t subject, std::uint32_t version, std::string text) {

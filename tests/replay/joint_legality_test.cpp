@@ -29,17 +29,17 @@ spec::Model small_model(std::mt19937& engine) {
     std::vector<spec::Subsystem> parts;
     const std::uint32_t count = 1 + random() % 5 / 4;
     for (std::uint32_t part = 0; part < count; ++part) {
-      spec::Behaviour first = test::behaviour("first", 0);
+      spec::Behaviour first = test::behaviour("first", {0});
       if (random() % 3 == 0) first.transfer = spec::Transfer::parallel;
-      first.next.front().behaviour = random() % 4 == 0 ? spec::none : 0;
+      first.next.front().behaviour = random() % 4 == 0 ? spec::BehaviourId{} : spec::BehaviourId{0};
       parts.push_back(test::subsystem(spec::SubsystemKind::receptor, "s" + std::to_string(part), {"p", "q"},
                                       {"p", "q"}, {first}));
     }
-    const spec::Index instance = builder.agent("a" + std::to_string(agent), std::move(parts));
+    const spec::InstanceId first = builder.agent("a" + std::to_string(agent), std::move(parts));
     for (std::uint32_t part = 0; part < count; ++part)
-      for (spec::Index buffer = 0; buffer < 2; ++buffer) {
-        outputs.push_back({instance + part, buffer});
-        inputs.push_back({instance + part, buffer});
+      for (const spec::BufferId buffer : Ids<spec::BufferId>(2)) {
+        outputs.push_back({{first.value + part}, buffer});
+        inputs.push_back({{first.value + part}, buffer});
       }
   }
   std::ranges::shuffle(inputs, engine);

@@ -37,11 +37,11 @@ const std::vector<Ends> all_ends{{N, N, false, false}, {N, B, false, false}, {N,
 
 Deployed two_agents(Ends ends) {
   test::ModelBuilder builder;
-  const spec::Index a = builder.agent(
-      "a", {test::subsystem(spec::SubsystemKind::control, "s", {}, {"y"}, {test::behaviour("give", 0)})});
-  const spec::Index b = builder.agent(
-      "b", {test::subsystem(spec::SubsystemKind::control, "r", {"x"}, {}, {test::behaviour("take", 0)})});
-  spec::Channel& channel = builder.channel({a, 0}, {b, 0});
+  const spec::InstanceId a = builder.agent(
+      "a", {test::subsystem(spec::SubsystemKind::control, "s", {}, {"y"}, {test::behaviour("give", {0})})});
+  const spec::InstanceId b = builder.agent(
+      "b", {test::subsystem(spec::SubsystemKind::control, "r", {"x"}, {}, {test::behaviour("take", {0})})});
+  spec::Channel& channel = builder.channel({a, {0}}, {b, {0}});
   channel.send = ends.send;
   channel.receive = ends.receive;
   if (ends.send_timeout) channel.send_timeout = std::chrono::milliseconds(10);
@@ -123,7 +123,7 @@ class TwoProcesses {
     Process& process = processes_[which];
     std::vector<TransitionId> possible;
     for (std::uint32_t index = 0; index < system_.net.transitions().size(); ++index)
-      if (const TransitionId id{index}; deployed_[id].process == which && can(process, id))
+      if (const TransitionId id{index}; deployed_[id].process.value == which && can(process, id))
         possible.push_back(id);
     if (possible.empty()) return;
     const TransitionId id = possible[random_() % possible.size()];

@@ -90,11 +90,10 @@ TEST_F(WithFastDds, GivesTwistsAndEachIsFreshOnce) {
   }));
   EXPECT_EQ(motion.v, 0.25);
   EXPECT_EQ(motion.omega, -3);
-  ASSERT_TRUE(eventually([&] { return !read(*receptor, motion); }));  // samples that were on their way
   twist.linear_x = 0.5;
   writer->write(&twist);
-  ASSERT_TRUE(eventually([&] { return read(*receptor, motion); }));
-  EXPECT_EQ(motion.v, 0.5);
+  // More than one of the first kind may still be on the way.
+  ASSERT_TRUE(eventually([&] { return read(*receptor, motion) && motion.v == 0.5; }));
   EXPECT_FALSE(read(*receptor, motion));
   receptor->close();
 }

@@ -25,7 +25,7 @@ class Growing : public ::testing::Test {
     net.transitions = {{"t", 0, {0}, {0}, ""}};
     std::string error;
     recorder_ = Recorder::open(file_, {"{\"run\":1}"}, 1, Recorder::Mode::direct, error, 0, limit,
-                               std::make_unique<MarkingTrack>(net, std::vector{MarkingTrack::none}));
+                               std::make_unique<MarkingTrack>(net, std::vector<ChannelId>(1)));
     ASSERT_NE(recorder_, nullptr) << error;
   }
   void fire(int times) {

@@ -191,7 +191,7 @@ TEST(Segments, ATooSmallLimitIsSaidBeforeTheRun) {
   std::string error;
   auto recorder = Recorder::open(
       scratch_file("run.tsr"), {header.dump()}, instances, Recorder::Mode::threaded, error, 0, limit,
-      std::make_unique<MarkingTrack>(net, std::vector(net.transitions.size(), MarkingTrack::none)));
+      std::make_unique<MarkingTrack>(net, std::vector<ChannelId>(net.transitions.size())));
   EXPECT_NE(recorder, nullptr) << error;
   return recorder;
 }
@@ -273,9 +273,9 @@ TEST(Segments, EventsThatAreLostDoNotHoldUpTheOthers) {
   net.places = {{"a", 1}, {"b", 0}};
   net.transitions = {{"t", 0, {0}, {1}, ""}, {"u", 1, {1}, {0}, ""}};
   std::string error;
-  const auto recorder = Recorder::open(
-      scratch_file("run.tsr"), {"{}"}, 2, Recorder::Mode::threaded, error, 0, {1'000'000, 2},
-      std::make_unique<MarkingTrack>(net, std::vector{MarkingTrack::none, MarkingTrack::none}));
+  const auto recorder =
+      Recorder::open(scratch_file("run.tsr"), {"{}"}, 2, Recorder::Mode::threaded, error, 0, {1'000'000, 2},
+                     std::make_unique<MarkingTrack>(net, std::vector<ChannelId>(2)));
   ASSERT_NE(recorder, nullptr) << error;
   // `u` follows from a firing of `t` that is not recorded; more than half of its ring.
   for (int event = 0; event < 200'000; ++event) recorder->lane(1)->firing(Time{}, 1, 0);

@@ -43,6 +43,8 @@ class RobotProcess {
   [[nodiscard]] bool await_driving(unsigned commands = 3);
   void do_harm(Harm harm, Place place);
   void send(int signal) const { kill_process(child_, signal); }
+  /// Kills its guardian. Throws std::runtime_error: it has none.
+  void kill_guardian() const;
   /// Its first thread, which supervises the run, gets a processor only when no other thread wants it. All
   /// threads share one. false: as before, for every thread that it has then.
   void delay_supervisor(bool delayed) const;

@@ -46,6 +46,12 @@ std::int64_t stand_still(RobotProcess& robot) {
   return sends(SIGSTOP)(robot);
 }
 
+std::int64_t kill_guardian(RobotProcess& robot) {
+  const std::int64_t now_ns = command_log::now_ns();
+  robot.kill_guardian();
+  return now_ns;
+}
+
 /// The driver never returns from a command, so the controller cannot make its device safe.
 std::int64_t stop_while_a_driver_hangs(RobotProcess& robot) {
   robot.do_harm(Harm::loop, Place::driver);
@@ -193,6 +199,14 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
     one.command = in_the_loop;
     cases.push_back(one);
   }
+  Case unguarded{.name = "SIGKILL of the guardian",
+                 .strike = kill_guardian,
+                 .bar = milliseconds(300),
+                 .says = "the guardian of the devices has ended"};
+  cases.push_back(unguarded);
+  unguarded.name = "SIGKILL of the guardian, hardware in the loop";
+  unguarded.command = in_the_loop;
+  cases.push_back(unguarded);
   for (Case& one : cases) one.output = Output::pipe;
   try_all(cases);
 }

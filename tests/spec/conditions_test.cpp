@@ -50,7 +50,7 @@ TEST(Conditions, ReferencesKnowTheirTarget) {
   EXPECT_EQ(all[0].kind, Reference::Kind::input);
   EXPECT_EQ(all[0].target, 1U);
   EXPECT_EQ(all[2].kind, Reference::Kind::field);
-  EXPECT_EQ(reading.model->structures[all[2].structure].fields[all[2].target].name, "middle");
+  EXPECT_EQ(reading.model->structures[all[2].structure].fields[all[2].target.value()].name, "middle");
   EXPECT_EQ(all[3].kind, Reference::Kind::own_parameter);
   EXPECT_EQ(all[3].target, 1U);
   EXPECT_EQ(all[4].kind, Reference::Kind::memory);

@@ -51,7 +51,7 @@ TEST(Drivers, OfAWholeSubsystemServeAllItsBuffers) {
   ASSERT_TRUE(reading.model) << reading.report();
   const Model& model = *reading.model;
   ASSERT_EQ(model.drivers.size(), 3U);
-  EXPECT_EQ(model.drivers[1].real, none);
+  EXPECT_FALSE(model.drivers[1].real.valid());
   EXPECT_EQ(model.driver_path(model.drivers[1]), "cart[1].motor");
   EXPECT_EQ(model.without_driver(model.drivers), std::vector<std::string>());
   EXPECT_EQ(model.driver_path(model.simulation->drivers[0]), "cart[0].motor.left");
@@ -83,7 +83,7 @@ TEST(Limits, AreClampedUnlessAFaultIsAskedFor) {
   ASSERT_NE(joints, reading.model->definitions[0].subsystems.end());
   const Limit& limit = joints->limits.front();
   EXPECT_EQ(limit.field, "");
-  EXPECT_EQ(limit.real, 0U);
+  EXPECT_EQ(limit.real.value, 0U);
   EXPECT_TRUE(limit.per_second);
   EXPECT_FALSE(limit.fault);
 }
@@ -95,7 +95,7 @@ TEST(Layout, IsWrittenAsInRecordings) {
       "agents: { a: { control: { rate: 1 Hz, memory: { m: Row, n: \"uint8[6]\" }, behaviours: { run: {} } } "
       "} }\n");
   ASSERT_TRUE(reading.model) << reading.report();
-  const auto& memory = reading.model->subsystem(0).memory;
+  const auto& memory = reading.model->subsystem({0}).memory;
   EXPECT_EQ(reading.model->layout_of(memory[0].type), "{all: {x: float64, ok: bool}[3], name: string(8)}");
   EXPECT_EQ(reading.model->layout_of(memory[1].type), "uint8[6]");
 }

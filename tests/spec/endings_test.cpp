@@ -9,7 +9,7 @@
 namespace tessera::spec {
 namespace {
 
-Next ask(When::Kind kind, Index expression = none) { return {none, {kind, expression, {}}, {}}; }
+Next ask(When::Kind kind, ExpressionId expression = {}) { return {{}, {kind, expression, {}}, {}}; }
 
 Condition given(Condition::Kind kind, const std::vector<const char*>& expressions = {}) {
   Condition condition;
@@ -35,8 +35,9 @@ TEST(Endings, SayWhatTheControllerDoesForAllValuesOfAllExpressions) {
       SCOPED_TRACE("ending " + std::to_string(static_cast<int>(ending)));
       ASSERT_EQ(endings.possible(ending), tried.ends(ending));
       ASSERT_EQ(endings.none_possible(ending), tried.after(ending).contains(-1));
-      for (Index entry = 0; entry < behaviour.next.size(); ++entry)
-        ASSERT_EQ(endings.taken(entry, ending), truth(tried.after(ending), static_cast<int>(entry))) << entry;
+      for (const NextId entry : behaviour.next.ids())
+        ASSERT_EQ(endings.taken(entry, ending), truth(tried.after(ending), static_cast<int>(entry.value)))
+            << entry.value;
     }
   }
 }
@@ -48,20 +49,20 @@ TEST(Endings, OfAConstantErrorAreNeverTerminal) {
   behaviour.next = {ask(When::Kind::expression), ask(When::Kind::error), ask(When::Kind::always)};
   const Endings endings(behaviour);
   EXPECT_FALSE(endings.possible(Ending::terminal));
-  EXPECT_EQ(endings.taken(0, Ending::error), Truth::free);
-  EXPECT_EQ(endings.taken(1, Ending::error), Truth::free);
-  EXPECT_FALSE(endings.can_be_taken(2));
+  EXPECT_EQ(endings.taken({0}, Ending::error), Truth::free);
+  EXPECT_EQ(endings.taken({1}, Ending::error), Truth::free);
+  EXPECT_FALSE(endings.can_be_taken({2}));
   EXPECT_FALSE(endings.none_possible(Ending::error));
 }
 
 TEST(Endings, AskedForByNameOneAfterTheOtherLeaveTheLastForCertain) {
   Behaviour behaviour;
   behaviour.terminal = given(Condition::Kind::expressions, {"memory.a", "memory.b"});
-  behaviour.next = {ask(When::Kind::terminal, 0), ask(When::Kind::terminal, 1), ask(When::Kind::always)};
+  behaviour.next = {ask(When::Kind::terminal, {0}), ask(When::Kind::terminal, {1}), ask(When::Kind::always)};
   const Endings endings(behaviour);
-  EXPECT_EQ(endings.taken(1, Ending::terminal), Truth::free);
-  EXPECT_EQ(endings.taken(2, Ending::terminal), Truth::never);
-  EXPECT_EQ(endings.taken(2, Ending::failure), Truth::always);
+  EXPECT_EQ(endings.taken({1}, Ending::terminal), Truth::free);
+  EXPECT_EQ(endings.taken({2}, Ending::terminal), Truth::never);
+  EXPECT_EQ(endings.taken({2}, Ending::failure), Truth::always);
 }
 
 }  // namespace

@@ -34,7 +34,7 @@ TEST_F(Convoy, AgentsOfATemplateShareItsDefinition) {
   EXPECT_EQ(model().agents[3].number, 2U);
   EXPECT_EQ(model().agents[1].fleet, model().agents[3].fleet);
   EXPECT_NE(model().agents[1].fleet, model().agents[4].fleet);
-  EXPECT_EQ(model().agents[6].fleet, none);
+  EXPECT_FALSE(model().agents[6].fleet.valid());
 }
 
 TEST_F(Convoy, AnIndexedChannelStopsAtTheEndOfTheFleet) {
@@ -77,18 +77,18 @@ TEST_F(Convoy, NextKnowsWhichConditionItAsksFor) {
   const Behaviour& follow = follower().behaviours[0];
   ASSERT_EQ(follow.next.size(), 5U);
   EXPECT_EQ(follow.next[0].when.kind, When::Kind::named_error);
-  EXPECT_EQ(follow.next[0].when.expression, 0U);
+  EXPECT_EQ(follow.next[0].when.expression.value, 0U);
   EXPECT_EQ(follow.next[1].when.kind, When::Kind::terminal);
-  EXPECT_EQ(follow.next[1].when.expression, 0U);
+  EXPECT_EQ(follow.next[1].when.expression.value, 0U);
   EXPECT_EQ(follow.next[2].when.kind, When::Kind::error);
-  EXPECT_EQ(follow.next[2].behaviour, none);
+  EXPECT_FALSE(follow.next[2].behaviour.valid());
   EXPECT_EQ(follow.next[3].when.kind, When::Kind::expression);
   EXPECT_EQ(follow.next[3].when.text.text, "parameters.slack > 0.1");
   EXPECT_EQ(follow.next[4].when.kind, When::Kind::always);
   EXPECT_EQ(follow.transfer, Transfer::parallel);
   EXPECT_EQ(follow.takes, std::chrono::milliseconds(3));
-  EXPECT_EQ(follow.receive, (std::vector<Index>{0, 1}));
-  EXPECT_EQ(follower().start, 1U);
+  EXPECT_EQ(follow.receive, (std::vector<BufferId>{{0}, {1}}));
+  EXPECT_EQ(follower().start.value, 1U);
 }
 
 TEST_F(Convoy, AnExpressionOfSeveralLinesBeginsAtItsFirst) {
@@ -112,8 +112,8 @@ TEST_F(Convoy, PropertiesWithoutNamesAreNamedByTheirText) {
 TEST(Aliases, StandForTheirAnchor) {
   const Reading reading(golden("valid/aliases.yaml"));
   ASSERT_TRUE(reading.model) << reading.report();
-  EXPECT_EQ(reading.model->subsystem(1).period, std::chrono::milliseconds(50));
-  EXPECT_EQ(reading.model->subsystem(2).period, std::chrono::milliseconds(50));
+  EXPECT_EQ(reading.model->subsystem({1}).period, std::chrono::milliseconds(50));
+  EXPECT_EQ(reading.model->subsystem({2}).period, std::chrono::milliseconds(50));
 }
 
 }  // namespace

@@ -20,28 +20,28 @@ TEST_F(LineFollower, HasOneAgentOfThreeSubsystemsControlFirst) {
   EXPECT_EQ(model().system, "line_follower");
   ASSERT_EQ(model().agents.size(), 1U);
   EXPECT_EQ(model().agents[0].path, "robot");
-  EXPECT_EQ(model().agents[0].fleet, none);
+  EXPECT_FALSE(model().agents[0].fleet.valid());
   ASSERT_EQ(model().instances.size(), 3U);
-  EXPECT_EQ(model().instance_path(0), "robot.control");
-  EXPECT_EQ(model().instance_path(1), "robot.sensor");
-  EXPECT_EQ(model().instance_path(2), "robot.motor");
-  EXPECT_EQ(model().subsystem(0).period, milliseconds(50));
-  EXPECT_EQ(model().subsystem(2).kind, SubsystemKind::effector);
-  EXPECT_EQ(model().subsystem(2).stale, milliseconds(500));
-  EXPECT_EQ(model().subsystem(2).safe, (std::vector<std::string>{"0.0", "0.0"}));
+  EXPECT_EQ(model().instance_path({0}), "robot.control");
+  EXPECT_EQ(model().instance_path({1}), "robot.sensor");
+  EXPECT_EQ(model().instance_path({2}), "robot.motor");
+  EXPECT_EQ(model().subsystem({0}).period, milliseconds(50));
+  EXPECT_EQ(model().subsystem({2}).kind, SubsystemKind::effector);
+  EXPECT_EQ(model().subsystem({2}).stale, milliseconds(500));
+  EXPECT_EQ(model().subsystem({2}).safe, (std::vector<std::string>{"0.0", "0.0"}));
 }
 
 TEST_F(LineFollower, InitIsFollowedByFollowWhichNeverEnds) {
-  const auto& behaviours = model().subsystem(0).behaviours;
+  const auto& behaviours = model().subsystem({0}).behaviours;
   ASSERT_EQ(behaviours.size(), 2U);
-  EXPECT_EQ(model().subsystem(0).start, 0U);
+  EXPECT_EQ(model().subsystem({0}).start.value, 0U);
   EXPECT_EQ(behaviours[0].terminal.kind, Condition::Kind::always);
   ASSERT_EQ(behaviours[0].next.size(), 1U);
-  EXPECT_EQ(behaviours[0].next[0].behaviour, 1U);
+  EXPECT_EQ(behaviours[0].next[0].behaviour.value, 1U);
   EXPECT_TRUE(behaviours[0].next_given);
   EXPECT_EQ(behaviours[1].terminal.kind, Condition::Kind::never);
   ASSERT_EQ(behaviours[1].next.size(), 1U);
-  EXPECT_EQ(behaviours[1].next[0].behaviour, none);
+  EXPECT_FALSE(behaviours[1].next[0].behaviour.valid());
   EXPECT_FALSE(behaviours[1].next_given);
 }
 
@@ -82,7 +82,7 @@ TEST_F(LineFollower, SimulationHasTrackAndDrivers) {
   const Driver& wheel = model().simulation->drivers[1];
   EXPECT_EQ(wheel.kind, "velocity");
   EXPECT_EQ(wheel.target(), "wheel_left");
-  EXPECT_EQ(wheel.instance, 2U);
+  EXPECT_EQ(wheel.instance.value, 2U);
 }
 
 TEST_F(LineFollower, PropertiesAreKept) {

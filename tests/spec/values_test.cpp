@@ -66,7 +66,7 @@ TEST(Types, ComeInAnOrderInWhichEachUsesOnlyEarlierOnes) {
   ASSERT_TRUE(reading.model) << reading.report();
   const auto& structures = reading.model->structures;
   ASSERT_EQ(structures.size(), 3U);
-  for (Index i = 0; i < structures.size(); ++i) {
+  for (const StructureId i : structures.ids()) {
     for (const Field& field : structures[i].fields) {
       if (field.type.kind == Type::Kind::structure) {
         EXPECT_LT(field.type.structure, i);
@@ -94,7 +94,7 @@ TEST_P(Durations, AreReadWithTheirUnit) {
       "tessera: 1\nsystem: demo\nagents: { robot: { control: { behaviours: { run: { takes: " +
       GetParam().written + " } } } } }\n");
   ASSERT_TRUE(reading.model) << reading.report();
-  EXPECT_EQ(reading.model->subsystem(0).behaviours[0].takes, GetParam().meant);
+  EXPECT_EQ(reading.model->subsystem({0}).behaviours[0].takes, GetParam().meant);
 }
 
 INSTANTIATE_TEST_SUITE_P(

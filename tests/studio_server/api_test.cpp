@@ -175,6 +175,34 @@ TEST_F(Api, AFileThatIsGoneCanBeSavedAgain) {
   EXPECT_EQ(content_of(spec()), "back");
 }
 
+TEST_F(Api, AFileThatAPageCannotSeeAsItIsIsNotReplaced) {
+  serve();
+  const std::string large(9U << 20U, '#');
+  write(spec(), large);
+  const json unread = get("/api/spec").json();
+  EXPECT_THAT(unread.at("error").get<std::string>(), HasSubstr("larger than 8 MB"));
+  EXPECT_EQ(unread.at("revision"), "");
+  const Reply refused = put("/api/spec", {{"text", "mine"}, {"revision", unread.at("revision")}});
+  EXPECT_EQ(refused.status, 500);
+  EXPECT_EQ(content_of(spec()), large);
+  // The page sees U+FFFD in place of the byte.
+  write(spec(), "# one\n# gr\xfcn\n");
+  const json read = get("/api/spec").json();
+  const Reply latin = put("/api/spec", {{"text", "mine"}, {"revision", read.at("revision")}});
+  EXPECT_EQ(latin.status, 500);
+  EXPECT_THAT(latin.body, HasSubstr("a byte in line 2 is not UTF-8"));
+  EXPECT_EQ(content_of(spec()), "# one\n# gr\xfcn\n");
+  const fs::path source = project() / "src/control.cpp";
+  const std::string code = content_of(source) + "// gr\xfcn\n";
+  write(source, code);
+  const json shown = get("/api/sources?file=src/control.cpp").json();
+  EXPECT_EQ(put("/api/sources",
+                {{"file", "src/control.cpp"}, {"text", "x"}, {"revision", shown.at("revision")}})
+                .status,
+            500);
+  EXPECT_EQ(content_of(source), code);
+}
+
 TEST_F(Api, WithoutABuiltPageTheServerSaysHowToBuildIt) {
   serve();
   const Reply page = ask_with({{"Host", host()}}, "GET", "/", {});

@@ -26,7 +26,7 @@ std::string story(const Judged& judged) {
 
 struct Pair {
   SystemBuilder system;
-  spec::Index a = system.subsystem(), b = system.subsystem();
+  spec::InstanceId a = system.subsystem(), b = system.subsystem();
 };
 
 /// Two subsystems that each send and then receive.
@@ -93,7 +93,7 @@ TEST(Circuits, AStartUpThatSendsFirstIsTheMissingToken) {
     Pair pair;
     const auto x = pair.system.channel(pair.a, pair.b, both_block);
     const auto y = pair.system.channel(pair.a, pair.b, receiver_blocks);
-    if (primed) pair.system.leave(pair.a, pair.system.behaviour(pair.a, {y}, {}), true, {1});
+    if (primed) pair.system.leave(pair.a, pair.system.behaviour(pair.a, {y}, {}), true, {{1}});
     pair.system.behaviour(pair.a, {x, y}, {});
     pair.system.behaviour(pair.b, {}, {y, x});
     EXPECT_EQ(judge(pair.system.result()).report.goes_on, primed ? Answer::yes : Answer::no);
@@ -115,7 +115,7 @@ TEST(Circuits, AParallelTransferWaitsForAllAtOnce) {
 TEST(Circuits, WhoWaitsForAPeerThatMayEndOrIsAbsentIsStuck) {
   Pair pair;
   const auto x = pair.system.channel(pair.a, pair.b, receiver_blocks);
-  pair.system.leave(pair.a, pair.system.behaviour(pair.a, {x}, {}), false, {spec::none});
+  pair.system.leave(pair.a, pair.system.behaviour(pair.a, {x}, {}), false, {spec::BehaviourId{}});
   pair.system.behaviour(pair.b, {}, {x});
   const Judged ending = judge(pair.system.result());
   EXPECT_EQ(ending.report.groups.front().cause, Cause::peer_ended);
@@ -138,8 +138,8 @@ TEST(Circuits, BehavioursWithDifferentChannelsAreLeftToOtherMethods) {
   const auto x = pair.system.channel(pair.a, pair.b, receiver_blocks),
              y = pair.system.channel(pair.a, pair.b, receiver_blocks);
   pair.system.behaviour(pair.a, {x}, {});
-  pair.system.leave(pair.a, 0, false, {pair.system.behaviour(pair.a, {y}, {})});
-  pair.system.leave(pair.a, 1, false, {0});
+  pair.system.leave(pair.a, {0}, false, {pair.system.behaviour(pair.a, {y}, {})});
+  pair.system.leave(pair.a, {1}, false, {{0}});
   pair.system.behaviour(pair.b, {}, {x, y});
   const Judged judged = judge(pair.system.result());
   EXPECT_EQ(judged.report.goes_on, Answer::unknown);

@@ -55,7 +55,7 @@ TEST(Communication, ConstantConditionsDecideWhatMayFollow) {
   const auto first = system.behaviour(a, {}, {}), second = system.behaviour(a, {}, {});
   system.behaviour(a, {}, {});  // no behaviour leads there
   system.leave(a, first, true, {second});
-  system.leave(a, second, false, {first, spec::none});
+  system.leave(a, second, false, {first, {}});
   EXPECT_EQ(in_text(judge(system.result()).structure),
             "a0.s0.b0: -> a0.s0.b1\na0.s0.b1: repeats -> a0.s0.b0 -> end\n");
 }

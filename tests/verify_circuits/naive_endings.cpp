@@ -54,9 +54,9 @@ struct Trial {
       case When::Kind::error:
         return ending != Ending::terminal;
       case When::Kind::terminal:
-        return ending == Ending::terminal && terminal(when.expression);
+        return ending == Ending::terminal && terminal(when.expression.value);
       case When::Kind::named_error:
-        return ending == Ending::error && error(when.expression);
+        return ending == Ending::error && error(when.expression.value);
       case When::Kind::expression:
         return bit(behaviour.error.expressions.size() + behaviour.terminal.expressions.size() + at);
     }
@@ -68,31 +68,33 @@ class Drawing {
  public:
   explicit Drawing(std::uint64_t seed) : random_(seed) {}
 
-  void draw(Behaviour& behaviour, spec::Index others) {
+  void draw(Behaviour& behaviour, std::uint32_t others) {
     behaviour.error = between(0, 2) == 0 ? condition("e") : Condition{};
     behaviour.terminal = condition("t");
     behaviour.next.clear();
-    for (spec::Index left = between(1, 4); left > 0; --left)
+    for (std::uint32_t left = between(1, 4); left > 0; --left)
       behaviour.next.push_back(
-          {between(0, 9) == 0 ? spec::none : between(0, others - 1), when(behaviour), {}});
+          {between(0, 9) == 0 ? spec::BehaviourId{} : spec::BehaviourId{between(0, others - 1)},
+           when(behaviour),
+           {}});
     behaviour.next_given = true;
   }
-  bool one_in(spec::Index count) { return between(1, count) == 1; }
+  bool one_in(std::uint32_t count) { return between(1, count) == 1; }
 
  private:
-  spec::Index between(spec::Index low, spec::Index high) {
-    return std::uniform_int_distribution<spec::Index>(low, high)(random_);
+  std::uint32_t between(std::uint32_t low, std::uint32_t high) {
+    return std::uniform_int_distribution<std::uint32_t>(low, high)(random_);
   }
 
   Condition condition(const char* prefix) {
     Condition made;
-    const spec::Index kind = between(0, 5);
+    const std::uint32_t kind = between(0, 5);
     made.kind = kind == 0   ? Condition::Kind::always
                 : kind == 1 ? Condition::Kind::never
                             : Condition::Kind::expressions;
     if (kind < 2) return made;
     constexpr std::array texts{"memory.a", "memory.b", "memory.a", "memory.b", "true", "false"};
-    for (spec::Index left = between(1, 3); left > 0; --left)
+    for (std::uint32_t left = between(1, 3); left > 0; --left)
       made.expressions.push_back(
           {prefix + std::to_string(made.expressions.size()), texts.at(between(0, texts.size() - 1)), {}});
     return made;
@@ -108,7 +110,7 @@ class Drawing {
     if (named.empty())
       made.kind = When::Kind::error;
     else
-      made.expression = between(0, static_cast<spec::Index>(named.size()) - 1);
+      made.expression = {between(0, static_cast<std::uint32_t>(named.size()) - 1)};
     return made;
   }
 
@@ -168,11 +170,10 @@ const Behaviour* behaviour_of(const spec::Model& model, const net::Transition& t
   const Kind kind = transition.condition.kind;
   if (kind != Kind::go_on && kind != Kind::terminal && kind != Kind::error && kind != Kind::next)
     return nullptr;
-  const std::string local =
-      transition.name.substr(model.instance_path(transition.subsystem.value).size() + 1);
+  const std::string local = transition.name.substr(model.instance_path(transition.subsystem).size() + 1);
   const std::string name =
       kind == Kind::next ? local.substr(2, local.rfind('_') - 2) : local.substr(0, local.find('.'));
-  for (const Behaviour& behaviour : model.subsystem(transition.subsystem.value).behaviours)
+  for (const Behaviour& behaviour : model.subsystem(transition.subsystem).behaviours)
     if (behaviour.name == name) return &behaviour;
   return nullptr;
 }
@@ -213,7 +214,7 @@ net::Net naively_abstract(const spec::Model& model, const net::Net& flat, bool f
   return made;
 }
 
-void draw_endings(Behaviour& behaviour, spec::Index others, std::uint64_t seed) {
+void draw_endings(Behaviour& behaviour, std::uint32_t others, std::uint64_t seed) {
   Drawing(seed).draw(behaviour, others);
 }
 
@@ -222,7 +223,8 @@ void draw_endings(spec::Model& model, std::uint64_t seed) {
   for (spec::Definition& definition : model.definitions)
     for (spec::Subsystem& subsystem : definition.subsystems)
       for (Behaviour& behaviour : subsystem.behaviours)
-        if (drawing.one_in(2)) drawing.draw(behaviour, static_cast<spec::Index>(subsystem.behaviours.size()));
+        if (drawing.one_in(2))
+          drawing.draw(behaviour, static_cast<std::uint32_t>(subsystem.behaviours.size()));
 }
 
 }  // namespace tessera::test

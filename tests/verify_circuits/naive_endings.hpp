@@ -41,6 +41,6 @@ struct NaiveEndings {
 /// named expressions, entries of every kind.
 void draw_endings(spec::Model& model, std::uint64_t seed);
 /// The same for one behaviour; `others`: how many behaviours there are to go on to.
-void draw_endings(spec::Behaviour& behaviour, spec::Index others, std::uint64_t seed);
+void draw_endings(spec::Behaviour& behaviour, std::uint32_t others, std::uint64_t seed);
 
 }  // namespace tessera::test

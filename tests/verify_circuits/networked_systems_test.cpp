@@ -22,14 +22,14 @@ using verify::Answer;
 using verify::Assume;
 
 /// Every agent of the model in a process of its own, or the first ones together.
-spec::Model deployed(spec::Model model, spec::Index together = 1) {
+spec::Model deployed(spec::Model model, std::uint32_t together = 1) {
   spec::Deployment deployment;
-  for (spec::Index agent = 0; agent < model.agents.size(); ++agent) {
-    if (agent == 0 || agent >= together) deployment.processes.push_back({});
+  for (const spec::AgentId agent : model.agents.ids()) {
+    if (agent.value == 0 || agent.value >= together) deployment.processes.push_back({});
     spec::Process& process = deployment.processes.back();
     if (process.agents.empty()) process.name = "p" + std::to_string(deployment.processes.size() - 1);
     process.agents.push_back(agent);
-    model.agents[agent].process = static_cast<spec::Index>(deployment.processes.size() - 1);
+    model.agents[agent].process = {static_cast<std::uint32_t>(deployment.processes.size() - 1)};
   }
   model.deployment = std::move(deployment);
   return model;
@@ -119,7 +119,7 @@ void expect_safe_by_invariants(const spec::Model& model) {
 void compare_deployed(spec::Model (*random)(std::uint64_t), std::uint64_t systems, NetworkTally& tally) {
   const std::uint64_t first = from_environment("TESSERA_RANDOM_SEED", 0);
   for (std::uint64_t seed = first; tally.compared < systems; ++seed) {
-    const spec::Model model = deployed(random(seed), 1 + static_cast<spec::Index>(seed % 2));
+    const spec::Model model = deployed(random(seed), 1 + static_cast<std::uint32_t>(seed % 2));
     if (!crosses(model)) continue;
     SCOPED_TRACE("seed " + std::to_string(seed));
     const net::Net net = flat_net(model);

@@ -7,17 +7,17 @@
 
 namespace tessera::test {
 
-spec::Subsystem& SystemBuilder::at(spec::Index instance) {
+spec::Subsystem& SystemBuilder::at(spec::InstanceId instance) {
   const spec::Instance& entry = model_.instances[instance];
   return model_.definitions[model_.agents[entry.agent].definition].subsystems[entry.subsystem];
 }
 
-spec::Index SystemBuilder::subsystem(bool own_agent) {
+spec::InstanceId SystemBuilder::subsystem(bool own_agent) {
   if (own_agent || model_.agents.empty()) {
     spec::Agent agent;
     agent.path = "a" + std::to_string(model_.agents.size());
-    agent.definition = static_cast<spec::Index>(model_.definitions.size());
-    agent.first_instance = static_cast<spec::Index>(model_.instances.size());
+    agent.definition = model_.definitions.next_id();
+    agent.first_instance = model_.instances.next_id();
     model_.agents.push_back(agent);
     model_.definitions.emplace_back();
     model_.definitions.back().name = agent.path;
@@ -25,62 +25,65 @@ spec::Index SystemBuilder::subsystem(bool own_agent) {
   auto& subsystems = model_.definitions.back().subsystems;
   subsystems.emplace_back();
   subsystems.back().name = "s" + std::to_string(model_.instances.size());
-  model_.instances.push_back(
-      {static_cast<spec::Index>(model_.agents.size() - 1), static_cast<spec::Index>(subsystems.size() - 1)});
-  return static_cast<spec::Index>(model_.instances.size() - 1);
+  const spec::InstanceId made = model_.instances.next_id();
+  model_.instances.push_back({{static_cast<std::uint32_t>(model_.agents.size() - 1)},
+                              {static_cast<std::uint32_t>(subsystems.size() - 1)}});
+  return made;
 }
 
-spec::Index SystemBuilder::channel(spec::Index from, spec::Index to, Ends ends) {
+spec::ChannelId SystemBuilder::channel(spec::InstanceId from, spec::InstanceId to, Ends ends) {
   using namespace std::chrono_literals;
-  const auto number = static_cast<spec::Index>(model_.channels.size());
+  const spec::ChannelId made = model_.channels.next_id();
   spec::Channel channel;
-  channel.from = {from, static_cast<spec::Index>(at(from).outputs.size())};
-  channel.to = {to, static_cast<spec::Index>(at(to).inputs.size())};
+  channel.from = {from, at(from).outputs.next_id()};
+  channel.to = {to, at(to).inputs.next_id()};
   channel.send = ends.send_blocks ? spec::Mode::blocking : spec::Mode::non_blocking;
   channel.receive = ends.receive_blocks ? spec::Mode::blocking : spec::Mode::non_blocking;
   if (ends.send_blocks && ends.send_timeout) channel.send_timeout = 1s;
   if (ends.receive_blocks && ends.receive_timeout) channel.receive_timeout = 1s;
   spec::Field field;
-  field.name = "y" + std::to_string(number);
+  field.name = "y" + std::to_string(made.value);
   at(from).outputs.push_back(field);
-  field.name = "x" + std::to_string(number);
+  field.name = "x" + std::to_string(made.value);
   at(to).inputs.push_back(field);
   model_.channels.push_back(channel);
-  return number;
+  return made;
 }
 
 void SystemBuilder::add_models(const std::vector<spec::CommunicationModel>& models) {
   model_.models.insert(model_.models.end(), models.begin(), models.end());
 }
 
-void SystemBuilder::be_of_model(spec::Index channel, spec::Index model) {
+void SystemBuilder::be_of_model(spec::ChannelId channel, spec::CommunicationModelId model) {
   model_.channels[channel].model = model;
   model_.channels[channel].send_timeout.reset();
   model_.channels[channel].receive_timeout.reset();
 }
 
-spec::Index SystemBuilder::behaviour(spec::Index instance, const std::vector<spec::Index>& sends,
-                                     const std::vector<spec::Index>& receives, spec::Transfer transfer) {
+spec::BehaviourId SystemBuilder::behaviour(spec::InstanceId instance,
+                                           const std::vector<spec::ChannelId>& sends,
+                                           const std::vector<spec::ChannelId>& receives,
+                                           spec::Transfer transfer) {
   auto& behaviours = at(instance).behaviours;
   spec::Behaviour made;
   made.name = "b" + std::to_string(behaviours.size());
   made.send.emplace();
   made.receive.emplace();
-  for (const spec::Index channel : sends) made.send->push_back(model_.channels[channel].from.buffer);
-  for (const spec::Index channel : receives) made.receive->push_back(model_.channels[channel].to.buffer);
+  for (const spec::ChannelId channel : sends) made.send->push_back(model_.channels[channel].from.buffer);
+  for (const spec::ChannelId channel : receives) made.receive->push_back(model_.channels[channel].to.buffer);
   made.transfer = transfer;
   made.next.emplace_back();
   behaviours.push_back(std::move(made));
-  return static_cast<spec::Index>(behaviours.size() - 1);
+  return {static_cast<std::uint32_t>(behaviours.size() - 1)};
 }
 
-void SystemBuilder::leave(spec::Index instance, spec::Index behaviour, bool always,
-                          const std::vector<spec::Index>& next) {
+void SystemBuilder::leave(spec::InstanceId instance, spec::BehaviourId behaviour, bool always,
+                          const std::vector<spec::BehaviourId>& next) {
   spec::Behaviour& left = at(instance).behaviours[behaviour];
   left.terminal.kind = always ? spec::Condition::Kind::always : spec::Condition::Kind::expressions;
   if (!always) left.terminal.expressions.push_back({"done", "in.done", {}});
   left.next.clear();
-  for (const spec::Index follower : next) {
+  for (const spec::BehaviourId follower : next) {
     spec::Next entry;
     entry.behaviour = follower;
     // All but the last are taken if some expression holds.
@@ -92,7 +95,7 @@ void SystemBuilder::leave(spec::Index instance, spec::Index behaviour, bool alwa
   }
 }
 
-void SystemBuilder::may_fail(spec::Index instance, spec::Index behaviour) {
+void SystemBuilder::may_fail(spec::InstanceId instance, spec::BehaviourId behaviour) {
   spec::Condition& error = at(instance).behaviours[behaviour].error;
   error.kind = spec::Condition::Kind::expressions;
   error.expressions.push_back({"broken", "in.broken", {}});
@@ -164,71 +167,72 @@ class RandomSystem {
 
   spec::Model result() {
     subsystems_ = between(2, 4);
-    for (spec::Index index = 0; index < subsystems_; ++index) builder_.subsystem(chance(2));
+    for (std::uint32_t index = 0; index < subsystems_; ++index) builder_.subsystem(chance(2));
     sends_.resize(subsystems_);
     receives_.resize(subsystems_);
     // More waiting makes more interesting systems, and smaller state spaces.
     strict_ = between(2, 5);
-    for (spec::Index left = between(1, subsystems_ == 2 ? 4 : 6); left > 0; --left) add_channel();
-    for (spec::Index index = 0; index < subsystems_; ++index) add_behaviours(index);
+    for (std::uint32_t left = between(1, subsystems_ == 2 ? 4 : 6); left > 0; --left) add_channel();
+    for (const spec::InstanceId instance : sends_.ids()) add_behaviours(instance);
     return builder_.result();
   }
 
  private:
-  spec::Index between(spec::Index low, spec::Index high) {
-    return std::uniform_int_distribution<spec::Index>(low, high)(random_);
+  std::uint32_t between(std::uint32_t low, std::uint32_t high) {
+    return std::uniform_int_distribution<std::uint32_t>(low, high)(random_);
   }
-  bool chance(spec::Index one_in) { return between(1, one_in) == 1; }
+  bool chance(std::uint32_t one_in) { return between(1, one_in) == 1; }
 
   void add_channel() {
-    const spec::Index from = between(0, subsystems_ - 1);
-    spec::Index to = between(0, subsystems_ - 1);
-    if (to == from && !chance(8)) to = (from + 1) % subsystems_;
+    const spec::InstanceId from{between(0, subsystems_ - 1)};
+    spec::InstanceId to{between(0, subsystems_ - 1)};
+    if (to == from && !chance(8)) to = {(from.value + 1) % subsystems_};
     const SystemBuilder::Ends ends{!chance(strict_), !chance(strict_), chance(4), chance(4)};
-    const spec::Index channel = builder_.channel(from, to, ends);
+    const spec::ChannelId channel = builder_.channel(from, to, ends);
     if (own_models_ && chance(2))
-      builder_.be_of_model(channel, between(0, static_cast<spec::Index>(own_models().size() - 1)));
+      builder_.be_of_model(channel, {between(0, static_cast<std::uint32_t>(own_models().size() - 1))});
     sends_[from].push_back(channel);
     receives_[to].push_back(channel);
     waits_to_be_sent_.push_back(ends.send_blocks);
   }
 
-  std::vector<spec::Index> some(std::vector<spec::Index> channels, spec::Index drop_one_in) {
-    std::erase_if(channels, [&](spec::Index) { return chance(drop_one_in); });
+  std::vector<spec::ChannelId> some(std::vector<spec::ChannelId> channels, std::uint32_t drop_one_in) {
+    std::erase_if(channels, [&](spec::ChannelId) { return chance(drop_one_in); });
     return channels;
   }
 
-  void add_behaviours(spec::Index instance) {
+  void add_behaviours(spec::InstanceId instance) {
     std::ranges::shuffle(sends_[instance], random_);
     std::ranges::shuffle(receives_[instance], random_);
     const auto transfer = chance(3) ? spec::Transfer::parallel : spec::Transfer::sequential;
     const bool start_up = chance(4), second = differing_ ? !chance(4) : chance(5);
-    const spec::Index drop = differing_ ? 4 : 40;
+    const std::uint32_t drop = differing_ ? 4 : 40;
     if (start_up) {
-      std::vector<spec::Index> sent = some(sends_[instance], 2);
-      if (!chance(6)) std::erase_if(sent, [&](spec::Index channel) { return waits_to_be_sent_[channel]; });
-      const auto received = chance(8) ? some(receives_[instance], 2) : std::vector<spec::Index>{};
+      std::vector<spec::ChannelId> sent = some(sends_[instance], 2);
+      if (!chance(6))
+        std::erase_if(sent, [&](spec::ChannelId channel) { return waits_to_be_sent_[channel]; });
+      const auto received = chance(8) ? some(receives_[instance], 2) : std::vector<spec::ChannelId>{};
       builder_.behaviour(instance, sent, received, transfer);
     }
-    const spec::Index main =
+    const spec::BehaviourId main =
         builder_.behaviour(instance, some(sends_[instance], drop), some(receives_[instance], drop), transfer);
-    if (start_up) builder_.leave(instance, 0, !chance(3), {main});
+    if (start_up) builder_.leave(instance, {0}, !chance(3), {main});
     if (second) add_second(instance, main, transfer);
     if (chance(12)) {
       if (second || chance(2))
         builder_.may_fail(instance, main);
       else
-        builder_.leave(instance, main, chance(4), {spec::none});
+        builder_.leave(instance, main, chance(4), {spec::BehaviourId{}});
     }
   }
 
-  void add_second(spec::Index instance, spec::Index main, spec::Transfer transfer) {
-    const spec::Index drop = differing_ || chance(4) ? 3 : 1000;
-    const spec::Index other =
+  void add_second(spec::InstanceId instance, spec::BehaviourId main, spec::Transfer transfer) {
+    const std::uint32_t drop = differing_ || chance(4) ? 3 : 1000;
+    const spec::BehaviourId other =
         builder_.behaviour(instance, some(sends_[instance], drop), some(receives_[instance], drop), transfer);
     const bool always = chance(2);
     if (chance(8))
-      builder_.leave(instance, main, false, {other, spec::none});
+      builder_.leave(instance, main, false, {other, {}});
     else
       builder_.leave(instance, main, always, {other});
     builder_.leave(instance, other, chance(2), {main});
@@ -237,9 +241,9 @@ class RandomSystem {
   std::mt19937_64 random_;
   bool differing_, own_models_;
   SystemBuilder builder_;
-  spec::Index subsystems_ = 0, strict_ = 3;
-  std::vector<std::vector<spec::Index>> sends_, receives_;  // per subsystem
-  std::vector<bool> waits_to_be_sent_;                      // per channel
+  std::uint32_t subsystems_ = 0, strict_ = 3;
+  Numbered<spec::InstanceId, std::vector<spec::ChannelId>> sends_, receives_;
+  Numbered<spec::ChannelId, bool> waits_to_be_sent_;
 };
 
 }  // namespace

@@ -24,24 +24,25 @@ class SystemBuilder {
   };
 
   /// Subsystems come each in an agent of its own, or with the one before. Returns the instance.
-  spec::Index subsystem(bool own_agent = true);
-  /// Returns the index of the channel.
-  spec::Index channel(spec::Index from, spec::Index to, Ends ends);
+  spec::InstanceId subsystem(bool own_agent = true);
+  /// Returns the channel.
+  spec::ChannelId channel(spec::InstanceId from, spec::InstanceId to, Ends ends);
   /// Models that channels may be of.
   void add_models(const std::vector<spec::CommunicationModel>& models);
-  void be_of_model(spec::Index channel, spec::Index model);
-  /// A behaviour that sends and receives on the given channels, in this order. Returns its index.
-  spec::Index behaviour(spec::Index instance, const std::vector<spec::Index>& sends,
-                        const std::vector<spec::Index>& receives,
-                        spec::Transfer transfer = spec::Transfer::sequential);
+  void be_of_model(spec::ChannelId channel, spec::CommunicationModelId model);
+  /// A behaviour that sends and receives on the given channels, in this order. Returns it.
+  spec::BehaviourId behaviour(spec::InstanceId instance, const std::vector<spec::ChannelId>& sends,
+                              const std::vector<spec::ChannelId>& receives,
+                              spec::Transfer transfer = spec::Transfer::sequential);
   /// How a behaviour ends: always after one round, or whenever it likes; and what may follow (none: `end`).
-  void leave(spec::Index instance, spec::Index behaviour, bool always, const std::vector<spec::Index>& next);
-  void may_fail(spec::Index instance, spec::Index behaviour);
+  void leave(spec::InstanceId instance, spec::BehaviourId behaviour, bool always,
+             const std::vector<spec::BehaviourId>& next);
+  void may_fail(spec::InstanceId instance, spec::BehaviourId behaviour);
 
   [[nodiscard]] spec::Model result() const { return model_; }
 
  private:
-  spec::Subsystem& at(spec::Index instance);
+  spec::Subsystem& at(spec::InstanceId instance);
   spec::Model model_;
 };
 

@@ -25,13 +25,13 @@ bool all(const std::vector<bool>& flags) {
 // Two behaviours of a, one that talks to b and one that talks to c, in any order.
 TEST(Waiting, BehavioursThatUseDifferentChannelsOfATreeGoOn) {
   SystemBuilder builder;
-  const spec::Index a = builder.subsystem(), b = builder.subsystem(), c = builder.subsystem();
+  const spec::InstanceId a = builder.subsystem(), b = builder.subsystem(), c = builder.subsystem();
   const SystemBuilder::Ends both{true, true};
-  const spec::Index to_b = builder.channel(a, b, both), to_c = builder.channel(a, c, both);
+  const spec::ChannelId to_b = builder.channel(a, b, both), to_c = builder.channel(a, c, both);
   builder.behaviour(a, {to_b}, {});
   builder.behaviour(a, {to_c}, {});
-  builder.leave(a, 0, false, {1});
-  builder.leave(a, 1, false, {0});
+  builder.leave(a, {0}, false, {{1}});
+  builder.leave(a, {1}, false, {{0}});
   builder.behaviour(b, {}, {to_b});
   builder.behaviour(c, {}, {to_c});
   const Judged judged = judge(builder.result());
@@ -46,21 +46,22 @@ TEST(Waiting, BehavioursThatUseDifferentChannelsOfATreeGoOn) {
 Judged ring(std::uint32_t size, bool receive_first) {
   SystemBuilder builder;
   for (std::uint32_t index = 0; index < size; ++index) builder.subsystem();
-  std::vector<spec::Index> channels;
+  std::vector<spec::ChannelId> channels;
   for (std::uint32_t index = 0; index < size; ++index)
-    channels.push_back(builder.channel(index, (index + 1) % size, {false, true}));
+    channels.push_back(builder.channel({index}, {(index + 1) % size}, {false, true}));
   for (std::uint32_t index = 0; index < size; ++index) {
-    const spec::Index out = channels[index], in = channels[(index + size - 1) % size];
+    const spec::InstanceId instance{index};
+    const spec::ChannelId out = channels[index], in = channels[(index + size - 1) % size];
     if (receive_first) {
-      builder.behaviour(index, {}, {in});
-      builder.behaviour(index, {out}, {});
-      builder.leave(index, 0, true, {1});
+      builder.behaviour(instance, {}, {in});
+      builder.behaviour(instance, {out}, {});
+      builder.leave(instance, {0}, true, {{1}});
     } else {
-      builder.behaviour(index, {out}, {in});
-      builder.behaviour(index, {}, {});
-      builder.leave(index, 0, false, {1});
+      builder.behaviour(instance, {out}, {in});
+      builder.behaviour(instance, {}, {});
+      builder.leave(instance, {0}, false, {{1}});
     }
-    builder.leave(index, 1, receive_first, {0});
+    builder.leave(instance, {1}, receive_first, {{0}});
   }
   return judge(builder.result());
 }
@@ -82,11 +83,11 @@ TEST(Waiting, ARingThatWaitsBeforeItSendsIsSuspected) {
 
 TEST(Waiting, APeerThatNeedNotComeBackIsNamed) {
   SystemBuilder builder;
-  const spec::Index a = builder.subsystem(), b = builder.subsystem();
-  const spec::Index channel = builder.channel(a, b, {false, true});
+  const spec::InstanceId a = builder.subsystem(), b = builder.subsystem();
+  const spec::ChannelId channel = builder.channel(a, b, {false, true});
   builder.behaviour(a, {channel}, {});
   builder.behaviour(a, {}, {});
-  builder.leave(a, 0, true, {1});
+  builder.leave(a, {0}, true, {{1}});
   builder.behaviour(b, {}, {channel});
   const verify::WaitingReport report = waiting(judge(builder.result()));
   EXPECT_NE(report.why_not.find("for a0.s0, which need not come back to it"), std::string::npos)

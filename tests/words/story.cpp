@@ -70,8 +70,8 @@ void tell_of(const Recording& recording) {
 }
 
 void compare_with_the_net(const Recording& recording, const test::Generated& made) {
-  const replay::Legality legality =
-      replay::check_joint({&recording, 1}, made.net, {.names = {"robot", "station"}, .of_agents = {0, 1}});
+  const replay::Legality legality = replay::check_joint(
+      {&recording, 1}, made.net, {.names = {"robot", "station"}, .of_agents = {{0}, {1}}});
   out << "legal: " << static_cast<int>(legality.verdict) << ' ' << legality.firings << ' ' << legality.why
       << '\n';
   replay::FiringCounts counts(made.net);

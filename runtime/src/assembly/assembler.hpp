@@ -129,7 +129,7 @@ class Assembler {
     channel_of_[end.instance][found->second] = &channel;
     link.side = side;
     link.timeout = side == Side::send ? channel.send_timeout : channel.receive_timeout;
-    if (!other.port.empty()) link.peer = other.instance;
+    if (!other.port.empty()) link.peer = {other.instance};
     return find_buffer(parts, parts.instance->net->ports[found->second], link);
   }
 
@@ -137,7 +137,7 @@ class Assembler {
   void link_remote(const End& end, const End& other) {
     if (end.port.empty()) return;
     PortLink& link = port_of(end);
-    link.peer = UINT32_MAX;
+    link.peer = {};
     link.remote = part_.whole->processes[part_.whole->process_of[other.instance]].name;
   }
 
@@ -356,13 +356,13 @@ class Assembler {
   }
 
   /// In the form of MarkingTrack.
-  [[nodiscard]] std::vector<std::uint32_t> channels_of_transitions() const {
-    std::vector<std::uint32_t> channels(net_.transitions.size(), MarkingTrack::none);
+  [[nodiscard]] std::vector<ChannelId> channels_of_transitions() const {
+    std::vector<ChannelId> channels(net_.transitions.size());
     for (std::uint32_t index = 0; index < parts_.size(); ++index)
       for (const Plan::TransitionEntry& transition : plans_[index]->transitions)
-        if (transition.port != Plan::none)
-          channels[first_transition(index) + transition.index] =
-              static_cast<std::uint32_t>(channel_of_[index][transition.port] - system_.channels.data());
+        if (transition.port.valid())
+          channels[first_transition(index) + transition.index] = {static_cast<std::uint32_t>(
+              channel_of_[index][transition.port.value] - system_.channels.data())};
     return channels;
   }
 

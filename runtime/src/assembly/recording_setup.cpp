@@ -161,7 +161,7 @@ void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scen
 
 /// nullptr: the recording has no limit, so it needs no marking.
 [[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, const FlatNet& net,
-                                                     std::vector<std::uint32_t> channels) {
+                                                     std::vector<ChannelId> channels) {
   if (assembly.options.record_limit.segment_bytes == 0) return nullptr;
   auto track = std::make_unique<MarkingTrack>(net, std::move(channels));
   // The transitions of the network between processes change the marking, but are not recorded.
@@ -184,8 +184,7 @@ void record_values_of(Assembly& assembly, SubsystemParts& parts, std::uint32_t f
 }
 
 bool open_recording(Assembly& assembly, const Clock& clock, const FlatNet& net,
-                    std::span<SubsystemParts> parts, std::vector<std::uint32_t> channels,
-                    std::string& error) {
+                    std::span<SubsystemParts> parts, std::vector<ChannelId> channels, std::string& error) {
   const RunOptions& options = assembly.options;
   const auto instances = static_cast<std::uint32_t>(parts.size());
   if (options.recording.empty()) {

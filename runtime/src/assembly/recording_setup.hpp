@@ -18,7 +18,7 @@ namespace tessera {
 /// channels: as MarkingTrack wants them.
 /// Errors:   as Recorder::open: false and `error`.
 [[nodiscard]] bool open_recording(Assembly& assembly, const Clock& clock, const FlatNet& net,
-                                  std::span<SubsystemParts> parts, std::vector<std::uint32_t> channels,
+                                  std::span<SubsystemParts> parts, std::vector<ChannelId> channels,
                                   std::string& error);
 
 /// Larger values are not recorded whole.

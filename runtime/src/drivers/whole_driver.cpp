@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <utility>
 
 namespace tessera {
@@ -25,7 +26,7 @@ template <class Base>
 struct Shared {
   std::unique_ptr<Base> driver;
   Bindings::Real all;
-  std::size_t asked = SIZE_MAX;  // number of the part that was asked last
+  std::optional<std::size_t> asked;  // number of the part that was asked last
   bool has_value = false;
 };
 
@@ -37,7 +38,8 @@ class ReceptorPart final : public RealReceptor {
   /// The parts are read in order, though some may be left out. A part that is not after the
   /// last one begins a new reading.
   bool read(std::span<std::byte> value) override {
-    if (number_ <= std::exchange(shared_->asked, number_)) {
+    const std::optional<std::size_t> last = std::exchange(shared_->asked, number_);
+    if (!last || number_ <= *last) {
       shared_->has_value = false;  // in case it throws
       shared_->has_value =
           shared_->driver->read({static_cast<std::byte*>(shared_->all.value.get()), shared_->all.size});

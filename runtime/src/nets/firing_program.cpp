@@ -87,8 +87,10 @@ class FiringCompilation {
 
   /// Depth first along the arcs, from the transitions that are enabled at the start.
   void number_as_tokens_walk() {
-    program_.number_of_place.assign(net_.places.size(), FiringProgram::none);
-    program_.number_of_transition.assign(net_.transitions.size(), FiringProgram::none);
+    program_.number_of_place.resize(net_.places.size());
+    program_.number_of_transition.resize(net_.transitions.size());
+    place_is_numbered_.assign(net_.places.size(), false);
+    transition_is_numbered_.assign(net_.transitions.size(), false);
     walked_.assign(net_.places.size(), false);
     for (const bool only_enabled : {true, false})
       for (std::uint32_t t = 0; t < net_.transitions.size(); ++t)
@@ -106,7 +108,8 @@ class FiringCompilation {
     while (!open.empty()) {
       const std::uint32_t t = open.back();
       open.pop_back();
-      if (program_.number_of_transition[t] != FiringProgram::none) continue;
+      if (transition_is_numbered_[t]) continue;
+      transition_is_numbered_[t] = true;
       program_.number_of_transition[t] = static_cast<std::uint32_t>(program_.original_transition.size());
       program_.original_transition.push_back(t);
       for (const Arc& arc : inputs_[t]) number_place(arc.place);
@@ -121,7 +124,8 @@ class FiringCompilation {
   }
 
   void number_place(std::uint32_t place) {
-    if (program_.number_of_place[place] != FiringProgram::none) return;
+    if (place_is_numbered_[place]) return;
+    place_is_numbered_[place] = true;
     program_.number_of_place[place] = static_cast<std::uint32_t>(program_.original_place.size());
     program_.original_place.push_back(place);
   }
@@ -152,7 +156,7 @@ class FiringCompilation {
     record.operates = static_cast<bool>(net_.places[place].operation);
     record.first = static_cast<std::uint32_t>(program_.consumers.size());
     for (const std::uint32_t t : consumers_[place]) {
-      if (is_sole(t)) record.sole = program_.number_of_transition[t];
+      if (is_sole(t)) record.sole = {program_.number_of_transition[t]};
       program_.consumers.push_back({program_.number_of_transition[t], weight_from(inputs_[t], place)});
     }
     record.last = static_cast<std::uint32_t>(program_.consumers.size());
@@ -170,7 +174,7 @@ class FiringCompilation {
       program_.gives.push_back(
           {program_.number_of_place[arc.place], arc.weight, weight_from(inputs_[transition], arc.place)});
     arcs.gives_end = static_cast<std::uint32_t>(program_.gives.size());
-    if (net_.transitions[transition].condition) arcs.condition = transition;
+    if (net_.transitions[transition].condition) arcs.condition = {transition};
     arcs.operates = std::ranges::any_of(outputs_[transition], [this](const Arc& arc) {
       return static_cast<bool>(net_.places[arc.place].operation);
     });
@@ -189,8 +193,8 @@ class FiringCompilation {
     if (hop.kind != FiringProgram::Hop::Kind::sole || arcs.gives_end - arcs.gives != 1) return;
     const FiringProgram::Give& give = program_.gives[arcs.gives];
     const FiringProgram::PlaceRecord& place = program_.places[give.place];
-    if (give.weight != 1 || place.operates || place.sole == FiringProgram::none) return;
-    hop = {FiringProgram::Hop::Kind::direct, hop.from, give.place, place.sole};
+    if (give.weight != 1 || place.operates || !place.sole.valid()) return;
+    hop = {FiringProgram::Hop::Kind::direct, hop.from, give.place, place.sole.value};
   }
 
   const ExecutableNet& net_;
@@ -199,6 +203,7 @@ class FiringCompilation {
   std::vector<std::vector<Arc>> inputs_, outputs_;  // tidy
   Rows consumers_;                                  // per place: transitions that take from it
   std::vector<bool> walked_;                        // per place
+  std::vector<bool> place_is_numbered_, transition_is_numbered_;
   FiringProgram program_;
 };
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "tessera/executable_net.hpp"
+#include "tessera/ids.hpp"
 
 namespace tessera {
 
@@ -20,19 +21,20 @@ namespace tessera {
 /// * *Direct*: sole, and gives one token to one place without an operation, from which only another sole
 ///   transition takes. Such a firing is one record: from, to, and the transition that it enables.
 struct FiringProgram {
-  static constexpr std::uint32_t none = UINT32_MAX;
+  using TransitionId = Id<struct FiringTransitionTag>;  ///< own number
+  using ConditionId = Id<struct FiringConditionTag>;    ///< its transition in the net
 
-  /// The data of a direct firing. from: set for every sole transition.
+  /// The data of a direct firing. A sole transition has only `from`, another one none of them.
   struct Hop {
     enum class Kind : std::uint32_t { general, sole, direct } kind = Kind::general;
-    std::uint32_t from = none, to = none;
-    std::uint32_t next = none;  ///< the transition that takes from `to`
+    std::uint32_t from = 0, to = 0;
+    std::uint32_t next = 0;  ///< the transition that takes from `to`
   };
   /// The data of the general rule.
   struct Arcs {
     std::uint32_t takes = 0, takes_end = 0;  ///< into takes
     std::uint32_t gives = 0, gives_end = 0;  ///< into gives
-    std::uint32_t condition = none;          ///< the transition in the net, if it has one
+    ConditionId condition{};                 ///< none: it has none
     bool operates = false;                   ///< gives a token to a place with an operation
   };
   struct Take {
@@ -46,7 +48,7 @@ struct FiringProgram {
     std::uint32_t transition, weight;
   };
   struct PlaceRecord {
-    std::uint32_t sole = none;          ///< the sole transition that takes from it; otherwise:
+    TransitionId sole{};                ///< the sole transition that takes from it; otherwise:
     std::uint32_t first = 0, last = 0;  ///< into consumers
     bool operates = false;
   };

@@ -98,7 +98,7 @@ bool NetMachine::condition_holds(std::uint32_t original) {
   const std::uint32_t before = tokens_[place], now = after(before, count, 0);
   assert(suffices(before, count));
   tokens_[place] = now;
-  if (record.sole != FiringProgram::none) return;
+  if (record.sole.valid()) return;
   for (std::uint32_t i = record.first; i < record.last; ++i) {
     const FiringProgram::Consumer& consumer = program_.consumers[i];
     if (suffices(before, consumer.weight) && !suffices(now, consumer.weight))
@@ -112,8 +112,8 @@ template <class Turns>
   const FiringProgram::PlaceRecord& record = program_.places[place];
   const std::uint32_t before = tokens_[place], now = after(before, 0, count);
   tokens_[place] = now;
-  if (record.sole != FiringProgram::none) {
-    if (before == 0) turns.push(record.sole);
+  if (record.sole.valid()) {
+    if (before == 0) turns.push(record.sole.value);
     return;
   }
   for (std::uint32_t i = record.first; i < record.last; ++i) {
@@ -145,7 +145,7 @@ template <class Turns>
   if (!sole) {
     status_[transition] -= waiting;
     if (status_[transition] != 0) return false;
-    if (arcs.condition != FiringProgram::none && !condition_holds(arcs.condition)) {
+    if (arcs.condition.valid() && !condition_holds(arcs.condition.value)) {
       if (faulted_) wait_again(transition, turns);  // the condition threw; the next run asks it again
       return false;
     }

@@ -99,7 +99,7 @@ class Compilation {
     for (std::string_view name : transition.inputs) add_end(transition, name, entry, entry.taken);
     entry.outputs = static_cast<std::uint32_t>(plan_.arcs.size());
     for (std::string_view name : transition.outputs) add_end(transition, name, entry, entry.produced);
-    if (!transition.guard.port.empty()) entry.port = resolve(ports_, transition.guard.port, "port");
+    if (!transition.guard.port.empty()) entry.port = {resolve(ports_, transition.guard.port, "port")};
     entry.end = static_cast<std::uint32_t>(plan_.arcs.size());
     if (entry.inputs == entry.outputs)
       fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
@@ -108,8 +108,8 @@ class Compilation {
     entry.tells_of_timeout = entry.guard.kind == Guard::Kind::elapsed;
     if (entry.taken != 0) entry.need = need(transition, entry.port, entry.taken);
     if (entry.outputs - entry.inputs == 1) {
-      entry.from = plan_.arcs[entry.inputs];
-      if (entry.end - entry.outputs == 1) entry.to = plan_.arcs[entry.outputs];
+      entry.from = {plan_.arcs[entry.inputs]};
+      if (entry.end - entry.outputs == 1) entry.to = {plan_.arcs[entry.outputs]};
     }
     plan_.transitions.push_back(entry);
   }
@@ -122,12 +122,12 @@ class Compilation {
       plan_.arcs.push_back(resolve(places_, name, "place"));
       return;
     }
-    const std::uint32_t port = resolve(ports_, name.substr(0, slash), "port");
+    const Plan::PortId port{resolve(ports_, name.substr(0, slash), "port")};
     if (!error_.empty()) return;
-    if (entry.port != Plan::none && entry.port != port)
+    if (entry.port.valid() && entry.port != port)
       fail(fmt::format("'{}' touches two channels", transition.name));
     entry.port = port;
-    const std::span<const FusedPlace> fused = fused_[port];
+    const std::span<const FusedPlace> fused = fused_[port.value];
     const auto found = std::find_if(fused.begin(), fused.end(), [&](const FusedPlace& place) {
       return place.name == name.substr(slash + 1);
     });
@@ -139,23 +139,22 @@ class Compilation {
   void find_latch(const Transition& transition, Plan::TransitionEntry& entry) {
     const bool routed = entry.guard.kind == Guard::Kind::next;
     if (entry.guard.kind == Guard::Kind::none || entry.guard.kind == Guard::Kind::elapsed) {
-      if (entry.guard.kind == Guard::Kind::elapsed && entry.port == Plan::none)
+      if (entry.guard.kind == Guard::Kind::elapsed && !entry.port.valid())
         fail(fmt::format("'{}' waits for the timeout of no channel", transition.name));
       return;
     }
     for (std::uint32_t arc = entry.inputs; arc < entry.outputs; ++arc) {
       const Does::Kind does = plan_.places[plan_.arcs[arc]].does;
-      if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = plan_.arcs[arc];
+      if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = {plan_.arcs[arc]};
     }
     entry.decided = routed ? entry.guard.entry : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
-    if (entry.latch != Plan::none && entry.decided < 64)
-      plan_.places[entry.latch].ways |= std::uint64_t{1} << entry.decided;
-    if (entry.latch == Plan::none)
-      fail(fmt::format("no place decides the condition of '{}'", transition.name));
+    if (entry.latch.valid() && entry.decided < 64)
+      plan_.places[entry.latch.value].ways |= std::uint64_t{1} << entry.decided;
+    if (!entry.latch.valid()) fail(fmt::format("no place decides the condition of '{}'", transition.name));
   }
 
-  std::uint8_t need(const Transition& transition, std::uint32_t port, std::uint16_t taken) {
-    std::vector<std::uint16_t>& needs = plan_.ports[port].needs;
+  std::uint8_t need(const Transition& transition, Plan::PortId port, std::uint16_t taken) {
+    std::vector<std::uint16_t>& needs = plan_.ports[port.value].needs;
     const auto found = std::find(needs.begin(), needs.end(), taken);
     if (found != needs.end()) return static_cast<std::uint8_t>(found - needs.begin());
     if (needs.size() == most_needs)
@@ -177,7 +176,7 @@ class Compilation {
       plan_.places[plan_.first_leaving.size()].timed = first_timed != ways.end();
       if (first_timed != ways.end())
         std::for_each(ways.begin(), first_timed, [&](std::uint32_t t) {
-          plan_.transitions[t].tells_of_timeout = plan_.transitions[t].port != Plan::none;
+          plan_.transitions[t].tells_of_timeout = plan_.transitions[t].port.valid();
         });
       plan_.first_leaving.push_back(static_cast<std::uint32_t>(plan_.leaving.size()));
       plan_.leaving.insert(plan_.leaving.end(), ways.begin(), ways.end());
@@ -192,7 +191,7 @@ class Compilation {
       plan_.departures[plan_.first_leaving[place + 1] - 1].last = true;
     }
     for (Plan::TransitionEntry& transition : plan_.departures)
-      if (transition.to != Plan::none) transition.onward = plan_.places[transition.to].departure;
+      if (transition.to.valid()) transition.onward = plan_.places[transition.to.value].departure;
   }
 
   const SubsystemNet& net_;

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "tessera/ids.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera {
@@ -13,7 +14,8 @@ namespace tessera {
 /// The net of a subsystem, prepared for firing: names resolved to indices, arcs in compressed rows. Instances
 /// with the same tables share one. It is immutable, and can be moved but not copied.
 struct Plan {
-  static constexpr std::uint32_t none = UINT32_MAX;
+  using PlaceId = Id<struct PlanPlaceTag>;
+  using PortId = Id<struct PlanPortTag>;
 
   struct TransitionEntry;
   struct PlaceEntry {
@@ -30,19 +32,18 @@ struct Plan {
     Guard::Kind kind = Guard::Kind::none;
     std::uint16_t entry = 0;
   };
-  static constexpr std::uint8_t no_need = 0xff;
   struct TransitionEntry {
     const TransitionEntry* onward = nullptr;         ///< in departures: the first that takes from `to`
     std::uint32_t index = 0;                         ///< in transitions
     std::uint32_t inputs = 0, outputs = 0, end = 0;  ///< into arcs: inputs up to outputs, outputs up to end
-    std::uint32_t from = none;                       ///< of one with a single input here
-    std::uint32_t to = none;                         ///< of one with a single input and a single output here
-    std::uint32_t port = none;                       ///< the channel it touches
-    std::uint32_t latch = none;                      ///< the input place whose arrival decides the guard ...
+    PlaceId from{};                                  ///< of one with a single input here
+    PlaceId to{};                                    ///< of one with a single input and a single output here
+    PortId port{};                                   ///< the channel it touches
+    PlaceId latch{};                                 ///< the input place whose arrival decides the guard ...
     std::int32_t decided = 0;                        ///< ... if it says this
     Condition guard;
     std::uint16_t taken = 0, produced = 0;  ///< fused places it takes and gives, as bits
-    std::uint8_t need = no_need;            ///< `taken` in PortEntry::needs; no_need: nothing
+    std::optional<std::uint8_t> need{};     ///< `taken` in PortEntry::needs; nullopt: nothing
     bool last = false;                      ///< in departures: of its place
     /// takes from a place from which a timeout counts: an elapsed transition, or one of its alternatives
     bool tells_of_timeout = false;

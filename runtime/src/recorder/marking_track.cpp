@@ -4,7 +4,7 @@
 
 namespace tessera {
 
-MarkingTrack::MarkingTrack(const FlatNet& net, std::vector<std::uint32_t> channels) {
+MarkingTrack::MarkingTrack(const FlatNet& net, std::vector<ChannelId> channels) {
   for (const FlatNet::FlatPlace& place : net.places) {
     names_.push_back(place.name);
     marked_.push_back(place.tokens > 0);
@@ -17,7 +17,7 @@ MarkingTrack::MarkingTrack(const FlatNet& net, std::vector<std::uint32_t> channe
     const auto outputs = static_cast<std::uint32_t>(arcs_.size());
     arcs_.insert(arcs_.end(), transition.outputs.begin(), transition.outputs.end());
     transitions_.push_back({first, outputs, static_cast<std::uint32_t>(arcs_.size()), channels[index]});
-    if (channels[index] != none) count = std::max(count, channels[index] + 1);
+    if (channels[index].valid()) count = std::max(count, channels[index].value + 1);
   }
   versions_.resize(count);
 }
@@ -25,7 +25,7 @@ MarkingTrack::MarkingTrack(const FlatNet& net, std::vector<std::uint32_t> channe
 bool MarkingTrack::may_fire(const Event& firing) const {
   if (!known_) return true;
   const Arcs& arcs = transitions_[firing.subject];
-  if (arcs.channel != none && firing.version != 0) {
+  if (arcs.channel.valid() && firing.version != 0) {
     const std::uint32_t last = versions_[arcs.channel];
     if (firing.version != (last == UINT32_MAX ? 1 : last + 1)) return false;
   }
@@ -36,7 +36,7 @@ bool MarkingTrack::may_fire(const Event& firing) const {
 void MarkingTrack::fire(const Event& firing) {
   known_ = known_ && may_fire(firing);
   const Arcs& arcs = transitions_[firing.subject];
-  if (arcs.channel != none && firing.version != 0) versions_[arcs.channel] = firing.version;
+  if (arcs.channel.valid() && firing.version != 0) versions_[arcs.channel] = firing.version;
   for (std::uint32_t arc = arcs.inputs; arc < arcs.outputs; ++arc) marked_[arcs_[arc]] = false;
   for (std::uint32_t arc = arcs.outputs; arc < arcs.end; ++arc) marked_[arcs_[arc]] = true;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "nets/flat_net.hpp"
+#include "tessera/ids.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera {
@@ -16,8 +17,7 @@ namespace tessera {
 class MarkingTrack {
  public:
   /// channels: per transition of the net, the channel it touches, or none.
-  static constexpr std::uint32_t none = UINT32_MAX;
-  MarkingTrack(const FlatNet& net, std::vector<std::uint32_t> channels);
+  MarkingTrack(const FlatNet& net, std::vector<ChannelId> channels);
 
   /// Whether the input places hold tokens, and the version is the next of its channel: every firing before it
   /// has been recorded. Always true once the marking is unknown.
@@ -33,13 +33,13 @@ class MarkingTrack {
  private:
   struct Arcs {
     std::uint32_t inputs, outputs, end;  // into arcs_
-    std::uint32_t channel;
+    ChannelId channel;
   };
   std::vector<std::string> names_;
   std::vector<bool> marked_;
   std::vector<std::uint32_t> arcs_;
   std::vector<Arcs> transitions_;
-  std::vector<std::uint32_t> versions_;  // per channel
+  Numbered<ChannelId, std::uint32_t> versions_;
   bool known_ = true;
 };
 

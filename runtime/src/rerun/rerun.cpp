@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "assembly/assembly.hpp"
@@ -132,7 +133,7 @@ class Play {
 
   [[nodiscard]] std::vector<RecordedMoment> moments() const {
     std::vector<RecordedMoment> all;
-    std::vector<std::size_t> last(recording_.instances.size(), SIZE_MAX);
+    std::vector<std::optional<std::size_t>> last(recording_.instances.size());
     for (const Entry& entry : recording_.entries) {
       const std::uint32_t instance = entry.event.instance();
       if (instance >= last.size()) continue;
@@ -140,8 +141,8 @@ class Play {
       if (kind == Event::Kind::firing || kind == Event::Kind::call || kind == Event::Kind::parameter) {
         last[instance] = all.size();
         all.push_back({&entry, {}});
-      } else if (last[instance] != SIZE_MAX) {
-        all[last[instance]].rest.push_back(&entry);
+      } else if (last[instance]) {
+        all[*last[instance]].rest.push_back(&entry);
       }
     }
     std::ranges::stable_sort(all, {},

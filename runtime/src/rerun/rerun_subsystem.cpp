@@ -206,12 +206,12 @@ void RerunSubsystem::fire(const RecordedMoment& moment) {
   finish_call();
   const Plan::TransitionEntry& transition =
       plan_->transitions[moment.head->event.subject - first_transition_];
-  if (transition.latch != Plan::none) compare_decision(transition);
+  if (transition.latch.valid()) compare_decision(transition);
   if (transition.tells_of_timeout) {
     if (transition.guard.kind == Guard::Kind::elapsed)
-      operations_.note_timeout(transition.port);
+      operations_.note_timeout(transition.port.value);
     else
-      operations_.note_answer(transition.port);
+      operations_.note_answer(transition.port.value);
   }
   for (const std::uint32_t place : plan_->outputs(transition)) start_operation(place, moment);
 }
@@ -267,17 +267,17 @@ void RerunSubsystem::read(std::uint16_t port, std::uint16_t slot, const Recorded
 }
 
 void RerunSubsystem::compare_decision(const Plan::TransitionEntry& transition) {
-  const auto found = decided_.find(transition.latch);
+  const auto found = decided_.find(transition.latch.value);
   if (found == decided_.end()) return;
   const int computed = found->second;
   decided_.erase(found);
   if (computed == transition.decided) return;
   ++report_.decisions;
-  if (plan_->places[transition.latch].does == Does::Kind::decide)
+  if (plan_->places[transition.latch.value].does == Does::Kind::decide)
     operations_.accept_outcome(static_cast<Outcome>(transition.decided));
   const SubsystemNet& net = *parts().instance->net;
   std::string other = "none that the net has";
-  for (const std::uint32_t index : plan_->leaving_of(transition.latch))
+  for (const std::uint32_t index : plan_->leaving_of(transition.latch.value))
     if (plan_->transitions[index].latch == transition.latch && plan_->transitions[index].decided == computed)
       other = net.transitions[index].name;
   differ("the transition taken", std::string(net.transitions[transition.index].name), other);

@@ -303,10 +303,11 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   // No real device waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
-  companions.watch();
+  companions.watch_parent();
   Assembly assembly(std::move(*part), options);
   assembly.guardian = companions.guardian();
   if (assembly.guardian != nullptr) assembly.control.withhold_after(assembly.guardian->has_acted());
+  const std::unique_ptr<ProcessWatch> guardian_watch = companions.watch_guardian(assembly.control);
   assembly.incarnation = incarnation_of(options);
   assembly.tally = tally;
   if (simulated) {

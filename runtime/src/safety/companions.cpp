@@ -14,19 +14,24 @@ bool Companions::start_guardian(std::string& error) {
   return guardian_ != nullptr;
 }
 
-void Companions::watch() {
-  const auto say = [](std::string_view text) { console::print(LogLevel::error, Time{}, "tessera", text); };
-  if (guardian_ != nullptr)
-    guardian_watch_.emplace(guardian_->process(), [say, this] {
-      if (!guardian_->is_dismissed())
-        say("the guardian has ended: if this process dies, nobody gives the devices the safe command");
-    });
+void Companions::watch_parent() {
   if (options_.parent == 0) return;
   // The parent had already ended: this process has another parent now.
   constexpr pid_t none = -1;
-  parent_watch_.emplace(getppid() == options_.parent ? options_.parent : none, [say] {
-    say("the process that started the controller has ended; the run stops");
+  parent_watch_.emplace(getppid() == options_.parent ? options_.parent : none, [] {
+    console::print(LogLevel::error, Time{}, "tessera",
+                   "the process that started the controller has ended; the run stops");
     kill(getpid(), SIGTERM);
+  });
+}
+
+std::unique_ptr<ProcessWatch> Companions::watch_guardian(RunControl& control) const {
+  if (guardian_ == nullptr) return nullptr;
+  return std::make_unique<ProcessWatch>(guardian_->process(), [this, &control] {
+    if (!guardian_->is_dismissed())
+      control.request_stop(
+          "the guardian of the devices has ended, and nothing else makes them safe if the controller dies",
+          /*fault=*/true);
   });
 }
 

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "drivers/run_control.hpp"
 #include "safety/guardian.hpp"
 #include "system/process_watch.hpp"
 #include "tessera/controller.hpp"
@@ -21,9 +22,11 @@ class Companions {
   /// Forks the guardian if it is needed. Call it before the process has threads. false and
   /// `error`: the run cannot start.
   [[nodiscard]] bool start_guardian(std::string& error);
-  /// From now on, the end of the guardian is reported, and the end of the parent
-  /// stops the run as SIGTERM does.
-  void watch();
+  /// From now on, the end of the parent stops the run as SIGTERM does.
+  void watch_parent();
+  /// As long as the result exists, the end of the guardian stops the run, which has failed: no process would
+  /// make the devices safe if this one died. nullptr: there is no guardian. `control` must outlive the result.
+  [[nodiscard]] std::unique_ptr<ProcessWatch> watch_guardian(RunControl& control) const;
   /// nullptr: none.
   [[nodiscard]] Guardian* guardian() const { return guardian_.get(); }
 
@@ -31,8 +34,7 @@ class Companions {
   const System& system_;
   const RunOptions& options_;
   std::unique_ptr<Guardian> guardian_;
-  // declared after guardian_, so that they end before it
-  std::optional<ProcessWatch> guardian_watch_, parent_watch_;
+  std::optional<ProcessWatch> parent_watch_;
 };
 
 }  // namespace tessera

@@ -123,9 +123,9 @@ SafeReason ChannelValues::why_hold(Time now) const {
     const Input& input = inputs_[index];
     if (!input.used) continue;
     const std::string_view name = parts_.bindings.inputs[index].name;
-    if (input.source != UINT32_MAX) {
-      if (control_.has_ended(input.source)) return {Why::source_ended, name};
-      if (control_.is_stalled(input.source)) return {Why::source_stalls, name};
+    if (input.source.valid()) {
+      if (control_.has_ended(input.source.value)) return {Why::source_ended, name};
+      if (control_.is_stalled(input.source.value)) return {Why::source_stalls, name};
     }
     if (stale > Duration::zero() && now - input.last_valid > stale) return {Why::stale, name};
     if (input.awaited && (!input.known || input.last_valid < control_.valid_from()))

@@ -45,7 +45,7 @@ class ChannelValues {
     std::uint64_t sequence = 0;  // of the last value read; 0: none yet
     std::uint64_t newest = 0;    // of all values read
     Time last_valid{};
-    std::uint32_t source = UINT32_MAX;
+    InstanceId source{};
     bool known = false;    // a valid value has come
     bool used = false;     // some behaviour receives it
     bool awaited = false;  // a behaviour that was called receives it

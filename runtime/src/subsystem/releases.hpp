@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <utility>
 
 #include "tessera/tables.hpp"
@@ -38,9 +39,9 @@ class Releases {
 
   Duration period_;
   Overrun overrun_;
-  std::int64_t next_ = -1;       // k of the next instant; -1: before the first call
-  std::int64_t counted_to_ = 0;  // k up to which overruns have been counted
-  std::uint64_t missed_ = 0;     // instants that the next call has to fail for
+  std::optional<std::int64_t> next_;  // k of the next instant; nullopt: before the first call
+  std::int64_t counted_to_ = 0;       // k up to which overruns have been counted
+  std::uint64_t missed_ = 0;          // instants that the next call has to fail for
   std::uint64_t overruns_ = 0;
 };
 

@@ -48,7 +48,7 @@ class Reading {
   /// No condition of `next` holds in the subsystem with that path.
   [[nodiscard]] bool add_outcome(const std::string& name, std::string_view path, Scenario& scenario) const {
     const std::optional<std::uint32_t> owner = instance_at(system_, path);
-    if (owner) scenario.steps.push_back({*owner, Scenario::none_holds, name});
+    if (owner) scenario.steps.push_back({*owner, std::nullopt, name});
     return owner.has_value();
   }
 
@@ -68,8 +68,8 @@ class Reading {
 
 }  // namespace
 
-std::vector<std::uint32_t> Scenario::of_instance(std::uint32_t instance) const {
-  std::vector<std::uint32_t> own;
+Scenario::Script Scenario::of_instance(std::uint32_t instance) const {
+  Script own;
   for (const Step& step : steps)
     if (step.instance == instance) own.push_back(step.transition);
   return own;

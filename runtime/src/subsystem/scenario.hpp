@@ -14,17 +14,17 @@ namespace tessera {
 /// A run of the net that a controller follows under the simulated clock: which subsystem fires which
 /// transition, in which order. The upper layers are not part of it; they follow by themselves.
 struct Scenario {
-  /// An outcome without a transition: no condition of `next` holds.
-  static constexpr std::uint32_t none_holds = Plan::none;
+  /// Transitions of one subsystem, into its table; nullopt: no condition of `next` holds.
+  using Script = std::vector<std::optional<std::uint32_t>>;
   struct Step {
     std::uint32_t instance;
-    std::uint32_t transition;  ///< into the table of its subsystem, or none_holds
+    std::optional<std::uint32_t> transition;  ///< into the table of its subsystem; nullopt: no `next` holds
     std::string name;
   };
   std::vector<Step> steps;
 
   /// The transitions that an instance has to fire, in order.
-  [[nodiscard]] std::vector<std::uint32_t> of_instance(std::uint32_t instance) const;
+  [[nodiscard]] Script of_instance(std::uint32_t instance) const;
 };
 
 /// Reads the output of `tessera verify --scenario`. nullopt and `error`: unreadable, or for another net.

@@ -110,7 +110,7 @@ bool SubsystemExecutor::fire_one() {
 bool SubsystemExecutor::walk() {
   std::uint32_t place = marked_.front();
   const Plan::TransitionEntry* departure = places_[place].departure;
-  tokens_[place].position = Plan::none;
+  tokens_[place].position = {};
   bool walked = false;
   for (std::uint32_t left = simulated_ ? 1 : look_up; tokens_[place].phase == Phase::finished; --left) {
     if (left == 0) {  // it checks the clock and whether the run is to stop
@@ -120,16 +120,16 @@ bool SubsystemExecutor::walk() {
     const Plan::TransitionEntry* const fired = fire_one_of(departure);
     if (fired == nullptr) break;
     walked = true;
-    if (fired->to == Plan::none) {
-      tokens_[place].position = 0;
+    if (!fired->to.valid()) {
+      tokens_[place].position = {0};
       move_tokens(*fired);
       return true;
     }
     departure = fired->onward;
-    place = marked_.front() = fired->to;
+    place = marked_.front() = fired->to.value;
     arrive(place);
   }
-  tokens_[place].position = 0;
+  tokens_[place].position = {0};
   return walked;
 }
 
@@ -137,7 +137,7 @@ bool SubsystemExecutor::walk() {
 inline const Plan::TransitionEntry* SubsystemExecutor::fire_one_of(const Plan::TransitionEntry* departure) {
   if (departure == nullptr) return nullptr;
   for (;; ++departure) {
-    if ((departure->from != Plan::none || locally_enabled(*departure)) && fire_enabled(*departure))
+    if ((departure->from.valid() || locally_enabled(*departure)) && fire_enabled(*departure))
       return departure;
     if (departure->last) return nullptr;
   }
@@ -154,14 +154,14 @@ bool SubsystemExecutor::try_fire(std::uint32_t index) {
 inline bool SubsystemExecutor::fire_enabled(const Plan::TransitionEntry& transition) {
   if (!condition_holds(transition)) return false;
   std::uint32_t version = 0;
-  if (transition.port != Plan::none) {
-    const PortLink& link = ports_[transition.port];
+  if (transition.port.valid()) {
+    const PortLink& link = ports_[transition.port.value];
     version = link.channel->fire(link.side, transition.taken, transition.produced);
     if (version == 0) {
       if (link.channel->held()) held_ = link.channel;
       return false;
     }
-    if (registrations_ != 0 && std::exchange(wants_[transition.port], std::uint16_t{0}) != 0)
+    if (registrations_ != 0 && std::exchange(wants_[transition.port.value], std::uint16_t{0}) != 0)
       --registrations_;  // firing voids them
     if (link.end != nullptr) version = tell_network(*link.end, transition);
   }
@@ -184,9 +184,9 @@ std::uint32_t SubsystemExecutor::tell_network(NetworkEnd& end, const Plan::Trans
 
 void SubsystemExecutor::tell_of_timeout(const Plan::TransitionEntry& transition) {
   if (transition.guard.kind == Guard::Kind::elapsed)
-    operations_.note_timeout(transition.port);
+    operations_.note_timeout(transition.port.value);
   else
-    operations_.note_answer(transition.port);
+    operations_.note_answer(transition.port.value);
 }
 
 /// If some transition waits only for a peer that is reading or writing, waits actively: that is shorter than
@@ -198,7 +198,7 @@ bool SubsystemExecutor::outwait_peer() {
 
 bool SubsystemExecutor::locally_enabled(const Plan::TransitionEntry& transition) const {
   const auto has_finished = [this](std::uint32_t place) {
-    return tokens_[place].position != Plan::none && tokens_[place].phase == Phase::finished;
+    return tokens_[place].position.valid() && tokens_[place].phase == Phase::finished;
   };
   const auto inputs = plan_->inputs(transition);
   return std::all_of(inputs.begin(), inputs.end(), has_finished);
@@ -209,7 +209,7 @@ bool SubsystemExecutor::wants_to_fire(std::uint32_t transition) const {
 }
 
 Time SubsystemExecutor::elapses(const Plan::TransitionEntry& transition) const {
-  const Duration timeout = operations_.parts().ports[transition.port].timeout;
+  const Duration timeout = operations_.parts().ports[transition.port.value].timeout;
   if (timeout == Duration::zero()) return Time::max();
   Time arrival = Time::min();
   for (const std::uint32_t place : plan_->inputs(transition))
@@ -226,17 +226,17 @@ void SubsystemExecutor::move_tokens(const Plan::TransitionEntry& transition) {
 }
 
 void SubsystemExecutor::take(std::uint32_t place) {
-  const std::uint32_t hole = std::exchange(tokens_[place].position, Plan::none);
-  marked_[hole] = marked_.back();
-  tokens_[marked_[hole]].position = hole;
-  tokens_[place].position = Plan::none;  // also when it was the last itself
+  const MarkedId hole = std::exchange(tokens_[place].position, MarkedId{});
+  marked_[hole.value] = marked_.back();
+  tokens_[marked_[hole.value]].position = hole;
+  tokens_[place].position = {};  // also when it was the last itself
   marked_.pop_back();
 }
 
 void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
-  if (token.position != Plan::none) return fault(place, "a place got a second token: the net is not safe");
-  token.position = static_cast<std::uint32_t>(marked_.size());
+  if (token.position.valid()) return fault(place, "a place got a second token: the net is not safe");
+  token.position = {static_cast<std::uint32_t>(marked_.size())};
   marked_.push_back(place);
   arrive(place);
 }
@@ -330,7 +330,7 @@ bool SubsystemExecutor::advance_operations() {
 
 void SubsystemExecutor::wake_receivers() {
   for (const PortLink& port : operations_.parts().ports)
-    if (port.side == Side::send && port.peer != UINT32_MAX) waker_.wake(port.peer);
+    if (port.side == Side::send && port.peer.valid()) waker_.wake(port.peer.value);
 }
 
 // -------------------------------------------------------------------------------------------- ends

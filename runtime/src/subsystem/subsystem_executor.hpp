@@ -12,6 +12,7 @@
 #include "subsystem/memory_gauge.hpp"
 #include "subsystem/operations.hpp"
 #include "subsystem/releases.hpp"
+#include "subsystem/scenario.hpp"
 
 namespace tessera {
 
@@ -61,7 +62,7 @@ class SubsystemExecutor {
 
   /// From now on only `follow` makes it fire: these transitions of its table, in this order (Scenario).
   /// Conditions are not evaluated for a token that one of them decides on.
-  void set_script(std::vector<std::uint32_t> transitions) { script_ = std::move(transitions); }
+  void set_script(Scenario::Script transitions) { script_ = std::move(transitions); }
   /// Fires the next transition of the script. waiting: not yet, step again at the deadline, or never
   /// (Time::max()); fired: done. Precondition: there is a next one.
   enum class Followed : std::uint8_t { fired, ended, waiting };
@@ -126,7 +127,7 @@ class SubsystemExecutor {
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
   [[nodiscard]] std::uint64_t overruns() const { return releases_.overruns(); }
   /// Whether that place of the table holds a token.
-  [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position != Plan::none; }
+  [[nodiscard]] bool holds(std::uint32_t place) const { return tokens_[place].position.valid(); }
 
   /// The transition of the table that fired last. Precondition: one has, and the run is recorded.
   [[nodiscard]] std::uint32_t last_fired() const { return last_fired_; }
@@ -141,12 +142,13 @@ class SubsystemExecutor {
 
  private:
   enum class Phase : std::uint8_t { released_later, running, finished };
+  using MarkedId = Id<struct MarkedTag>;  // into marked_
   struct Token {
     Time arrival{};  // in places from which a timeout counts
     Time due{};      // of released_later and running
     Phase phase = Phase::finished;
-    std::int32_t latched = 0;             // the outcome or the entry of `next`
-    std::uint32_t position = Plan::none;  // in marked_
+    std::int32_t latched = 0;  // the outcome or the entry of `next`
+    MarkedId position{};
   };
 
   void renew_time();
@@ -223,8 +225,8 @@ class SubsystemExecutor {
   std::vector<std::uint16_t> wants_next_;  // per port: scratch of register_waits
   std::uint32_t registrations_ = 0;        // ports with wants_
 
-  std::vector<std::uint32_t> script_;  // transitions to follow, or Plan::none: no initial condition holds
-  std::size_t followed_ = 0;           // of the script
+  Scenario::Script script_;   // to follow
+  std::size_t followed_ = 0;  // of the script
 
   Time returns_{};  // simulated: the return of a call that the watchdog precedes
   Time blocked_since_ = Time::max();
@@ -232,7 +234,7 @@ class SubsystemExecutor {
   Time waits_since_ = Time::max();
   std::uint64_t waits_after_ = UINT64_MAX;  // firings_ at waits_since_
   std::uint64_t firings_ = 0;
-  std::uint32_t last_fired_ = Plan::none;
+  std::uint32_t last_fired_ = 0;
   Gauges gauges_;
   std::unique_ptr<MemoryGauge> memory_;
   Time instant_ = Time::min();
@@ -242,7 +244,7 @@ class SubsystemExecutor {
 inline bool SubsystemExecutor::condition_holds(const Plan::TransitionEntry& transition) const {
   if (transition.guard.kind == Guard::Kind::none) return true;
   if (transition.guard.kind == Guard::Kind::elapsed) return now_ >= elapses(transition);
-  return tokens_[transition.latch].latched == transition.decided;
+  return tokens_[transition.latch.value].latched == transition.decided;
 }
 
 }  // namespace tessera

@@ -12,6 +12,7 @@
 #include "subsystem/injection.hpp"
 #include "subsystem/parameter_changes.hpp"
 #include "tessera/device.hpp"
+#include "tessera/ids.hpp"
 #include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
@@ -21,11 +22,11 @@ namespace tessera {
 struct PortLink {
   SharedChannel* channel = nullptr;
   Side side = Side::send;
-  std::uint32_t buffer = 0;         ///< into Bindings::inputs or outputs
-  Duration timeout{0};              ///< zero: waits for ever
-  std::uint32_t peer = UINT32_MAX;  ///< instance at the other end; UINT32_MAX: none, or in another process
-  NetworkEnd* end = nullptr;        ///< of a channel to another process
-  std::string_view remote{};        ///< that process
+  std::uint32_t buffer = 0;   ///< into Bindings::inputs or outputs
+  Duration timeout{0};        ///< zero: waits for ever
+  InstanceId peer{};          ///< at the other end; none: nobody, or in another process
+  NetworkEnd* end = nullptr;  ///< of a channel to another process
+  std::string_view remote{};  ///< that process
 };
 
 /// The parts of a subsystem besides its net.

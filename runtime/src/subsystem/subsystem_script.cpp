@@ -28,35 +28,35 @@ std::string_view forced_by(Guard::Kind guard) {
 }  // namespace
 
 SubsystemExecutor::FollowProgress SubsystemExecutor::follow() {
-  const std::uint32_t transition = script_[followed_++];
-  if (transition == Plan::none) {
+  const std::optional<std::uint32_t> transition = script_[followed_++];
+  if (!transition) {
     fault(marked_.front(), "no condition of `next` holds");
     return {Followed::fired, Time::max(), "no initial condition"};
   }
   renew_time();
   while (advance_operations()) continue;
   operations_.devices().guard(now_, name_of(marked_.front()));
-  if (!try_fire(transition)) {
+  if (!try_fire(*transition)) {
     --followed_;
-    return {Followed::waiting, script_deadline(transition)};
+    return {Followed::waiting, script_deadline(*transition)};
   }
   if (at_end_) end();
   return {at_end_ ? Followed::ended : Followed::fired, Time::max(),
-          forced_by(plan_->transitions[transition].guard.kind)};
+          forced_by(plan_->transitions[*transition].guard.kind)};
 }
 
 /// The transition of the script that will take a token that has just arrived; nullptr: there is none.
 const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t place) const {
   for (std::size_t index = followed_; index < script_.size(); ++index) {
-    if (script_[index] == Plan::none) continue;
-    const Plan::TransitionEntry& transition = plan_->transitions[script_[index]];
-    if (transition.latch == place) return &transition;
+    if (!script_[index]) continue;
+    const Plan::TransitionEntry& transition = plan_->transitions[*script_[index]];
+    if (transition.latch.value == place) return &transition;
   }
   return nullptr;
 }
 
 bool SubsystemExecutor::script_ends_without_choice() const {
-  return followed_ < script_.size() && script_[followed_] == Plan::none;
+  return followed_ < script_.size() && !script_[followed_];
 }
 
 /// The time at which an operation that the transition waits for has finished, or its timeout has passed.

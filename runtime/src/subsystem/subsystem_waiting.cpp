@@ -15,10 +15,10 @@ bool SubsystemExecutor::register_waits() {
   for (const std::uint32_t place : marked_) {
     for (const std::uint32_t index : plan_->leaving_of(place)) {
       const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.need == Plan::no_need || !locally_enabled(transition)) continue;
+      if (!transition.need || !locally_enabled(transition)) continue;
       if (!condition_holds(transition)) continue;
-      wants_next_[transition.port] =
-          static_cast<std::uint16_t>(wants_next_[transition.port] | 1U << transition.need);
+      wants_next_[transition.port.value] =
+          static_cast<std::uint16_t>(wants_next_[transition.port.value] | 1U << *transition.need);
     }
   }
   for (std::size_t port = 0; port < wants_.size(); ++port) {
@@ -44,8 +44,7 @@ Time SubsystemExecutor::next_deadline() const {
       const Plan::TransitionEntry& transition = plan_->transitions[index];
       if (transition.guard.kind != Guard::Kind::elapsed || !locally_enabled(transition)) continue;
       const Time elapsed = elapses(transition);
-      const bool registered =
-          transition.need != Plan::no_need && (wants_[transition.port] >> transition.need & 1) != 0;
+      const bool registered = transition.need && (wants_[transition.port.value] >> *transition.need & 1) != 0;
       if (!registered)
         deadline = std::min(deadline, elapsed);  // registered: it has elapsed and waits for its channel
     }
@@ -70,11 +69,11 @@ std::optional<std::vector<SubsystemExecutor::Lack>> SubsystemExecutor::lacks() c
       if (!locally_enabled(transition)) continue;
       const bool needs_time = transition.guard.kind == Guard::Kind::elapsed;
       if (!needs_time && !condition_holds(transition)) continue;
-      if (transition.need == Plan::no_need) return std::nullopt;
+      if (!transition.need) return std::nullopt;
       const auto tokens =
-          static_cast<std::uint16_t>(transition.taken & ~ports_[transition.port].channel->marking());
+          static_cast<std::uint16_t>(transition.taken & ~ports_[transition.port.value].channel->marking());
       if (tokens == 0) return std::nullopt;
-      all.push_back({transition.port, tokens});
+      all.push_back({transition.port.value, tokens});
     }
   }
   if (marked_.empty()) return std::nullopt;  // the subsystem has not begun
@@ -93,11 +92,13 @@ std::vector<std::uint16_t> SubsystemExecutor::may_give(const std::vector<bool>& 
       const auto inputs = plan_->inputs(transition);
       if (!std::all_of(inputs.begin(), inputs.end(), [&](std::uint32_t place) { return reached[place]; }))
         continue;
-      if (transition.port != Plan::none) {
-        if ((transition.taken & ~there[transition.port]) != 0) continue;
-        gives[transition.port] = static_cast<std::uint16_t>(gives[transition.port] | transition.produced);
-        more = more || (transition.produced & ~there[transition.port]) != 0;
-        there[transition.port] = static_cast<std::uint16_t>(there[transition.port] | transition.produced);
+      if (transition.port.valid()) {
+        if ((transition.taken & ~there[transition.port.value]) != 0) continue;
+        gives[transition.port.value] =
+            static_cast<std::uint16_t>(gives[transition.port.value] | transition.produced);
+        more = more || (transition.produced & ~there[transition.port.value]) != 0;
+        there[transition.port.value] =
+            static_cast<std::uint16_t>(there[transition.port.value] | transition.produced);
       }
       for (const std::uint32_t place : plan_->outputs(transition)) {
         more = more || !reached[place];
@@ -115,18 +116,18 @@ std::string SubsystemExecutor::whereabouts(const System& system) const {
     text += fmt::format(" at {}", instance.net->places[place].name);
     for (const std::uint32_t index : plan_->leaving_of(place)) {
       const Plan::TransitionEntry& transition = plan_->transitions[index];
-      if (transition.port == Plan::none) continue;
-      const std::uint32_t peer = operations_.parts().ports[transition.port].peer;
-      const std::string_view port = instance.net->ports[transition.port].name;
-      if (operations_.parts().ports[transition.port].end != nullptr)
+      if (!transition.port.valid()) continue;
+      const InstanceId peer = operations_.parts().ports[transition.port.value].peer;
+      const std::string_view port = instance.net->ports[transition.port.value].name;
+      if (operations_.parts().ports[transition.port.value].end != nullptr)
         text += fmt::format(" waits for process {} over '{}'",
-                            operations_.parts().ports[transition.port].remote, port);
-      else if (peer == UINT32_MAX)
+                            operations_.parts().ports[transition.port.value].remote, port);
+      else if (!peer.valid())
         text += fmt::format(" waits for the other end of '{}', which no behaviour uses", port);
       else
-        text += fmt::format(" waits for {}.{} over '{}'{}", system.instances[peer].agent,
-                            system.instances[peer].name, port,
-                            control_.has_ended(peer) ? ", which has ended" : "");
+        text += fmt::format(" waits for {}.{} over '{}'{}", system.instances[peer.value].agent,
+                            system.instances[peer.value].name, port,
+                            control_.has_ended(peer.value) ? ", which has ended" : "");
       break;
     }
   }

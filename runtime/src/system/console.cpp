@@ -247,7 +247,7 @@ ProgressLine::~ProgressLine() {
 void ProgressLine::update(Time now) {
   if (!shown_) return;
   const std::int64_t wall_ns = monotonic_ns();
-  if (start_ns_ < 0) start_ns_ = wall_ns;
+  if (!start_ns_) start_ns_ = wall_ns;
   if (wall_ns < next_ns_) return;
   next_ns_ = wall_ns + progress_period_ns;
   const double passed_s = seconds(now.time_since_epoch());
@@ -255,9 +255,9 @@ void ProgressLine::update(Time now) {
   auto end = fmt::format_to_n(text.data(), text.size(), "{:.1f} s", passed_s).out;
   const auto room = [&] { return static_cast<std::size_t>(text.data() + text.size() - end); };
   if (duration_) end = fmt::format_to_n(end, room(), " of {:g} s", seconds(*duration_)).out;
-  if (wall_ns > start_ns_)
+  if (wall_ns > *start_ns_)
     end = fmt::format_to_n(end, room(), ", {:.1f}x real time",
-                           passed_s * 1e9 / static_cast<double>(wall_ns - start_ns_))
+                           passed_s * 1e9 / static_cast<double>(wall_ns - *start_ns_))
               .out;
   console::progress({text.data(), static_cast<std::size_t>(end - text.data())});
 }

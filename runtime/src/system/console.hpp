@@ -60,7 +60,8 @@ class ProgressLine {
  private:
   bool shown_;
   std::optional<Duration> duration_;
-  std::int64_t start_ns_ = -1, next_ns_ = 0;
+  std::optional<std::int64_t> start_ns_;
+  std::int64_t next_ns_ = 0;
 };
 
 }  // namespace tessera

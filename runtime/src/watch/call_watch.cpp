@@ -51,8 +51,8 @@ void CallWatch::look(Look& last) {
     return;
   }
   if (StopSignals::pending() != 0) {
-    if (last.asked_s < 0) last.asked_s = now;
-    if (now - last.asked_s >= patience_s && now - last.began_s >= patience_s) give_up(last);
+    if (!last.asked_s) last.asked_s = now;
+    if (now - *last.asked_s >= patience_s && now - last.began_s >= patience_s) give_up(last);
   }
   const double lasts = now - last.began_s;
   if (lasts < patience_s || lasts < 2 * last.said_s) return;

@@ -4,6 +4,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -43,7 +44,8 @@ class CallWatch {
  private:
   struct Look {
     std::uint64_t turn = 0;
-    double began_s = 0, said_s = 0, asked_s = -1;
+    double began_s = 0, said_s = 0;
+    std::optional<double> asked_s{};
   };
   void watch();
   void look(Look& last);

@@ -66,10 +66,10 @@ std::string RemoteControl::apply(const commands::StepFiring& /*command*/) {
 }
 
 std::string RemoteControl::apply(const commands::StepIteration& command) {
-  std::uint32_t found = UINT32_MAX;
+  InstanceId found;
   for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance)
-    if (assembly_.executors[instance]->path() == command.subsystem) found = instance;
-  if (!command.subsystem.empty() && found == UINT32_MAX)
+    if (assembly_.executors[instance]->path() == command.subsystem) found = {instance};
+  if (!command.subsystem.empty() && !found.valid())
     return "there is no subsystem '" + command.subsystem + "'";
   paused_ = true;
   to_iteration_ = true;
@@ -117,15 +117,16 @@ bool RemoteControl::find(Breakpoint& breakpoint) const {
     return false;
   };
   const bool is_place = breakpoint.when == Breakpoint::When::marked;
-  for (breakpoint.instance = 0; breakpoint.instance < assembly_.executors.size(); ++breakpoint.instance) {
-    const SubsystemNet& net = *assembly_.system.instances[breakpoint.instance].net;
-    const std::string& owner = assembly_.executors[breakpoint.instance]->path();
+  for (const InstanceId instance : Ids<InstanceId>(assembly_.executors.size())) {
+    breakpoint.instance = instance;
+    const SubsystemNet& net = *assembly_.system.instances[instance.value].net;
+    const std::string& owner = assembly_.executors[instance.value]->path();
     if (is_place ? is_in(net.places, owner) : is_in(net.transitions, owner)) return true;
   }
-  breakpoint.instance = UINT32_MAX;
-  for (breakpoint.channel = 0; is_place && breakpoint.channel < assembly_.system.channels.size();
-       ++breakpoint.channel) {
-    const Channel& channel = assembly_.system.channels[breakpoint.channel];
+  breakpoint.instance = {};
+  for (const ChannelId id : Ids<ChannelId>(is_place ? assembly_.system.channels.size() : 0)) {
+    breakpoint.channel = id;
+    const Channel& channel = assembly_.system.channels[id.value];
     if (is_in(channel.places, channel.name)) return true;
   }
   return false;
@@ -191,10 +192,10 @@ bool RemoteControl::wait_for(Duration time, const StopSignals& signals) {
 
 bool RemoteControl::holds(const Breakpoint& breakpoint) const {
   if (breakpoint.when == Breakpoint::When::enabled)
-    return assembly_.executors[breakpoint.instance]->wants_to_fire(breakpoint.index);
-  if (breakpoint.instance != UINT32_MAX)
-    return assembly_.executors[breakpoint.instance]->holds(breakpoint.index);
-  return (assembly_.channels[breakpoint.channel].marking() >> breakpoint.index & 1U) != 0;
+    return assembly_.executors[breakpoint.instance.value]->wants_to_fire(breakpoint.index);
+  if (breakpoint.instance.valid())
+    return assembly_.executors[breakpoint.instance.value]->holds(breakpoint.index);
+  return (assembly_.channels[breakpoint.channel.value].marking() >> breakpoint.index & 1U) != 0;
 }
 
 void RemoteControl::about_to_fire() {
@@ -212,7 +213,8 @@ void RemoteControl::about_to_fire() {
 void RemoteControl::look_at(Breakpoint& breakpoint, std::uint32_t fired) {
   bool reached = false;
   if (breakpoint.when == Breakpoint::When::fires) {
-    reached = breakpoint.instance == fired && assembly_.executors[fired]->last_fired() == breakpoint.index;
+    reached =
+        breakpoint.instance.value == fired && assembly_.executors[fired]->last_fired() == breakpoint.index;
   } else {
     const bool holds_now = holds(breakpoint);
     reached = holds_now && !breakpoint.held;
@@ -229,7 +231,7 @@ void RemoteControl::look_at(Breakpoint& breakpoint, std::uint32_t fired) {
 void RemoteControl::fired(std::uint32_t instance) {
   const std::lock_guard lock(mutex_);
   if (firings_left_ > 0) --firings_left_;
-  const bool counts = iterating_ == UINT32_MAX || iterating_ == instance;
+  const bool counts = !iterating_.valid() || iterating_.value == instance;
   if (to_iteration_ && !iterations_.empty() && counts &&
       assembly_.executors[instance]->operations().iterations() > iterations_.at(instance))
     to_iteration_ = false;

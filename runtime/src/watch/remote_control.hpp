@@ -9,6 +9,7 @@
 
 #include "assembly/assembly.hpp"
 #include "system/stop_signals.hpp"
+#include "tessera/ids.hpp"
 #include "watch/monitor_protocol.hpp"
 
 namespace tessera {
@@ -55,8 +56,9 @@ class RemoteControl {
   struct Breakpoint {
     enum class When : std::uint8_t { marked, enabled, fires } when;
     std::string name;
-    std::uint32_t instance = UINT32_MAX, channel = UINT32_MAX;  ///< one of them is set
-    std::uint32_t index = 0;                                    ///< place or transition
+    InstanceId instance{};  ///< valid, or
+    ChannelId channel{};
+    std::uint32_t index = 0;           ///< place or transition
     bool known = false, held = false;  ///< marked and enabled breakpoints: the state at the last look
   };
   [[nodiscard]] bool resting() const { return paused_ && firings_left_ == 0 && !to_iteration_; }
@@ -81,7 +83,7 @@ class RemoteControl {
   bool stands_ = false;  ///< the run waits, and all its firings are in its recording
   std::uint64_t firings_left_ = 0;
   bool to_iteration_ = false;              ///< of iterating_, or of any subsystem
-  std::uint32_t iterating_ = UINT32_MAX;   ///< UINT32_MAX: any
+  InstanceId iterating_{};                 ///< none: any
   std::vector<std::uint64_t> iterations_;  ///< at the time of the request; empty: to be filled by the run
   std::vector<Breakpoint> breakpoints_;
   std::string broke_at_;

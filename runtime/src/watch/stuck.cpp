@@ -45,15 +45,15 @@ class Search {
 
  private:
   [[nodiscard]] bool stuck(std::uint32_t instance) const { return lacks_[instance].has_value(); }
-  [[nodiscard]] bool silent(std::uint32_t instance) const {
-    return instance == UINT32_MAX || stuck(instance) || assembly_.control.has_ended(instance);
+  [[nodiscard]] bool silent(InstanceId instance) const {
+    return !instance.valid() || stuck(instance.value) || assembly_.control.has_ended(instance.value);
   }
 
   [[nodiscard]] bool can_be_freed(std::uint32_t instance) {
     return std::ranges::any_of(*lacks_[instance], [&](const Lack& lack) {
       const PortLink& port = ports_of(assembly_, instance)[lack.port];
       if (port.end != nullptr) return true;  // the state of another process is not known here
-      return !silent(port.peer) && (lack.tokens & ~given_by(port.peer, port.channel)) == 0;
+      return !silent(port.peer) && (lack.tokens & ~given_by(port.peer.value, port.channel)) == 0;
     });
   }
 
@@ -88,7 +88,8 @@ std::vector<std::uint32_t> stuck_among_resting(const Assembly& assembly, const s
       if (waiting == SharedChannel::Waiting::no) continue;
       waits = true;
       if (waiting == SharedChannel::Waiting::may_take || port.end != nullptr) return true;
-      if (port.peer != UINT32_MAX && !stuck[port.peer] && !assembly.control.has_ended(port.peer)) return true;
+      if (port.peer.valid() && !stuck[port.peer.value] && !assembly.control.has_ended(port.peer.value))
+        return true;
     }
     return !waits;
   };

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "subsystem/subsystem_executor.hpp"
@@ -28,7 +29,7 @@ class Watchdogs {
     SubsystemExecutor* executor;
     std::uint32_t instance;
     Duration limit;
-    std::int64_t alarmed_ns = -1;  // beginning of the last call that took too long
+    std::optional<std::int64_t> alarmed_ns{};  // beginning of the last call that took too long
   };
   std::vector<Watched> watched_;
   std::function<void(std::uint32_t)> secure_;

@@ -11,12 +11,12 @@
 #include "language/names/code.hpp"
 #include "language/schema/grammar.hpp"
 #include "language/text/outline.hpp"
+#include "tessera/ids.hpp"
 
 /// The names of a specification: what each is, and everywhere that it is used.
 namespace tessera::language {
 
-using SymbolId = std::uint32_t;
-inline constexpr SymbolId no_symbol = UINT32_MAX;
+using SymbolId = Id<struct SymbolTag>;
 
 enum class Kind : std::uint8_t {
   type,
@@ -44,13 +44,13 @@ struct Symbol {
   std::string type;   ///< of data: "float64 m/s"; empty: it has none
   Extent definition;  ///< the name itself
   Extent whole;       ///< with everything that belongs to it
-  SymbolId owner = no_symbol;
+  SymbolId owner{};
   Way way;  ///< of its value
 };
 
 struct Use {
   Extent extent;
-  SymbolId symbol = no_symbol;
+  SymbolId symbol{};
   bool defines = false;
 };
 
@@ -60,7 +60,7 @@ using NamesOf = std::map<std::string, SymbolId, std::less<>>;
 
 /// A subsystem of a definition, with the names that its functions and conditions may use.
 struct UnitNames {
-  SymbolId symbol = no_symbol;
+  SymbolId symbol{};
   SubsystemRole role = SubsystemRole::control;
   std::string name;
   Way way;
@@ -70,7 +70,7 @@ struct UnitNames {
 
 /// An agent described in full, or a template.
 struct DefinitionNames {
-  SymbolId symbol = no_symbol;
+  SymbolId symbol{};
   std::string name;
   std::vector<UnitNames> units;
 };
@@ -80,7 +80,7 @@ class Index {
   /// text: of which `outline` is.
   Index(std::string_view text, const Outline& outline);
 
-  [[nodiscard]] const std::vector<Symbol>& symbols() const { return symbols_; }
+  [[nodiscard]] const Numbered<SymbolId, Symbol>& symbols() const { return symbols_; }
   [[nodiscard]] const Symbol& operator[](SymbolId id) const { return symbols_[id]; }
   /// By position, without duplicates.
   [[nodiscard]] const std::vector<Use>& uses() const { return uses_; }
@@ -110,7 +110,7 @@ class Index {
  private:
   friend class IndexBuilder;
   std::string system_;
-  std::vector<Symbol> symbols_;
+  Numbered<SymbolId, Symbol> symbols_;
   std::vector<Use> uses_;
   std::vector<DefinitionNames> definitions_;
   NamesOf types_, agents_, templates_, models_, parameters_, fleets_;

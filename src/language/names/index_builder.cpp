@@ -13,13 +13,12 @@ class IndexBuilder {
   void build() {
     index_.system_ = root_["system"].text;
     define_types();
-    define_all(root_["parameters"], Kind::parameter, no_symbol, {"parameters"}, "", index_.parameters_);
+    define_all(root_["parameters"], Kind::parameter, {}, {"parameters"}, "", index_.parameters_);
     define_agents("templates", Kind::agent_template, index_.templates_);
     define_agents("agents", Kind::agent, index_.agents_);
-    define_all(root_["models"], Kind::model, no_symbol, {"models"}, "", index_.models_);
+    define_all(root_["models"], Kind::model, {}, {"models"}, "", index_.models_);
     NamesOf processes;
-    define_all(root_["deploy"]["processes"], Kind::process, no_symbol, {"deploy", "processes"}, "",
-               processes);
+    define_all(root_["deploy"]["processes"], Kind::process, {}, {"deploy", "processes"}, "", processes);
     use_types();
     for (DefinitionNames& definition : index_.definitions_)
       for (UnitNames& unit : definition.units) use_in_unit(unit);
@@ -47,7 +46,7 @@ class IndexBuilder {
     symbol.owner = owner;
     symbol.way = std::move(way);
     symbol.way.push_back(entry.key);
-    const auto id = static_cast<SymbolId>(index_.symbols_.size());
+    const SymbolId id = index_.symbols_.next_id();
     if (const auto [same, added] = defined_at_.emplace(entry.extent.begin, id); !added) return same->second;
     index_.symbols_.push_back(std::move(symbol));
     index_.uses_.push_back({index_.symbols_[id].definition, id, true});
@@ -77,7 +76,7 @@ class IndexBuilder {
   void define_types() {
     for (const Entry& type : root_["types"].entries) {
       if (type.key.empty() || index_.types_.contains(type.key)) continue;
-      const SymbolId id = define(Kind::type, type, no_symbol, {"types"}, "");
+      const SymbolId id = define(Kind::type, type, {}, {"types"}, "");
       index_.types_.emplace(type.key, id);
       define_all(*type.value, Kind::field, id, {"types", type.key}, type.key, index_.fields_[id]);
     }
@@ -87,7 +86,7 @@ class IndexBuilder {
     for (const Entry& agent : root_[section].entries) {
       if (agent.key.empty() || names.contains(agent.key)) continue;
       const Node& body = *agent.value;
-      const SymbolId id = define(kind, agent, no_symbol, {section}, "");
+      const SymbolId id = define(kind, agent, {}, {section}, "");
       names.emplace(agent.key, id);
       if (body.find("count") != nullptr) index_.fleets_.emplace(agent.key, id);
       if (const Entry* use = body.find("use")) {

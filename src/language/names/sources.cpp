@@ -44,7 +44,7 @@ class CodeReader {
   [[nodiscard]] bool follows_access() const { return is(at_ - 1, ".") || is(at_ - 1, "->"); }
 
   void add(Extent extent, SymbolId symbol, bool defines = false, bool sure = true) {
-    if (symbol != no_symbol && known_.insert(extent.begin).second)
+    if (symbol.valid() && known_.insert(extent.begin).second)
       found_.push_back({extent, symbol, defines, sure});
   }
 

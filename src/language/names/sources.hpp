@@ -10,7 +10,7 @@ namespace tessera::language {
 
 struct CodeUse {
   Extent extent;
-  SymbolId symbol = no_symbol;
+  SymbolId symbol{};
   bool defines = false;  ///< the definition of a transition function
   bool sure = true;      ///< false: a member of that name, of something whose type only a compiler knows
 };

@@ -94,11 +94,11 @@ std::optional<Explanation> explain(const Document& document, Position position) 
 }
 
 std::vector<Heading> headings(const Document& document) {
-  const std::vector<Symbol>& symbols = document.index().symbols();
-  std::vector<std::vector<SymbolId>> inside(symbols.size());
+  const auto& symbols = document.index().symbols();
+  Numbered<SymbolId, std::vector<SymbolId>> inside(symbols.size());
   std::vector<SymbolId> top;
-  for (SymbolId id = 0; id < symbols.size(); ++id)
-    (symbols[id].owner == no_symbol ? top : inside[symbols[id].owner]).push_back(id);
+  for (const SymbolId id : symbols.ids())
+    (symbols[id].owner.valid() ? inside[symbols[id].owner] : top).push_back(id);
   const auto heading = [&](const auto& self, SymbolId id) -> Heading {
     const Symbol& symbol = symbols[id];
     Heading one{symbol.name,

@@ -18,7 +18,7 @@ std::vector<CodeUse> uses_in(const Index& index, const Source& source) {
 
 /// The name under a cursor.
 struct AtCursor {
-  SymbolId symbol = no_symbol;
+  SymbolId symbol;
   Range range;
   bool defines = false;
 };
@@ -45,7 +45,7 @@ Location definition_of(const Document& document, SymbolId symbol) {
 std::vector<SymbolId> neighbours(const Index& index, SymbolId symbol) {
   const Symbol& own = index[symbol];
   std::vector<SymbolId> all;
-  for (SymbolId id = 0; id < index.symbols().size(); ++id)
+  for (const SymbolId id : index.symbols().ids())
     if (id != symbol && index[id].owner == own.owner && index[id].kind == own.kind) all.push_back(id);
   return all;
 }

@@ -31,7 +31,7 @@ class ServiceCheck {
 
  private:
   /// Agent, service and role.
-  using Name = std::tuple<spec::Index, std::string, std::string>;
+  using Name = std::tuple<spec::AgentId, std::string, std::string>;
 
   void complain(const diagnostics::Span& place, const std::string& text, const std::string& hint) {
     good_ = false;

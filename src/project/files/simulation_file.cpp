@@ -81,13 +81,17 @@ Json json_of(const checks::Check& check) {
   return json;
 }
 
+Json json_of(const checks::Measure& measure) {
+  return {{"number", checks::text_of(measure.number)}, {"unit", measure.unit}};
+}
+
 }  // namespace
 
 DriverRequest request_of(const spec::Model& model, const spec::Driver& driver) {
   DriverRequest request{.path = model.driver_path(driver), .kind = driver.kind, .targets = {}, .options = {}};
   for (const spec::Driver::Target& target : driver.targets) request.targets.push_back(target.name);
   for (const auto& [name, option] : driver.options) request.options.emplace(name, option_of(option));
-  if (driver.real != spec::none)
+  if (driver.real.valid())
     request.type = model.layout_of(model.subsystem(driver.instance).real[driver.real].type);
   return request;
 }
@@ -99,7 +103,7 @@ std::string placements_json(const spec::Simulation& simulation, const fs::path& 
 std::string check_json(const checks::Check& check) { return Json{{"checks", {json_of(check)}}}.dump(); }
 
 std::string measure_json(const checks::Measure& measure) {
-  return Json{{"measures", {{measure.name, checks::text_of(measure.number)}}}}.dump();
+  return Json{{"measures", {{measure.name, json_of(measure)}}}}.dump();
 }
 
 std::string simulation_json(const spec::Model& model, const fs::path& project,
@@ -113,7 +117,7 @@ std::string simulation_json(const spec::Model& model, const fs::path& project,
   for (const spec::WorldCheck& one : model.simulation->checks) json["checks"].push_back(json_of(one.check));
   json["measures"] = Json::object();
   for (const spec::WorldMeasure& one : model.simulation->measures)
-    json["measures"][one.measure.name] = checks::text_of(one.measure.number);
+    json["measures"][one.measure.name] = json_of(one.measure);
   if (picture)
     json["picture"] = {{"world", picture->world.string()},
                        {"track", picture->track.string()},

@@ -31,9 +31,9 @@ class BehaviourReader {
  public:
   BehaviourReader(const std::vector<Entry>& entries, const ConditionScope& scope, Diagnostics& out)
       : entries_(entries), scope_(scope), inputs_(scope.inputs), outputs_(scope.outputs), out_(out) {
-    for (Index i = 0; i < entries_.size(); ++i) {
+    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
       check(entries_[i]);
-      by_name_.emplace(entries_[i].key, i);
+      by_name_.emplace(entries_[i].key, BehaviourId{i});
     }
   }
 
@@ -87,7 +87,7 @@ class BehaviourReader {
 
   void read_next(const Entry* entry, Behaviour& behaviour) {
     if (entry == nullptr) {
-      behaviour.next.push_back({none, {}, behaviour.span});
+      behaviour.next.push_back({{}, {}, behaviour.span});
       return;
     }
     behaviour.next_given = true;
@@ -101,7 +101,7 @@ class BehaviourReader {
   }
 
   void read_step(const Node& node, Span at, Behaviour& behaviour) {
-    Next step{none, {}, at};
+    Next step{{}, {}, at};
     if (node.is_map()) {
       const Section section(node, at, "an entry of 'next'", {"to", "when"}, out_);
       const Entry* to = section.require("to", next_hint);
@@ -130,10 +130,11 @@ class BehaviourReader {
                did_you_mean(text->text, names));
   }
 
-  std::optional<std::vector<Index>> read_buffers(const Entry* entry, const std::vector<Field>& buffers,
-                                                 const std::vector<Field>& others, const std::string& what) {
+  std::optional<std::vector<BufferId>> read_buffers(const Entry* entry, const std::vector<Field>& buffers,
+                                                    const std::vector<Field>& others,
+                                                    const std::string& what) {
     if (entry == nullptr) return std::nullopt;
-    std::vector<Index> listed;
+    std::vector<BufferId> listed;
     for (const Node* item : items_of(*entry->value, entry->span, quoted(entry->key), out_)) {
       const Node* text = text_of(*item, entry->span, "an " + what, out_);
       if (text == nullptr) continue;
@@ -143,7 +144,7 @@ class BehaviourReader {
         unknown_buffer(*text, buffers, others, what);
         continue;
       }
-      const auto index = static_cast<Index>(found - buffers.begin());
+      const BufferId index{static_cast<std::uint32_t>(found - buffers.begin())};
       if (std::find(listed.begin(), listed.end(), index) != listed.end()) {
         out_.error("E107", text->span, what + " " + quoted(text->text) + " is listed twice");
       } else {
@@ -181,7 +182,7 @@ class BehaviourReader {
   const std::vector<Field>& inputs_;
   const std::vector<Field>& outputs_;
   Diagnostics& out_;
-  std::unordered_map<std::string, Index> by_name_;
+  std::unordered_map<std::string, BehaviourId> by_name_;
 };
 
 }  // namespace

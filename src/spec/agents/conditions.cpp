@@ -87,11 +87,11 @@ void read_named(const Entry& condition, Condition& result, const ConditionScope&
   }
 }
 
-std::optional<Index> expression_index(const Condition& condition, std::string_view name) {
-  for (Index i = 0; i < condition.expressions.size(); ++i) {
+ExpressionId expression_named(const Condition& condition, std::string_view name) {
+  for (const ExpressionId i : condition.expressions.ids()) {
     if (condition.expressions[i].name == name) return i;
   }
-  return std::nullopt;
+  return {};
 }
 
 std::vector<std::string> names_of_conditions(const Behaviour& of) {
@@ -145,12 +145,12 @@ When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& sc
     when.kind = *known ? When::Kind::always : When::Kind::never;
   } else if (word == "error") {
     when.kind = When::Kind::error;
-  } else if (const auto terminal = expression_index(of.terminal, word); terminal && !word.empty()) {
+  } else if (const auto terminal = expression_named(of.terminal, word); terminal.valid() && !word.empty()) {
     when.kind = When::Kind::terminal;
-    when.expression = *terminal;
-  } else if (const auto error = expression_index(of.error, word); error && !word.empty()) {
+    when.expression = terminal;
+  } else if (const auto error = expression_named(of.error, word); error.valid() && !word.empty()) {
     when.kind = When::Kind::named_error;
-    when.expression = *error;
+    when.expression = error;
   } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {
     out.error("E101", expression.span, "unknown condition " + quoted(word), hint_for(word, of));
     when.kind = When::Kind::expression;

@@ -64,7 +64,7 @@ void Templates::read(const Entry* section, const SystemScope& around, Model& mod
       const Entry* use = keys.find("use");
       one.alias_of = text_of(*use->value, use->span, "use", out, "name a template");
     } else {
-      one.definition = static_cast<Index>(model.definitions.size());
+      one.definition = model.definitions.next_id();
       model.definitions.push_back(read_definition(entry, true, around, out));
     }
     order_.push_back(entry.key);
@@ -80,7 +80,7 @@ void Templates::resolve_aliases(Diagnostics& out) {
 /// Follows aliases from `name` to a body, and gives that definition to every template on the way.
 void Templates::resolve(const std::string& name, Diagnostics& out) {
   std::vector<std::string> chain;
-  Index definition = none;
+  DefinitionId definition;
   for (std::string at = name;;) {
     Template& one = by_name_.at(at);
     const auto seen = std::find(chain.begin(), chain.end(), at);
@@ -109,7 +109,7 @@ void Templates::resolve(const std::string& name, Diagnostics& out) {
   }
 }
 
-Index Templates::find(const Node& name, Diagnostics& out) {
+DefinitionId Templates::find(const Node& name, Diagnostics& out) {
   const auto found = by_name_.find(name.text);
   if (found != by_name_.end()) {
     found->second.used = true;
@@ -117,7 +117,7 @@ Index Templates::find(const Node& name, Diagnostics& out) {
   }
   one_is_unknown_ = true;
   out.error("E101", name.span, "unknown template " + quoted(name.text), did_you_mean(name.text, order_));
-  return none;
+  return {};
 }
 
 void Templates::complain_about_unused(Diagnostics& out) const {

@@ -16,7 +16,7 @@ class Templates {
   /// Reads the section into model.definitions. section may be null.
   void read(const Entry* section, const SystemScope& around, Model& model, Diagnostics& out);
   /// The definition behind a name, none after an error. Errors: E101 unknown template.
-  [[nodiscard]] Index find(const Node& name, Diagnostics& out);
+  [[nodiscard]] DefinitionId find(const Node& name, Diagnostics& out);
   /// Warnings: W319.
   void complain_about_unused(Diagnostics& out) const;
 
@@ -24,7 +24,7 @@ class Templates {
   struct Template {
     const Entry* entry = nullptr;
     const Node* alias_of = nullptr;
-    Index definition = none;
+    DefinitionId definition{};
     bool used = false;
   };
 

@@ -82,7 +82,7 @@ class DeploymentReader {
       out_.error("E206", domain.value->span,
                  "a DDS domain is a whole number from 0 to " + std::to_string(last_domain));
     else
-      deployment_.domain = static_cast<Index>(*number);
+      deployment_.domain = static_cast<std::uint32_t>(*number);
   }
 
   void read_liveliness(const Entry& liveliness) {
@@ -180,7 +180,7 @@ class DeploymentReader {
     }
     selection.group = lookup_.find_group(std::string(all.substr(0, bracket)), text->span, out_);
     if (selection.group == nullptr) return std::nullopt;
-    if (selection.group->definition == none) {  // complained about already
+    if (!selection.group->definition.valid()) {  // complained about already
       incomplete_ = true;
       return std::nullopt;
     }
@@ -192,12 +192,12 @@ class DeploymentReader {
   void together(const ProcessKey& key, Process process, const std::vector<Selection>& selections) {
     process.name = key.name;
     for (const Selection& selection : selections) {
-      std::vector<Index> agents;
-      const Index first = selection.group->first_agent;
+      std::vector<AgentId> agents;
+      const AgentGroup& group = *selection.group;
       if (selection.whole_fleet())
-        for (Index number = 0; number < selection.group->count; ++number) agents.push_back(first + number);
-      else
-        agents.push_back(first + agent_number(selection.selector, *selection.group, 0));
+        for (std::uint32_t number = 0; number < group.count; ++number) agents.push_back(group.agent(number));
+      else if (const auto number = agent_number(selection.selector, group, 0))
+        agents.push_back(group.agent(*number));
       if (!take(agents, selection.span)) return;
       process.agents.insert(process.agents.end(), agents.begin(), agents.end());
     }
@@ -206,7 +206,7 @@ class DeploymentReader {
 
   void one_per_member(const ProcessKey& key, const Process& common,
                       const std::vector<Selection>& selections) {
-    const Index count = selections.front().group->count;
+    const std::uint32_t count = selections.front().group->count;
     for (const Selection& selection : selections) {
       if (!selection.whole_fleet())
         return out_.error("E307", selection.span,
@@ -220,22 +220,22 @@ class DeploymentReader {
     }
     std::vector<Process> members(count, common);
     for (const Selection& selection : selections) {
-      std::vector<Index> agents;
-      for (Index number = 0; number < count; ++number) {
-        agents.push_back(selection.group->first_agent + number);
+      std::vector<AgentId> agents;
+      for (std::uint32_t number = 0; number < count; ++number) {
+        agents.push_back(selection.group->agent(number));
         members[number].agents.push_back(agents.back());
       }
       if (!take(agents, selection.span)) return;
     }
-    for (Index number = 0; number < count; ++number) {
+    for (std::uint32_t number = 0; number < count; ++number) {
       members[number].name = key.name + "[" + std::to_string(number) + "]";
       deployment_.processes.push_back(std::move(members[number]));
     }
   }
 
   /// false: one of the agents is in a process already.
-  bool take(const std::vector<Index>& agents, Span at) {
-    for (const Index agent : agents) {
+  bool take(const std::vector<AgentId>& agents, Span at) {
+    for (const AgentId agent : agents) {
       const auto [first, added] = taken_.emplace(agent, at.line);
       if (added) continue;
       out_.error("E315", at, "agent " + quoted(model_.agents[agent].path) + " is in a process already",
@@ -250,7 +250,7 @@ class DeploymentReader {
     constexpr std::size_t shown = 5;
     std::string names, example;
     std::size_t missing = 0;
-    for (Index agent = 0; agent < model_.agents.size(); ++agent) {
+    for (const AgentId agent : model_.agents.ids()) {
       if (taken_.contains(agent)) continue;
       const std::string& path = model_.agents[agent].path;
       if (missing++ == 0) example = path.substr(0, path.find('['));
@@ -268,9 +268,10 @@ class DeploymentReader {
   }
 
   void settle() {
-    for (Index process = 0; process < deployment_.processes.size(); ++process) {
+    for (const ProcessId process : deployment_.processes.ids()) {
       std::ranges::sort(deployment_.processes[process].agents);
-      for (const Index agent : deployment_.processes[process].agents) model_.agents[agent].process = process;
+      for (const AgentId agent : deployment_.processes[process].agents)
+        model_.agents[agent].process = process;
     }
     model_.deployment = std::move(deployment_);
   }
@@ -279,7 +280,7 @@ class DeploymentReader {
   void check_models() {
     std::map<std::uint32_t, bool> told;  // per line: a channel of fleets is reported once
     for (const Channel& channel : model_.channels) {
-      if (channel.model == none || !model_.crosses_processes(channel)) continue;
+      if (!channel.model.valid() || !model_.crosses_processes(channel)) continue;
       if (!told.emplace(channel.span.line, true).second) continue;
       out_.error("E316", channel.span,
                  "a channel between processes cannot have the communication model " +
@@ -293,7 +294,7 @@ class DeploymentReader {
   Diagnostics& out_;
   Deployment deployment_;
   std::map<std::string, std::uint32_t> lines_;  ///< name of a process -> its line
-  std::map<Index, std::uint32_t> taken_;        ///< agent -> line of its process
+  std::map<AgentId, std::uint32_t> taken_;      ///< agent -> line of its process
   bool incomplete_ = false;                     ///< an agent that is named could not be read
 };
 

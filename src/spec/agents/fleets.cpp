@@ -13,12 +13,12 @@ namespace {
 
 using diagnostics::quoted;
 
-constexpr Index largest_fleet = 100'000;
+constexpr std::uint32_t largest_fleet = 100'000;
 
-Index read_count(const Entry& entry, Diagnostics& out) {
+std::uint32_t read_count(const Entry& entry, Diagnostics& out) {
   const Node* text = text_of(*entry.value, entry.span, "count", out, "write a number of agents");
   if (text == nullptr) return 1;
-  Index count = 0;
+  std::uint32_t count = 0;
   const char* const end = text->text.data() + text->text.size();
   const auto [stop, error] = std::from_chars(text->text.data(), end, count);
   if (stop == end && error == std::errc() && count >= 1 && count <= largest_fleet && !text->quoted)
@@ -42,14 +42,14 @@ class Builder {
                                   [](const Entry& key) { return key.key == "use"; });
     AgentGroup group;
     group.name = entry.key;
-    group.first_agent = static_cast<Index>(model_.agents.size());
+    group.first_agent = model_.agents.next_id();
     if (uses) {
       read_use(entry, group);
     } else {
-      group.definition = static_cast<Index>(model_.definitions.size());
+      group.definition = model_.definitions.next_id();
       model_.definitions.push_back(read_definition(entry, false, around_, out_));
     }
-    if (group.definition != none) create(group, entry.span);
+    if (group.definition.valid()) create(group, entry.span);
     groups_.emplace(entry.key, group);
   }
 
@@ -76,18 +76,18 @@ class Builder {
   }
 
   void create(const AgentGroup& group, Span span) {
-    const std::size_t subsystems = model_.definitions[group.definition].subsystems.size();
-    const Index fleet = group.fleet ? fleets_++ : none;
-    for (Index number = 0; number < group.count; ++number) {
+    const auto& subsystems = model_.definitions[group.definition].subsystems;
+    const FleetId fleet = group.fleet ? FleetId{fleets_++} : FleetId{};
+    for (std::uint32_t number = 0; number < group.count; ++number) {
       Agent agent;
       agent.path = group.fleet ? group.name + "[" + std::to_string(number) + "]" : group.name;
       agent.definition = group.definition;
       agent.fleet = fleet;
       agent.number = number;
-      agent.first_instance = static_cast<Index>(model_.instances.size());
+      agent.first_instance = model_.instances.next_id();
       agent.span = span;
-      const auto index = static_cast<Index>(model_.agents.size());
-      for (Index i = 0; i < subsystems; ++i) model_.instances.push_back({index, i});
+      for (const DefinedSubsystemId subsystem : subsystems.ids())
+        model_.instances.push_back({model_.agents.next_id(), subsystem});
       model_.agents.push_back(std::move(agent));
     }
   }
@@ -97,7 +97,7 @@ class Builder {
   Diagnostics& out_;
   Templates templates_;
   AgentGroups groups_;
-  Index fleets_ = 0;
+  std::uint32_t fleets_ = 0;
 };
 
 /// Checks names of types, agents and subsystems, which become C++ names that may meet in one scope.

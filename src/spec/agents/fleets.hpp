@@ -13,11 +13,13 @@ namespace tessera::spec {
 /// The agents that one entry of `agents` stands for.
 struct AgentGroup {
   std::string name;
-  Index first_agent = 0;  ///< into Model::agents
-  Index count = 1;
+  AgentId first_agent{0};
+  std::uint32_t count = 1;
   bool fleet = false;       ///< `count` was given, so paths need an index
   bool ring = false;        ///< the first agent follows the last
-  Index definition = none;  ///< none: it could not be read
+  DefinitionId definition;  ///< none: it could not be read
+
+  [[nodiscard]] AgentId agent(std::uint32_t number) const { return {first_agent.value + number}; }
 };
 
 /// Agents by the name under which the file knows them.

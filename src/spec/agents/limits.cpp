@@ -20,7 +20,7 @@ constexpr std::uint64_t most_elements = 256;
 
 /// The number that a path such as "pose.x" leads to, and its value in the safe command.
 struct Target {
-  Index real = none;
+  RealId real{};
   const Type* type = nullptr;
   std::string field;           ///< path inside the buffer: "pose.x"
   const Node* safe = nullptr;  ///< nullptr: not given, which means zero
@@ -65,7 +65,7 @@ class LimitReader {
     const auto found =
         std::find_if(real_.begin(), real_.end(), [&](const Field& one) { return one.name == buffer; });
     if (found == real_.end()) return unknown(entry, "real buffer", buffer, real_);
-    target.real = static_cast<Index>(found - real_.begin());
+    target.real = {static_cast<std::uint32_t>(found - real_.begin())};
     target.type = &found->type;
     if (safe_ != nullptr && safe_->value->is_map()) target.safe = value_of(*safe_->value, buffer);
     for (std::size_t at = buffer.size(); at < path.size();) {

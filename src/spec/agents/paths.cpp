@@ -46,13 +46,14 @@ std::optional<Selector> read_index(std::string_view text) {
   return Selector{Selector::Kind::constant, *number};
 }
 
-Index agent_number(const Selector& selector, const AgentGroup& group, std::int64_t i) {
+std::optional<std::uint32_t> agent_number(const Selector& selector, const AgentGroup& group, std::int64_t i) {
   if (selector.kind == Selector::Kind::plain) return 0;
-  if (selector.kind == Selector::Kind::constant) return static_cast<Index>(selector.number);
+  if (selector.kind == Selector::Kind::constant) return static_cast<std::uint32_t>(selector.number);
   const std::int64_t count = group.count;
   std::int64_t number = selector.kind == Selector::Kind::all ? i : i + selector.number;
   if (group.ring) number = ((number % count) + count) % count;
-  return number < 0 || number >= count ? none : static_cast<Index>(number);
+  if (number < 0 || number >= count) return std::nullopt;
+  return static_cast<std::uint32_t>(number);
 }
 
 namespace {
@@ -153,7 +154,7 @@ bool PathLookup::find(const BufferPath& path, PathTarget& target, KnownUpTo& kno
   target.group = find_group(path.agent, path.agent_span, out);
   if (target.group == nullptr) return false;
   known = KnownUpTo::agent;
-  if (target.group->definition == none) return false;  // complained about already
+  if (!target.group->definition.valid()) return false;  // complained about already
   const auto& subsystems = model_.definitions[target.group->definition].subsystems;
   const auto subsystem = std::find_if(subsystems.begin(), subsystems.end(),
                                       [&path](const Subsystem& one) { return one.name == path.subsystem; });
@@ -165,17 +166,14 @@ bool PathLookup::find(const BufferPath& path, PathTarget& target, KnownUpTo& kno
               did_you_mean(path.subsystem, names));
     return false;
   }
-  target.subsystem = static_cast<Index>(subsystem - subsystems.begin());
+  target.subsystem = {static_cast<std::uint32_t>(subsystem - subsystems.begin())};
   known = KnownUpTo::subsystem;
   return good_index;
 }
 
-Index PathLookup::find_buffer(const BufferPath& path, const PathTarget& target,
-                              const std::vector<Field>& buffers, const std::string& what,
-                              Diagnostics& out) const {
-  const auto found = std::find_if(buffers.begin(), buffers.end(),
-                                  [&path](const Field& one) { return one.name == path.buffer; });
-  if (found != buffers.end()) return static_cast<Index>(found - buffers.begin());
+void PathLookup::complain_about_buffer(const BufferPath& path, const PathTarget& target,
+                                       const std::vector<Field>& buffers, const std::string& what,
+                                       Diagnostics& out) const {
   const Subsystem& owner = subsystem(target);
   struct Other {
     const std::vector<Field>& fields;
@@ -190,21 +188,20 @@ Index PathLookup::find_buffer(const BufferPath& path, const PathTarget& target,
     if (!here) continue;
     out.error("E304", path.buffer_span, quoted(path.buffer) + " is no " + what,
               "it is " + std::string(other.is));
-    return none;
+    return;
   }
   std::vector<std::string> names;
   for (const Field& field : buffers) names.push_back(field.name);
   out.error("E101", path.buffer_span, "unknown " + what + " " + quoted(path.buffer),
             did_you_mean(path.buffer, names));
-  return none;
 }
 
 const Subsystem& PathLookup::subsystem(const PathTarget& target) const {
   return model_.definitions[target.group->definition].subsystems[target.subsystem];
 }
 
-Index PathLookup::instance(const PathTarget& target, Index number) const {
-  return model_.agents[target.group->first_agent + number].first_instance + target.subsystem;
+InstanceId PathLookup::instance(const PathTarget& target, std::uint32_t number) const {
+  return model_.agents[target.group->agent(number)].instance(target.subsystem);
 }
 
 }  // namespace tessera::spec

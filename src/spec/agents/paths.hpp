@@ -26,7 +26,8 @@ inline constexpr const char* index_hint = "an index is a number, i, i+1, i-1 or 
 
 /// The number of the agent that a selector means for i (which `*` counts too); none past the end of a group
 /// that is no ring.
-[[nodiscard]] Index agent_number(const Selector& selector, const AgentGroup& group, std::int64_t i);
+[[nodiscard]] std::optional<std::uint32_t> agent_number(const Selector& selector, const AgentGroup& group,
+                                                        std::int64_t i);
 
 /// A path, split but not looked up.
 struct BufferPath {
@@ -47,7 +48,7 @@ struct BufferPath {
 /// A path whose agent and subsystem exist.
 struct PathTarget {
   const AgentGroup* group = nullptr;
-  Index subsystem = none;  ///< into Definition::subsystems
+  DefinedSubsystemId subsystem;
 };
 
 /// How far a path could be followed before it named something unknown.
@@ -74,19 +75,29 @@ class PathLookup {
   [[nodiscard]] static bool check_index(const Selector& selector, const AgentGroup& group, Span agent_span,
                                         Span index_span, Diagnostics& out);
 
-  /// The buffer's index in `buffers`; none and E101 if it is not there. what: "output", "input", "real
+  /// The buffer's number in `buffers`; none and E101 if it is not there. what: "output", "input", "real
   /// buffer".
-  [[nodiscard]] Index find_buffer(const BufferPath& path, const PathTarget& target,
-                                  const std::vector<Field>& buffers, const std::string& what,
-                                  Diagnostics& out) const;
+  template <class Id>
+  [[nodiscard]] Id find_buffer(const BufferPath& path, const PathTarget& target,
+                               const Numbered<Id, Field>& buffers, const std::string& what,
+                               Diagnostics& out) const {
+    for (const Id id : buffers.ids())
+      if (buffers[id].name == path.buffer) return id;
+    complain_about_buffer(path, target, buffers, what, out);
+    return {};
+  }
 
   [[nodiscard]] const Subsystem& subsystem(const PathTarget& target) const;
   /// The instance of the target in agent `number` of its group.
-  [[nodiscard]] Index instance(const PathTarget& target, Index number) const;
+  [[nodiscard]] InstanceId instance(const PathTarget& target, std::uint32_t number) const;
   [[nodiscard]] const Model& model() const { return model_; }
   [[nodiscard]] const AgentGroups& groups() const { return groups_; }
 
  private:
+  void complain_about_buffer(const BufferPath& path, const PathTarget& target,
+                             const std::vector<Field>& buffers, const std::string& what,
+                             Diagnostics& out) const;
+
   const Model& model_;
   const AgentGroups& groups_;
   std::vector<std::string> names_;  ///< of the groups, sorted, to guess from

@@ -62,16 +62,16 @@ std::vector<std::string> read_safe(const Entry* entry, const std::vector<Field>&
   return safe;
 }
 
-Index read_start(const Entry* entry, const std::vector<Behaviour>& behaviours, Diagnostics& out) {
-  if (entry == nullptr) return 0;
+BehaviourId read_start(const Entry* entry, const std::vector<Behaviour>& behaviours, Diagnostics& out) {
+  if (entry == nullptr) return {0};
   const Node* text = text_of(*entry->value, entry->span, "start", out, "name a behaviour");
-  if (text == nullptr) return 0;
+  if (text == nullptr) return {0};
   std::vector<std::string> names;
   for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
   const auto found = std::find(names.begin(), names.end(), text->text);
-  if (found != names.end()) return static_cast<Index>(found - names.begin());
+  if (found != names.end()) return {static_cast<std::uint32_t>(found - names.begin())};
   out.error("E101", text->span, "unknown behaviour " + quoted(text->text), did_you_mean(text->text, names));
-  return 0;
+  return {0};
 }
 
 void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parameter>& system,

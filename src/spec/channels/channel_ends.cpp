@@ -7,7 +7,7 @@ namespace {
 
 using Kind = Selector::Kind;
 
-Index number_at(const WrittenEnd& end, std::int64_t i) {
+std::optional<std::uint32_t> number_at(const WrittenEnd& end, std::int64_t i) {
   return agent_number(end.path.selector, *end.target.group, i);
 }
 
@@ -41,13 +41,13 @@ bool expand_channel(const WrittenEnd& from, const WrittenEnd& to, ChannelExpansi
                                           : 1;
   std::vector<bool> fed(to.target.group->count, false);
   for (std::int64_t i = 0; i < count; ++i) {
-    const Index source = number_at(from, i);
-    const Index target = number_at(to, i);
-    if (source == none || target == none) continue;
-    into.pairs.emplace_back(source, target);
-    fed[target] = true;
+    const auto source = number_at(from, i);
+    const auto target = number_at(to, i);
+    if (!source || !target) continue;
+    into.pairs.emplace_back(*source, *target);
+    fed[*target] = true;
   }
-  for (Index target = 0; target < fed.size(); ++target) {
+  for (std::uint32_t target = 0; target < fed.size(); ++target) {
     const bool meant = ranges(to) || target == number_at(to, 0);
     if (meant && !fed[target]) into.dropped.push_back(target);
   }

@@ -11,13 +11,13 @@ namespace tessera::spec {
 struct WrittenEnd {
   BufferPath path;
   PathTarget target;
-  Index buffer = none;
+  BufferId buffer;
 };
 
 /// The agents that a channel joins: (number of the one it comes from, number of the one it leads to).
 struct ChannelExpansion {
-  std::vector<std::pair<Index, Index>> pairs;
-  std::vector<Index> dropped;  ///< numbers of the agents that would receive if the fleet did not end
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  std::vector<std::uint32_t> dropped;  ///< numbers of the agents that would receive if the fleet did not end
 };
 
 /// Errors: E307 `*` at both ends or beside i; i over fleets of different sizes.

@@ -116,7 +116,7 @@ class ChannelReader {
     const Node* name = text_of(*entry.value, entry.span, "'model'", out_, "the name of an entry of 'models'");
     if (name == nullptr) return;
     channel.model = models_.find(*name, out_);
-    if (channel.model != none) read_timeouts_of_model(section, *name, channel);
+    if (channel.model.valid()) read_timeouts_of_model(section, *name, channel);
   }
 
   /// Reads a timeout for every side that has a transition for it, and for no other.
@@ -182,9 +182,9 @@ class ChannelReader {
     const bool good = lookup_.find(*path, target, known, out_);
     if (known != KnownUpTo::subsystem) return std::nullopt;
     const Subsystem& subsystem = lookup_.subsystem(target);
-    const Index buffer = lookup_.find_buffer(*path, target, is_output ? subsystem.outputs : subsystem.inputs,
-                                             is_output ? "output" : "input", out_);
-    if (!good || buffer == none) return std::nullopt;
+    const auto buffer = lookup_.find_buffer(*path, target, is_output ? subsystem.outputs : subsystem.inputs,
+                                            is_output ? "output" : "input", out_);
+    if (!good || !buffer.valid()) return std::nullopt;
     return WrittenEnd{*path, target, buffer};
   }
 
@@ -195,9 +195,10 @@ class ChannelReader {
       excuses_.everything = true;
       return;
     }
-    for (Index number = 0; number < target.group->count && target.group->definition != none; ++number) {
+    if (!target.group->definition.valid()) return;
+    for (std::uint32_t number = 0; number < target.group->count; ++number) {
       if (known == KnownUpTo::agent) {
-        excuses_.agents.insert(target.group->first_agent + number);
+        excuses_.agents.insert(target.group->agent(number));
       } else if (to) {
         excuses_.inputs.emplace(lookup_.instance(target, number), to->buffer);
       } else {
@@ -220,7 +221,7 @@ class ChannelReader {
       return;
     }
     check_types(*from, *to);
-    for (const Index number : expansion.dropped)
+    for (const std::uint32_t number : expansion.dropped)
       excuses_.inputs.emplace(lookup_.instance(to->target, number), to->buffer);
     for (const auto& [source, target] : expansion.pairs) {
       Channel one = channel;
@@ -247,7 +248,7 @@ class ChannelReader {
   /// Returns false if the rest of the statement need not be checked.
   bool add(const Channel& channel, const BufferPath& to) {
     const auto key = std::pair(channel.to.instance, channel.to.buffer);
-    const auto [source, added] = sources_.emplace(key, static_cast<Index>(model_.channels.size()));
+    const auto [source, added] = sources_.emplace(key, model_.channels.next_id());
     if (!added) {
       const Channel& first = model_.channels[source->second];
       const std::string name = model_.instance_path(channel.to.instance) + "." + to.buffer;
@@ -287,7 +288,7 @@ class ChannelReader {
   Model& model_;
   Diagnostics& out_;
   WiringExcuses excuses_;
-  std::map<std::pair<Index, Index>, Index> sources_;  ///< (instance, input) -> channel
+  std::map<std::pair<InstanceId, BufferId>, ChannelId> sources_;  ///< by the input
 };
 
 }  // namespace

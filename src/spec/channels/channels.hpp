@@ -13,12 +13,12 @@ namespace tessera::spec {
 
 /// The facts that the checks of the wiring need besides the channels themselves.
 struct WiringExcuses {
-  std::set<std::pair<Index, Index>> inputs;  ///< (instance, input) left without a source by the end of a
-                                             ///< fleet, or by a channel with a mistake in it
-  std::set<Index> instances;                 ///< a channel with a mistake leads to some input of it
-  std::set<Index> agents;                    ///< a channel with a mistake leads to some subsystem of it
-  bool everything = false;                   ///< a channel with a mistake has unknown ends
-  bool outputs = false;                      ///< a channel with a mistake begins somewhere
+  std::set<std::pair<InstanceId, BufferId>> inputs;  ///< left without a source by the end of a
+                                                     ///< fleet, or by a channel with a mistake in it
+  std::set<InstanceId> instances;                    ///< a channel with a mistake leads to some input of it
+  std::set<AgentId> agents;  ///< a channel with a mistake leads to some subsystem of it
+  bool everything = false;   ///< a channel with a mistake has unknown ends
+  bool outputs = false;      ///< a channel with a mistake begins somewhere
 };
 
 /// Reads `channels` into model.channels, fleets expanded. entry may be null.

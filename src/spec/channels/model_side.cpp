@@ -37,12 +37,12 @@ class ModelSideReader {
   // ------------------------------------------------------------------------------------------- places
 
   void read_places(const Entry& section) {
-    side_.places = {{"in", ModelSide::no_slot, section.span}, {"out", ModelSide::no_slot, section.span}};
+    side_.places = {{"in", {}, section.span}, {"out", {}, section.span}};
     std::vector<bool> seen(2, false);
     for (const Entry& entry : entries_of(*section.value, section.span, "places", out_)) {
       if (entry.key == "in" || entry.key == "out") {
         seen[entry.key == "in" ? ModelSide::in : ModelSide::out] = true;
-        if (read_operation(entry) != ModelSide::no_slot)
+        if (read_operation(entry))
           out_.error("E120", entry.span, quoted(entry.key) + " has no operation",
                      "write and read in a place between 'in' and 'out'");
         continue;
@@ -60,7 +60,7 @@ class ModelSideReader {
                        quoted(side_.places[place].name),
                    "every side begins in 'in' and ends in 'out'");
     const bool works = std::ranges::any_of(
-        side_.places, [](const ModelSide::Place& place) { return place.slot != ModelSide::no_slot; });
+        side_.places, [](const ModelSide::Place& place) { return place.slot.has_value(); });
     if (!works && !misplaced_)
       out_.error("E103", section.span,
                  "no place of " + quoted(entry_.key) + " of model " + quoted(around_.name) + " has " +
@@ -68,8 +68,8 @@ class ModelSideReader {
                  sends_ ? "write work: { write: 1 }" : "write work: { read: 1 }");
   }
 
-  /// The slot that the operation of a place uses.
-  std::uint32_t read_operation(const Entry& entry) {
+  /// The slot that the operation of a place uses, if it has one.
+  std::optional<std::uint32_t> read_operation(const Entry& entry) {
     const Section place(*entry.value, entry.span, "a place", {"write", "read"}, out_);
     const std::string_view own = sends_ ? "write" : "read", other = sends_ ? "read" : "write";
     if (const Entry* wrong = place.find(other)) {
@@ -78,11 +78,11 @@ class ModelSideReader {
                  "places of 'send' write, places of 'receive' read");
     }
     const Entry* operation = place.find(own);
-    if (operation == nullptr) return ModelSide::no_slot;
+    if (operation == nullptr) return std::nullopt;
     misplaced_ = true;
     const Node* text =
         text_of(*operation->value, operation->span, quoted(operation->key), out_, "the slot, from 1");
-    if (text == nullptr) return ModelSide::no_slot;
+    if (text == nullptr) return std::nullopt;
     std::uint32_t slot = 0;
     const char* end = text->text.data() + text->text.size();
     const auto [at, error] = std::from_chars(text->text.data(), end, slot);
@@ -90,7 +90,7 @@ class ModelSideReader {
     out_.error("E121", text->span, "model " + quoted(around_.name) + " has no slot " + quoted(text->text),
                around_.slots == 1 ? "it has slot 1; 'slots: 2' gives it another"
                                   : "its slots are 1 to " + std::to_string(around_.slots));
-    return ModelSide::no_slot;
+    return std::nullopt;
   }
 
   // ------------------------------------------------------------------------------------------- transitions
@@ -136,20 +136,20 @@ class ModelSideReader {
     for (const Node* name : names) {
       const Node* text = text_of(*name, entry.span, "a place", out_, transition_hint);
       if (text == nullptr) return false;
-      if (const std::uint32_t place = place_named(text->text); place != none) {
-        own = place;
+      if (const auto place = place_named(text->text)) {
+        own = *place;
         ++count;
         continue;
       }
-      const std::uint32_t place = shared_named(text->text);
-      if (place == none) {
+      const auto place = shared_named(text->text);
+      if (!place) {
         complain_about(*text);
         good = false;
-      } else if (std::ranges::find(shared, place) != shared.end()) {
+      } else if (std::ranges::find(shared, *place) != shared.end()) {
         out_.error("E107", text->span,
                    "two arcs join " + quoted(text->text) + " and " + quoted(transition.name));
       } else {
-        shared.push_back(place);
+        shared.push_back(*place);
       }
     }
     if (good && count != 1)
@@ -161,13 +161,15 @@ class ModelSideReader {
     return good && count == 1;
   }
 
-  [[nodiscard]] std::uint32_t place_named(const std::string& name) const {
+  [[nodiscard]] std::optional<std::uint32_t> place_named(const std::string& name) const {
     const auto found = std::ranges::find(side_.places, name, &ModelSide::Place::name);
-    return found == side_.places.end() ? none : static_cast<std::uint32_t>(found - side_.places.begin());
+    if (found == side_.places.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - side_.places.begin());
   }
-  [[nodiscard]] std::uint32_t shared_named(const std::string& name) const {
+  [[nodiscard]] std::optional<std::uint32_t> shared_named(const std::string& name) const {
     const auto found = std::ranges::find(around_.shared, name, &SharedPlace::name);
-    return found == around_.shared.end() ? none : static_cast<std::uint32_t>(found - around_.shared.begin());
+    if (found == around_.shared.end()) return std::nullopt;
+    return static_cast<std::uint32_t>(found - around_.shared.begin());
   }
 
   void complain_about(const Node& text) {

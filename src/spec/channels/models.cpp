@@ -111,16 +111,16 @@ void CommunicationModels::read(const Entry* section, Model& model, Diagnostics& 
     CommunicationModel read = read_model(entry, out);
     known_.push_back({entry.key});
     if (out.error_count() != before) continue;
-    known_.back().index = static_cast<Index>(model.models.size());
+    known_.back().id = model.models.next_id();
     model.models.push_back(std::move(read));
   }
 }
 
-Index CommunicationModels::find(const Node& name, Diagnostics& out) {
+CommunicationModelId CommunicationModels::find(const Node& name, Diagnostics& out) {
   const auto found = std::ranges::find(known_, name.text, &Known::name);
   if (found != known_.end()) {
     found->used = true;
-    return found->index;
+    return found->id;
   }
   one_is_unknown_ = true;
   std::vector<std::string> names;
@@ -130,14 +130,14 @@ Index CommunicationModels::find(const Node& name, Diagnostics& out) {
             hint.empty()
                 ? "models of your own stand under 'models'; the others are chosen by send and receive"
                 : hint);
-  return none;
+  return {};
 }
 
 void CommunicationModels::complain_about_unused(const Model& model, Diagnostics& out) const {
   if (one_is_unknown_) return;
   for (const Known& one : known_)
-    if (!one.used && one.index != none)
-      out.warning("W321", model.models[one.index].span, "no channel uses model " + quoted(one.name));
+    if (!one.used && one.id.valid())
+      out.warning("W321", model.models[one.id].span, "no channel uses model " + quoted(one.name));
 }
 
 }  // namespace tessera::spec

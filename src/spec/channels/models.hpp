@@ -18,14 +18,14 @@ class CommunicationModels {
   void read(const Entry* section, Model& model, Diagnostics& out);
 
   /// The model with that name; none after an error, here or in the model. Errors: E101.
-  [[nodiscard]] Index find(const Node& name, Diagnostics& out);
+  [[nodiscard]] CommunicationModelId find(const Node& name, Diagnostics& out);
   /// Warnings: W321.
   void complain_about_unused(const Model& model, Diagnostics& out) const;
 
  private:
   struct Known {
     std::string name;
-    Index index = none;  ///< none: the model has mistakes
+    CommunicationModelId id{};  ///< none: the model has mistakes
     bool used = false;
   };
   std::vector<Known> known_;

@@ -10,14 +10,13 @@ namespace tessera::spec {
 namespace {
 
 using diagnostics::quoted;
-using Indices = std::vector<Index>;
 
 /// Instances that share a complaint about one line of the file.
 struct Shared {
-  Index first = none;
+  InstanceId first;
   std::size_t count = 0;
 
-  void add(Index instance) {
+  void add(InstanceId instance) {
     if (count++ == 0) first = instance;
   }
 };
@@ -28,7 +27,7 @@ std::string others(const Shared& shared) {
          ")";
 }
 
-bool is_listed(const std::optional<Indices>& list, Index buffer) {
+bool is_listed(const std::optional<std::vector<BufferId>>& list, BufferId buffer) {
   return !list || std::find(list->begin(), list->end(), buffer) != list->end();
 }
 
@@ -40,14 +39,14 @@ class WiringCheck {
         out_(out),
         in_(model.instances.size()),
         out_of_(model.instances.size()) {
-    for (Index i = 0; i < model.channels.size(); ++i) {
+    for (const ChannelId i : model.channels.ids()) {
       in_[model.channels[i].to.instance].push_back(i);
       out_of_[model.channels[i].from.instance].push_back(i);
     }
   }
 
   void run() {
-    for (Index instance = 0; instance < model_.instances.size(); ++instance) {
+    for (const InstanceId instance : model_.instances.ids()) {
       find_unfed(instance);
       find_unread(instance);
       find_standstill(instance);
@@ -59,28 +58,28 @@ class WiringCheck {
   }
 
  private:
-  [[nodiscard]] bool is_excused(Index instance, Index input) const {
+  [[nodiscard]] bool is_excused(InstanceId instance, BufferId input) const {
     return excuses_.everything || excuses_.instances.contains(instance) ||
            excuses_.inputs.contains({instance, input}) ||
            excuses_.agents.contains(model_.instances[instance].agent);
   }
 
-  void find_unfed(Index instance) {
+  void find_unfed(InstanceId instance) {
     const Subsystem& subsystem = model_.subsystem(instance);
-    for (Index input = 0; input < subsystem.inputs.size(); ++input) {
-      const bool fed = std::any_of(in_[instance].begin(), in_[instance].end(), [&](Index channel) {
+    for (const BufferId input : subsystem.inputs.ids()) {
+      const bool fed = std::any_of(in_[instance].begin(), in_[instance].end(), [&](ChannelId channel) {
         return model_.channels[channel].to.buffer == input;
       });
       if (!fed && !is_excused(instance, input)) unfed_[&subsystem.inputs[input]].add(instance);
     }
   }
 
-  void find_unread(Index instance) {
+  void find_unread(InstanceId instance) {
     const Subsystem& subsystem = model_.subsystem(instance);
-    for (Index output = 0; output < subsystem.outputs.size(); ++output) {
-      const bool read = std::any_of(out_of_[instance].begin(), out_of_[instance].end(), [&](Index channel) {
-        return model_.channels[channel].from.buffer == output;
-      });
+    for (const BufferId output : subsystem.outputs.ids()) {
+      const bool read =
+          std::any_of(out_of_[instance].begin(), out_of_[instance].end(),
+                      [&](ChannelId channel) { return model_.channels[channel].from.buffer == output; });
       // If a neighbour of some agent reads the output, it need not be read at the end of the fleet.
       auto& entry = outputs_[&subsystem.outputs[output]];
       entry.second = entry.second || read;
@@ -88,23 +87,23 @@ class WiringCheck {
     }
   }
 
-  void find_standstill(Index instance) {
+  void find_standstill(InstanceId instance) {
     const Subsystem& subsystem = model_.subsystem(instance);
     if (subsystem.period) return;
-    std::vector<bool> waits;
+    Numbered<BehaviourId, bool> waits;
     for (const Behaviour& behaviour : subsystem.behaviours) waits.push_back(can_wait(behaviour, instance));
-    for (const Index behaviour : timeless_cycles(subsystem, waits)) {
+    for (const BehaviourId behaviour : timeless_cycles(subsystem, waits)) {
       standstill_[&subsystem.behaviours[behaviour]].add(instance);
     }
   }
 
   /// Whether an iteration takes time: declared time, or waiting for the other side of a channel.
-  [[nodiscard]] bool can_wait(const Behaviour& behaviour, Index instance) const {
-    const auto receives = [&](Index i) {
+  [[nodiscard]] bool can_wait(const Behaviour& behaviour, InstanceId instance) const {
+    const auto receives = [&](ChannelId i) {
       const Channel& channel = model_.channels[i];
       return model_.receiver_waits(channel) && is_listed(behaviour.receive, channel.to.buffer);
     };
-    const auto sends = [&](Index i) {
+    const auto sends = [&](ChannelId i) {
       const Channel& channel = model_.channels[i];
       return model_.sender_waits(channel) && is_listed(behaviour.send, channel.from.buffer);
     };
@@ -153,10 +152,10 @@ class WiringCheck {
     }
   }
 
-  void check_lists(const std::vector<Field>& buffers, const Subsystem& subsystem,
-                   std::optional<Indices> Behaviour::*list, const std::string& what,
+  void check_lists(const Numbered<BufferId, Field>& buffers, const Subsystem& subsystem,
+                   std::optional<std::vector<BufferId>> Behaviour::*list, const std::string& what,
                    const std::string& verb) {
-    for (Index buffer = 0; buffer < buffers.size(); ++buffer) {
+    for (const BufferId buffer : buffers.ids()) {
       const bool used = std::any_of(subsystem.behaviours.begin(), subsystem.behaviours.end(),
                                     [&](const Behaviour& one) { return is_listed(one.*list, buffer); });
       if (used) continue;
@@ -170,7 +169,7 @@ class WiringCheck {
   const Model& model_;
   const WiringExcuses& excuses_;
   Diagnostics& out_;
-  std::vector<Indices> in_, out_of_;  ///< channels by instance
+  Numbered<InstanceId, std::vector<ChannelId>> in_, out_of_;
   std::map<const Field*, Shared> unfed_;
   std::map<const Field*, std::pair<Shared, bool>> outputs_;
   std::map<const Behaviour*, Shared> standstill_;

@@ -47,17 +47,18 @@ std::vector<std::string> names_of(const std::vector<Named>& all) {
 }
 
 template <class Named>
-Index index_of(const std::vector<Named>& all, std::string_view name) {
+std::optional<std::uint32_t> index_of(const std::vector<Named>& all, std::string_view name) {
   const auto found = std::find_if(all.begin(), all.end(), [&](const Named& one) { return one.name == name; });
-  return found == all.end() ? none : static_cast<Index>(found - all.begin());
+  if (found == all.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - all.begin());
 }
 
 /// A name that the compiler may know although the specification does not: a macro, a type, a name of C.
 bool may_be_of_cpp(std::string_view word, const Types& types) {
   const bool is_loud = std::ranges::none_of(word, [](char c) { return c >= 'a' && c <= 'z'; });
   return is_loud || word.ends_with("_t") || word.starts_with("_") || is_keyword(word) || is_macro(word) ||
-         is_global_name(word) || index_of(types.structures(), word) != none || word == "std" ||
-         word == "tessera" || word.starts_with("tessera_") || word == "override" || word == "final" ||
+         is_global_name(word) || index_of(types.structures(), word) || word == "std" || word == "tessera" ||
+         word.starts_with("tessera_") || word == "override" || word == "final" ||
          std::ranges::any_of(word, [](char c) { return static_cast<unsigned char>(c) > 127; });
 }
 
@@ -118,12 +119,12 @@ void ConditionNames::read_word(std::size_t at) {
                        !(next.is("<") && is_template(at + 1)) &&
                        (at == 0 || !(tokens_[at - 1].is("<") && next.is(">")));
   if (word.text == "elapsed" && !next.is("(") && !next.is("::")) {
-    refer(Reference::Kind::elapsed, "elapsed", none, word);
+    refer(Reference::Kind::elapsed, "elapsed", std::nullopt, word);
     Value value;
     value.kind = Is::duration;
     chains_[at] = read_members(at, at + 1, value, "elapsed", nullptr);
   } else if (word.text == "index" && !next.is("(") && !next.is("::")) {
-    refer(Reference::Kind::index, "index", none, word);
+    refer(Reference::Kind::index, "index", std::nullopt, word);
     Value value;
     value.kind = Is::number;
     value.begin = word.position;
@@ -187,7 +188,7 @@ std::string ConditionNames::hint_for_word(std::string_view word) const {
 
 /// "memory.count" for "count"; "" if nothing has that name.
 std::string ConditionNames::other_home(std::string_view name) const {
-  const auto is_in = [&](const auto& all) { return index_of(all, name) != none; };
+  const auto is_in = [&](const auto& all) { return index_of(all, name).has_value(); };
   const std::string own(name);
   const bool reads_real = scope_.kind == SubsystemKind::receptor;
   if (is_in(scope_.inputs)) return "in." + own;
@@ -207,13 +208,13 @@ void ConditionNames::read_root(std::size_t at) {
   const std::string path = std::string(tokens_[at].text) + "." + std::string(name.text);
   std::vector<std::string> known;
   const auto try_all = [&](const auto& all, Reference::Kind kind, const std::vector<Status>* statuses) {
-    const Index found = index_of(all, name.text);
-    if (found == none) {
+    const auto found = index_of(all, name.text);
+    if (!found) {
       for (std::string& one : names_of(all)) known.push_back(std::move(one));
       return false;
     }
     refer(kind, path, found, name);
-    chains_[at] = read_members(at, at + 3, value_of(all[found].type), path, statuses);
+    chains_[at] = read_members(at, at + 3, value_of(all[*found].type), path, statuses);
     return true;
   };
   std::string what;
@@ -299,12 +300,12 @@ bool ConditionNames::read_member(std::size_t at, Value& value, std::string& path
                                  const std::vector<Status>*& statuses) {
   const Token& member = tokens_[at];
   if (value.kind == Is::structure) {
-    const Index structure = value.type.structure;
+    const StructureId structure = value.type.structure;
     const Structure& shape = scope_.types.structures()[structure];
-    if (const Index field = index_of(shape.fields, member.text); field != none) {
+    if (const auto field = index_of(shape.fields, member.text)) {
       path += "." + std::string(member.text);
       refer(Reference::Kind::field, path, field, member, structure);
-      value = value_of(shape.fields[field].type);
+      value = value_of(shape.fields[*field].type);
       statuses = nullptr;
       return true;
     }
@@ -314,7 +315,7 @@ bool ConditionNames::read_member(std::size_t at, Value& value, std::string& path
                                      [&](const Status& one) { return one.first == member.text; });
     if (status != statuses->end()) {
       path += "." + std::string(member.text);
-      refer(Reference::Kind::status, path, none, member);
+      refer(Reference::Kind::status, path, std::nullopt, member);
       value = Value{};
       value.kind = status->second;
       statuses = nullptr;
@@ -392,8 +393,8 @@ std::size_t ConditionNames::skip_chain(std::size_t at) const {
   }
 }
 
-void ConditionNames::refer(Reference::Kind kind, std::string path, Index target, const Token& at,
-                           Index structure) {
+void ConditionNames::refer(Reference::Kind kind, std::string path, std::optional<std::uint32_t> target,
+                           const Token& at, StructureId structure) {
   references_.push_back({kind, std::move(path), target, structure, span_of(at)});
 }
 

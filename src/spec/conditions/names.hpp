@@ -60,7 +60,8 @@ class ConditionNames {
   [[nodiscard]] bool holds_real(bool in) const;
 
   [[nodiscard]] Value value_of(const Type& type) const;
-  void refer(Reference::Kind kind, std::string path, Index target, const Token& at, Index structure = none);
+  void refer(Reference::Kind kind, std::string path, std::optional<std::uint32_t> target, const Token& at,
+             StructureId structure = {});
   [[nodiscard]] Span span_of(const Token& token) const {
     return positions_.part(token.position, token.text.size());
   }

@@ -38,7 +38,7 @@ template <class IsSuch>
 bool consists_of(const Type& type, const Model& model, IsSuch is_such) {
   if (type.kind == Type::Kind::scalar) return is_such(type.scalar);
   if (type.kind != Type::Kind::structure) return false;
-  if (type.structure >= model.structures.size()) return true;  // unknown, which is said elsewhere
+  if (!model.structures.has(type.structure)) return true;  // unknown, which is said elsewhere
   return std::ranges::all_of(model.structures[type.structure].fields, [&](const Field& field) {
     // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
     const bool cycle = field.type.kind == Type::Kind::structure && field.type.structure >= type.structure;

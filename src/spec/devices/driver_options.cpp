@@ -87,7 +87,7 @@ std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& o
   return option;
 }
 
-std::string with_agent_number(std::string text, Index number) {
+std::string with_agent_number(std::string text, std::uint32_t number) {
   constexpr std::string_view mark = "{i}";
   for (std::size_t at = text.find(mark); at != std::string::npos; at = text.find(mark, at))
     text.replace(at, mark.size(), std::to_string(number));

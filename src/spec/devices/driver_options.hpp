@@ -21,6 +21,6 @@ namespace tessera::spec {
 [[nodiscard]] std::optional<DriverOption> read_world_option(const Entry& entry, Diagnostics& out);
 
 /// `text` with every {i} replaced by the number.
-[[nodiscard]] std::string with_agent_number(std::string text, Index number);
+[[nodiscard]] std::string with_agent_number(std::string text, std::uint32_t number);
 
 }  // namespace tessera::spec

@@ -68,9 +68,9 @@ class DriverReader {
     const Subsystem& subsystem = lookup_.subsystem(target);
     if (!path.buffer.empty()) {
       driver.real = lookup_.find_buffer(path, target, subsystem.real, "real buffer", out_);
-      return driver.real != none;
+      return driver.real.valid();
     }
-    driver.real = none;
+    driver.real = {};
     if (!subsystem.real.empty()) return true;
     out_.error("E210", driver.span,
                quoted(path.subsystem) + " has no real buffers that a driver could serve");
@@ -169,9 +169,9 @@ class DriverReader {
                 (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
     } else if (devices_ == Devices::simulated && kind.is_topic()) {
       problem = "driver " + quoted(kind.name) + " belongs to the real robot";
-    } else if ((kind.simulated_only || kind.is_topic() || kind.is_panel()) && driver.real == none) {
+    } else if ((kind.simulated_only || kind.is_topic() || kind.is_panel()) && !driver.real.valid()) {
       problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
-    } else if (driver.real != none &&
+    } else if (driver.real.valid() &&
                !has_values_of(kind, subsystem.real[driver.real].type, lookup_.model())) {
       problem = "driver " + quoted(kind.name) + " needs " + std::string(description_of(kind.values));
     } else {
@@ -187,7 +187,7 @@ class DriverReader {
     if (!kind.is_topic()) return "";
     if (devices_ == Devices::simulated)
       return "move it to drivers: beside agents:; `tessera simulate --hardware` opens it in a simulated run";
-    return driver.real == none ? "name a real buffer, and give it a structure" : "";
+    return driver.real.valid() ? "" : "name a real buffer, and give it a structure";
   }
 
   void add(const BufferPath& path, const PathTarget& target, const Driver& driver) {
@@ -197,9 +197,10 @@ class DriverReader {
       return;
     }
     const bool all = path.selector.kind == Kind::all;
-    const Index first = path.selector.kind == Kind::constant ? static_cast<Index>(path.selector.number) : 0;
-    const Index last = all ? target.group->count : first + 1;
-    for (Index number = first; number < last; ++number) {
+    const std::uint32_t first =
+        path.selector.kind == Kind::constant ? static_cast<std::uint32_t>(path.selector.number) : 0;
+    const std::uint32_t last = all ? target.group->count : first + 1;
+    for (std::uint32_t number = first; number < last; ++number) {
       Driver one = driver;
       one.instance = lookup_.instance(target, number);
       if (target.group->fleet) put_number(one, number);
@@ -208,7 +209,7 @@ class DriverReader {
     }
   }
 
-  static void put_number(Driver& driver, Index number) {
+  static void put_number(Driver& driver, std::uint32_t number) {
     for (Driver::Target& target : driver.targets) target.name = with_agent_number(target.name, number);
     const auto put = [&](DriverOption& option) {
       if (auto* const text = std::get_if<std::string>(&option.value))
@@ -222,10 +223,9 @@ class DriverReader {
 
   /// Each real buffer has one driver: one of its own, or that of the whole subsystem.
   bool is_first(const Driver& driver) {
-    const std::vector<Field>& real = lookup_.model().subsystem(driver.instance).real;
-    const Index first = driver.real == none ? 0 : driver.real;
-    const Index end = driver.real == none ? static_cast<Index>(real.size()) : driver.real + 1;
-    for (Index buffer = first; buffer < end; ++buffer) {
+    const auto& real = lookup_.model().subsystem(driver.instance).real;
+    for (const RealId buffer : real.ids()) {
+      if (driver.real.valid() && buffer != driver.real) continue;
       const auto [taken, added] = lines_.emplace(std::pair(driver.instance, buffer), driver.span.line);
       if (added) continue;
       out_.error(
@@ -241,7 +241,7 @@ class DriverReader {
   PathLookup lookup_;
   Diagnostics& out_;
   std::vector<Driver> drivers_;
-  std::map<std::pair<Index, Index>, std::uint32_t> lines_;  ///< (instance, real buffer) -> line of its driver
+  std::map<std::pair<InstanceId, RealId>, std::uint32_t> lines_;  ///< of the driver of a real buffer
 };
 
 }  // namespace

@@ -47,7 +47,7 @@ void add_operable(const std::string& field, const Type& type, const Model& model
                   std::vector<Operable>& all) {
   if (type.extent > 0 || Types::is_unknown(type)) return;
   if (type.kind == Type::Kind::scalar) all.push_back({field.empty() ? only_field : field, type});
-  if (type.kind != Type::Kind::structure || type.structure >= model.structures.size()) return;
+  if (type.kind != Type::Kind::structure || !model.structures.has(type.structure)) return;
   for (const Field& one : model.structures[type.structure].fields) {
     // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
     if (one.type.kind == Type::Kind::structure && one.type.structure >= type.structure) continue;

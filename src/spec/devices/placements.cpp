@@ -18,15 +18,15 @@ namespace {
 using diagnostics::quoted;
 using Point = std::array<double, 3>;
 
-constexpr Index most_things = 10'000;
+constexpr std::uint32_t most_things = 10'000;
 
 /// The subject of an entry.
 struct Members {
   std::string name;
   bool is_agent = false, indexed = false;
-  Index first = 0, count = 1;
+  std::uint32_t first = 0, count = 1;
 
-  [[nodiscard]] std::string instance(Index number) const {
+  [[nodiscard]] std::string instance(std::uint32_t number) const {
     return indexed ? name + "[" + std::to_string(first + number) + "]" : name;
   }
 };
@@ -34,10 +34,10 @@ struct Members {
 /// A square grid, filled row by row.
 struct Grid {
   Point at{};
-  Index columns = 1;
+  std::uint32_t columns = 1;
   double spacing_m = 1;
 
-  [[nodiscard]] Point point(Index number) const {
+  [[nodiscard]] Point point(std::uint32_t number) const {
     return {at[0] + spacing_m * static_cast<double>(number % columns),
             at[1] + spacing_m * static_cast<double>(number / columns), at[2]};
   }
@@ -66,7 +66,7 @@ class PlacementReader {
     if (!members) return;
     const std::vector<Point> points = read_points(section, *members);
     const std::vector<double> headings = read_headings(section, *members);
-    for (Index number = 0; number < members->count; ++number) {
+    for (std::uint32_t number = 0; number < members->count; ++number) {
       ModelPlacement one = common;
       one.instance = members->instance(number);
       one.is_agent = members->is_agent;
@@ -110,7 +110,7 @@ class PlacementReader {
       return std::nullopt;
     if (!selector) return members;
     const bool all = selector->kind == Selector::Kind::all;
-    members.first = all ? 0 : static_cast<Index>(selector->number);
+    members.first = all ? 0 : static_cast<std::uint32_t>(selector->number);
     members.count = all ? group.count : 1;
     return members;
   }
@@ -140,7 +140,7 @@ class PlacementReader {
       out_.error("E206", count->value->span, "count must be a whole number from 1 to 10000");
       return std::nullopt;
     }
-    members.count = static_cast<Index>(*number);
+    members.count = static_cast<std::uint32_t>(*number);
     return members;
   }
 
@@ -254,7 +254,7 @@ class PlacementReader {
       if (number && (*number < 1 || *number > most_things || *number != std::floor(*number)))
         out_.error("E206", columns->value->span, "columns must be a whole number from 1 to 10000");
       else if (number)
-        grid.columns = static_cast<Index>(*number);
+        grid.columns = static_cast<std::uint32_t>(*number);
     }
     if (const Entry* spacing = section.require("spacing", "for example spacing: 0.8 m")) {
       const auto length = read_length(*spacing->value, spacing->span, "spacing", out_);
@@ -264,7 +264,7 @@ class PlacementReader {
         grid.spacing_m = length.value_or(grid.spacing_m);
     }
     std::vector<Point> points;
-    for (Index number = 0; number < members.count; ++number) points.push_back(grid.point(number));
+    for (std::uint32_t number = 0; number < members.count; ++number) points.push_back(grid.point(number));
     return points;
   }
 

@@ -117,8 +117,10 @@ std::vector<WorldMeasure> read_world_measures(const Entry* entry, Diagnostics& o
     const Node* text = text_of(*one.value, one.span, quoted(one.key), out,
                                "for example nearest: \"distance(robot[*], robot[*])\"");
     if (text == nullptr) continue;
-    if (auto number = parsed(*text, checks::parse_number, out))
-      all.push_back({{one.key, *std::move(number)}, text->span});
+    if (auto number = parsed(*text, checks::parse_number, out)) {
+      const std::string unit = checks::unit_of(number->dimension);
+      all.push_back({{one.key, *std::move(number), unit}, text->span});
+    }
   }
   return all;
 }

@@ -34,9 +34,9 @@ void check_entries(const Behaviour& behaviour, const Endings& endings, Diagnosti
   const auto& next = behaviour.next;
   const auto unconditional =
       std::ranges::find(next, When::Kind::always, [](const Next& entry) { return entry.when.kind; });
-  for (Index entry = 0; entry < next.size(); ++entry) {
+  for (const NextId entry : next.ids()) {
     if (endings.can_be_taken(entry)) continue;
-    const bool behind = next.begin() + entry > unconditional;
+    const bool behind = next.begin() + entry.value > unconditional;
     out.warning("W314", next[entry].span,
                 behind ? "this entry is never reached: the one before it is always taken"
                        : "this entry is never taken: its condition cannot hold here",
@@ -76,17 +76,17 @@ void check_errors(const Behaviour& behaviour, Diagnostics& out) {
 }
 
 /// The behaviours that some run can enter, judging only by `next`.
-std::vector<bool> reachable(const Subsystem& subsystem) {
-  std::vector<bool> seen(subsystem.behaviours.size(), false);
-  std::vector<Index> open{subsystem.start};
+Numbered<BehaviourId, bool> reachable(const Subsystem& subsystem) {
+  Numbered<BehaviourId, bool> seen(subsystem.behaviours.size(), false);
+  std::vector<BehaviourId> open{subsystem.start};
   seen[subsystem.start] = true;
   while (!open.empty()) {
     const Behaviour& behaviour = subsystem.behaviours[open.back()];
     const Endings endings(behaviour);
     open.pop_back();
-    for (Index entry = 0; entry < behaviour.next.size(); ++entry) {
-      const Index to = behaviour.next[entry].behaviour;
-      if (to == none || seen[to] || !endings.can_be_taken(entry)) continue;
+    for (const NextId entry : behaviour.next.ids()) {
+      const BehaviourId to = behaviour.next[entry].behaviour;
+      if (!to.valid() || seen[to] || !endings.can_be_taken(entry)) continue;
       seen[to] = true;
       open.push_back(to);
     }
@@ -103,8 +103,8 @@ void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
     check_entries(behaviour, Endings(behaviour), out);
     check_errors(behaviour, out);
   }
-  const std::vector<bool> seen = reachable(subsystem);
-  for (std::size_t i = 0; i < seen.size(); ++i) {
+  const Numbered<BehaviourId, bool> seen = reachable(subsystem);
+  for (const BehaviourId i : seen.ids()) {
     const Behaviour& behaviour = subsystem.behaviours[i];
     if (seen[i]) continue;
     out.warning("W311", behaviour.span, "behaviour " + quoted(behaviour.name) + " is never entered",

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,11 +21,9 @@ struct SharedPlace {
 /// One side: a net whose single token is the behaviour that sends or receives. So every transition takes
 /// one token from a place of the side and gives one to a place of the side, besides shared places.
 struct ModelSide {
-  static constexpr std::uint32_t no_slot = UINT32_MAX;
-
   struct Place {
     std::string name;
-    std::uint32_t slot = no_slot;  ///< of the memory that is written (send) or read (receive), from 0
+    std::optional<std::uint32_t> slot;  ///< of the memory that is written (send) or read (receive), from 0
     diagnostics::Span span;
   };
   struct Transition {

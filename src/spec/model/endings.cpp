@@ -31,7 +31,7 @@ class HeldExpressions {
     for (const Expression& expression : expressions) truths_.push_back(truth_of(expression));
   }
 
-  Truth asked(Index expression) {
+  Truth asked(ExpressionId expression) {
     const Truth truth = truths_[expression];
     const bool only = truth != Truth::never && std::ranges::count(truths_, Truth::never) + 1 ==
                                                    static_cast<std::ptrdiff_t>(truths_.size());
@@ -40,7 +40,7 @@ class HeldExpressions {
   }
 
  private:
-  std::vector<Truth> truths_;
+  Numbered<ExpressionId, Truth> truths_;
 };
 
 /// The truth of `when`, as far as it is known, if no earlier entry holds.
@@ -81,7 +81,7 @@ bool Endings::possible(Ending ending) const {
 }
 
 void Endings::try_entries(Ending ending) {
-  std::vector<Truth>& taken = taken_[at(ending)];
+  auto& taken = taken_[at(ending)];
   taken.assign(behaviour_.next.size(), Truth::never);
   if (!possible(ending)) return;
   HeldExpressions held((ending == Ending::terminal ? behaviour_.terminal : behaviour_.error).expressions);
@@ -94,7 +94,7 @@ void Endings::try_entries(Ending ending) {
   none_[at(ending)] = earlier != Truth::always;
 }
 
-bool Endings::can_be_taken(Index entry) const {
+bool Endings::can_be_taken(NextId entry) const {
   return std::ranges::any_of(all_endings,
                              [&](Ending ending) { return taken(entry, ending) != Truth::never; });
 }

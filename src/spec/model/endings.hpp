@@ -39,9 +39,9 @@ class Endings {
   /// Whether the behaviour can end in that way. It can always end by a failure.
   [[nodiscard]] bool possible(Ending ending) const;
   /// Whether the entry is the one that is taken. `never` also for endings that are not possible.
-  [[nodiscard]] Truth taken(Index entry, Ending ending) const { return taken_[at(ending)][entry]; }
+  [[nodiscard]] Truth taken(NextId entry, Ending ending) const { return taken_[at(ending)][entry]; }
   /// Whether the entry is taken after some ending.
-  [[nodiscard]] bool can_be_taken(Index entry) const;
+  [[nodiscard]] bool can_be_taken(NextId entry) const;
   /// Whether it is possible that no entry holds.
   [[nodiscard]] bool none_possible(Ending ending) const { return none_[at(ending)]; }
 
@@ -50,7 +50,7 @@ class Endings {
   void try_entries(Ending ending);
 
   const Behaviour& behaviour_;
-  std::array<std::vector<Truth>, all_endings.size()> taken_;
+  std::array<Numbered<NextId, Truth>, all_endings.size()> taken_;
   std::array<bool, all_endings.size()> none_{};
 };
 

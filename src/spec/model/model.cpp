@@ -36,28 +36,28 @@ std::string Model::layout_of(const Type& type) const {
   return type.extent == 0 ? text : text + "[" + std::to_string(type.extent) + "]";
 }
 
-const Subsystem& Model::subsystem(Index instance) const {
+const Subsystem& Model::subsystem(InstanceId instance) const {
   const Instance& one = instances[instance];
   return definition_of(agents[one.agent]).subsystems[one.subsystem];
 }
 
-std::string Model::instance_path(Index instance) const {
+std::string Model::instance_path(InstanceId instance) const {
   return agents[instances[instance].agent].path + "." + subsystem(instance).name;
 }
 
 std::string Model::driver_path(const Driver& driver) const {
   const std::string path = instance_path(driver.instance);
-  return driver.real == none ? path : path + "." + subsystem(driver.instance).real[driver.real].name;
+  return driver.real.valid() ? path + "." + subsystem(driver.instance).real[driver.real].name : path;
 }
 
 std::vector<std::string> Model::without_driver(const std::vector<Driver>& those) const {
-  std::set<std::pair<Index, Index>> driven;
+  std::set<std::pair<InstanceId, RealId>> driven;
   for (const Driver& driver : those) driven.emplace(driver.instance, driver.real);
   std::vector<std::string> missing;
-  for (Index instance = 0; instance < instances.size(); ++instance) {
-    if (driven.contains({instance, none})) continue;
-    const std::vector<Field>& real = subsystem(instance).real;
-    for (Index buffer = 0; buffer < real.size(); ++buffer)
+  for (const InstanceId instance : instances.ids()) {
+    if (driven.contains({instance, RealId{}})) continue;
+    const auto& real = subsystem(instance).real;
+    for (const RealId buffer : real.ids())
       if (!driven.contains({instance, buffer}))
         missing.push_back(instance_path(instance) + "." + real[buffer].name);
   }
@@ -72,11 +72,11 @@ std::string Model::channel_name(const Channel& channel) const {
 }
 
 bool Model::sender_waits(const Channel& channel) const {
-  return channel.model == none ? channel.send == Mode::blocking : models[channel.model].send.waits;
+  return channel.model.valid() ? models[channel.model].send.waits : channel.send == Mode::blocking;
 }
 
 bool Model::receiver_waits(const Channel& channel) const {
-  return channel.model == none ? channel.receive == Mode::blocking : models[channel.model].receive.waits;
+  return channel.model.valid() ? models[channel.model].receive.waits : channel.receive == Mode::blocking;
 }
 
 bool Model::crosses_processes(const Channel& channel) const {
@@ -87,7 +87,7 @@ bool Model::crosses_processes(const Channel& channel) const {
 
 Model in_one_process(Model model) {
   model.deployment.reset();
-  for (Agent& agent : model.agents) agent.process = 0;
+  for (Agent& agent : model.agents) agent.process = {0};
   return model;
 }
 

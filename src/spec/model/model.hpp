@@ -13,17 +13,16 @@
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/communication_model.hpp"
 #include "spec/model/deployment.hpp"
+#include "spec/model/ids.hpp"
 #include "spec/model/panel.hpp"
 #include "spec/model/world.hpp"
 
 /// The specification as data, as section "The specification file" of docs/specification.md describes it.
-/// Every default is filled in, and every name is resolved to an index. Nothing here depends on nets.
+/// Every default is filled in, and every name is resolved to a number. Nothing here depends on nets.
 namespace tessera::spec {
 
 using diagnostics::Span;
 using Duration = std::chrono::nanoseconds;
-using Index = std::uint32_t;
-inline constexpr Index none = UINT32_MAX;
 
 // ---------------------------------------------------------------------------------------------- types
 
@@ -48,7 +47,7 @@ struct Type {
   enum class Kind : std::uint8_t { scalar, string, structure } kind = Kind::scalar;
   Scalar scalar = Scalar::float64;
   std::uint32_t capacity = 256;  ///< of a string, in bytes
-  Index structure = none;        ///< of a structure: index into Model::structures
+  StructureId structure;         ///< of a structure
   std::uint64_t extent = 0;      ///< elements of a fixed array; 0: not an array
   std::string unit;              ///< "m/s"; empty: none given
 
@@ -97,9 +96,9 @@ struct Reference {
   std::string path;  ///< up to and with this part, without subscripts: "in.line.left"
   /// Into Subsystem::inputs, ::outputs, ::real, ::memory or ::parameters, or Model::parameters. A field: into
   /// Structure::fields. Otherwise none.
-  Index target = none;
-  Index structure = none;  ///< of a field: into Model::structures
-  Span span;               ///< of this part alone; of the whole expression where its lines are joined
+  std::optional<std::uint32_t> target{};
+  StructureId structure{};  ///< of a field
+  Span span;                ///< of this part alone; of the whole expression where its lines are joined
 };
 
 /// A C++ expression over in, out, memory and parameters; span is that of its text in the file.
@@ -118,7 +117,7 @@ struct Expression {
 /// A terminal or error condition (paper, sec. IV-D). It holds if one of its expressions holds.
 struct Condition {
   enum class Kind : std::uint8_t { never, always, expressions } kind = Kind::never;
-  std::vector<Expression> expressions;
+  Numbered<ExpressionId, Expression> expressions;
   Span span;
 };
 
@@ -133,12 +132,12 @@ struct When {
     named_error,  ///< the error expression `expression` of the behaviour held
     expression    ///< `text` holds
   } kind = Kind::always;
-  Index expression = none;  ///< into Behaviour::terminal or ::error
-  Expression text;          ///< of any other kind than `expression`, only its span has a meaning
+  ExpressionId expression{};  ///< of Behaviour::terminal or ::error
+  Expression text{};          ///< of any other kind than `expression`, only its span has a meaning
 };
 
 struct Next {
-  Index behaviour = none;  ///< none: `end`
+  BehaviourId behaviour{};  ///< none: `end`
   When when;
   Span span;
 };
@@ -149,12 +148,12 @@ struct Behaviour {
   std::string name;
   Condition terminal;
   Condition error;
-  std::vector<Next> next;   ///< never empty: a behaviour without `next` has one unconditional `end`
-  bool next_given = false;  ///< false: that `end` is the default
+  Numbered<NextId, Next> next;  ///< never empty: a behaviour without `next` has one unconditional `end`
+  bool next_given = false;      ///< false: that `end` is the default
   /// Output buffers in the order listed; nullopt: all, in the order of the channels.
-  std::optional<std::vector<Index>> send;
+  std::optional<std::vector<BufferId>> send;
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.
-  std::optional<std::vector<Index>> receive;
+  std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
   Duration takes{0};  ///< simulated time of the transition function
   Span span;
@@ -180,7 +179,7 @@ struct RealTime {
 
 /// The limits of a command to a real buffer, or to a number inside it.
 struct Limit {
-  Index real = 0;     ///< into Subsystem::real
+  RealId real;
   std::string field;  ///< inside the buffer: "pose.x"; empty: the buffer itself. In an array: of each element
   std::optional<double> minimum, maximum;
   std::optional<double> per_second;  ///< the largest change within a second
@@ -193,12 +192,14 @@ struct Subsystem {
   SubsystemKind kind = SubsystemKind::control;
   std::string name;  ///< "control" for the control subsystem
   std::optional<Duration> period;
-  Index start = 0;  ///< index of the first behaviour
-  std::vector<Field> inputs, outputs, memory;
+  BehaviourId start{0};
+  Numbered<BufferId, Field> inputs, outputs;
+  std::vector<Field> memory;
   std::vector<Parameter> parameters;
-  std::vector<Field> real;  ///< read before (receptor) or written after (effector) the transition function
-  std::vector<std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
-  std::vector<Limit> limits;      ///< effector: of real buffers
+  Numbered<RealId, Field>
+      real;  ///< read before (receptor) or written after (effector) the transition function
+  Numbered<RealId, std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
+  std::vector<Limit> limits;           ///< effector: of real buffers
   /// effector: if an input is older than this, the device gets the safe command
   std::optional<Duration> stale;
   /// effector: a fault or a stale input begins an emergency stop, which lasts until an operator ends it
@@ -207,14 +208,15 @@ struct Subsystem {
   std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
   bool non_finite_allowed = false;   ///< outputs may be infinite or not a number
   std::optional<RealTime> realtime;
-  std::vector<Behaviour> behaviours;
+  Numbered<BehaviourId, Behaviour> behaviours;
   Span span;
 };
 
 /// The subsystems of an agent: an entry of `templates`, or an agent that `agents` describes in full.
 struct Definition {
   std::string name;
-  std::vector<Subsystem> subsystems;  ///< control first, then receptors, then effectors, as in the file
+  Numbered<DefinedSubsystemId, Subsystem>
+      subsystems;  ///< control first, then receptors, then effectors, as in the file
   bool is_template = false;
   Span span;
 };
@@ -222,18 +224,23 @@ struct Definition {
 /// One agent of the running system.
 struct Agent {
   std::string path;  ///< "robot", or "robot[3]" in a fleet
-  Index definition = 0;
-  Index fleet = none;        ///< agents of one `count` share a number
-  Index number = 0;          ///< within the fleet
-  Index first_instance = 0;  ///< into Model::instances; the instances of the agent follow one another
-  Index process = 0;         ///< into Deployment::processes; without a deployment 0
+  DefinitionId definition{0};
+  FleetId fleet;
+  std::uint32_t number = 0;      ///< within the fleet
+  InstanceId first_instance{0};  ///< the instances of the agent follow one another
+  ProcessId process{0};          ///< without a deployment 0
   Span span;
+
+  /// The instance of one of the subsystems of its definition.
+  [[nodiscard]] InstanceId instance(DefinedSubsystemId subsystem) const {
+    return {first_instance.value + subsystem.value};
+  }
 };
 
 /// One subsystem of one agent.
 struct Instance {
-  Index agent = 0;
-  Index subsystem = 0;  ///< into Definition::subsystems
+  AgentId agent;
+  DefinedSubsystemId subsystem;
 };
 
 // ---------------------------------------------------------------------------------------------- channels
@@ -241,15 +248,15 @@ struct Instance {
 enum class Mode : std::uint8_t { non_blocking, blocking };
 
 struct ChannelEnd {
-  Index instance = 0;
-  Index buffer = 0;  ///< into Subsystem::outputs (from) or ::inputs (to)
+  InstanceId instance;
+  BufferId buffer;  ///< an output (from) or an input (to)
 };
 
 struct Channel {
   ChannelEnd from, to;
   Mode send = Mode::non_blocking;
   Mode receive = Mode::non_blocking;
-  Index model = none;  ///< into Model::models; none: the built-in one of `send` and `receive`
+  CommunicationModelId model;  ///< none: the built-in one of `send` and `receive`
   std::optional<Duration> send_timeout, receive_timeout;
   Span span;
 };
@@ -315,8 +322,8 @@ struct DriverOption {
 
 /// The driver of a real buffer, or of all real buffers of a subsystem.
 struct Driver {
-  Index instance = 0;
-  Index real = 0;    ///< into Subsystem::real; none: all of them
+  InstanceId instance;
+  RealId real;       ///< none: all of them
   std::string kind;  ///< "cpp", "ros2", "panel", or a kind of the simulated world: "sensor", ...
   /// The C++ class, or the names of elements of the world.
   struct Target {
@@ -354,14 +361,14 @@ struct Simulation {
 /// A whole specification. Invariant: every index is valid, and every path is resolved.
 struct Model {
   std::string system;
-  std::vector<Structure> structures;  ///< in an order in which each uses only earlier ones
-  std::vector<Parameter> parameters;  ///< of the system, visible in every subsystem
-  std::vector<Definition> definitions;
-  std::vector<Agent> agents;
-  std::vector<Instance> instances;         ///< every subsystem of every agent, agent by agent
-  std::vector<CommunicationModel> models;  ///< defined in the specification
-  std::vector<Channel> channels;           ///< in the order of the file, fleets expanded agent by agent
-  std::vector<Driver> drivers;             ///< of the real robot (`drivers:`)
+  Numbered<StructureId, Structure> structures;  ///< in an order in which each uses only earlier ones
+  std::vector<Parameter> parameters;            ///< of the system, visible in every subsystem
+  Numbered<DefinitionId, Definition> definitions;
+  Numbered<AgentId, Agent> agents;
+  Numbered<InstanceId, Instance> instances;  ///< every subsystem of every agent, agent by agent
+  Numbered<CommunicationModelId, CommunicationModel> models;  ///< defined in the specification
+  Numbered<ChannelId, Channel> channels;  ///< in the order of the file, fleets expanded agent by agent
+  std::vector<Driver> drivers;            ///< of the real robot (`drivers:`)
   std::vector<Property> properties;
   std::optional<Simulation> simulation;
   std::optional<Deployment> deployment;
@@ -371,9 +378,9 @@ struct Model {
   [[nodiscard]] const Definition& definition_of(const Agent& agent) const {
     return definitions[agent.definition];
   }
-  [[nodiscard]] const Subsystem& subsystem(Index instance) const;
+  [[nodiscard]] const Subsystem& subsystem(InstanceId instance) const;
   /// "robot[3].control"
-  [[nodiscard]] std::string instance_path(Index instance) const;
+  [[nodiscard]] std::string instance_path(InstanceId instance) const;
   /// "robot[3].motor.left", or "arm.joints" for a driver of all real buffers.
   [[nodiscard]] std::string driver_path(const Driver& driver) const;
   /// Paths of the real buffers that have no driver among `those`.

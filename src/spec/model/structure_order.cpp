@@ -7,20 +7,20 @@ namespace tessera::spec {
 namespace {
 
 bool uses_structure(const Field& field, std::size_t count) {
-  return field.type.kind == Type::Kind::structure && field.type.structure < count;
+  return field.type.kind == Type::Kind::structure && field.type.structure.value < count;
 }
 
 /// Every structure that the sort has left over uses another one that is left over. Follows
 /// these until one occurs twice.
-std::vector<std::vector<Index>> find_cycles(const std::vector<Structure>& structures,
-                                            const std::vector<bool>& done) {
-  std::vector<std::vector<Index>> cycles;
-  std::vector<Index> walk_of(structures.size(), none);
-  for (Index start = 0; start < structures.size(); ++start) {
+std::vector<std::vector<StructureId>> find_cycles(const Structures& structures,
+                                                  const Numbered<StructureId, bool>& done) {
+  std::vector<std::vector<StructureId>> cycles;
+  Numbered<StructureId, StructureId> walk_of(structures.size());
+  for (const StructureId start : structures.ids()) {
     if (done[start]) continue;
-    std::vector<Index> walk;
-    Index at = start;
-    while (walk_of[at] == none) {
+    std::vector<StructureId> walk;
+    StructureId at = start;
+    while (!walk_of[at].valid()) {
       walk_of[at] = start;
       walk.push_back(at);
       const auto& fields = structures[at].fields;
@@ -37,10 +37,10 @@ std::vector<std::vector<Index>> find_cycles(const std::vector<Structure>& struct
 
 }  // namespace
 
-StructureOrder order_structures(const std::vector<Structure>& structures) {
-  std::vector<std::vector<Index>> users(structures.size());
-  std::vector<std::size_t> missing(structures.size(), 0);
-  for (Index i = 0; i < structures.size(); ++i) {
+StructureOrder order_structures(const Structures& structures) {
+  Numbered<StructureId, std::vector<StructureId>> users(structures.size());
+  Numbered<StructureId, std::size_t> missing(structures.size(), 0);
+  for (const StructureId i : structures.ids()) {
     for (const Field& field : structures[i].fields) {
       if (!uses_structure(field, structures.size())) continue;
       users[field.type.structure].push_back(i);
@@ -48,13 +48,13 @@ StructureOrder order_structures(const std::vector<Structure>& structures) {
     }
   }
   StructureOrder order;
-  std::vector<bool> done(structures.size(), false);
-  for (Index i = 0; i < structures.size(); ++i) {
+  Numbered<StructureId, bool> done(structures.size(), false);
+  for (const StructureId i : structures.ids()) {
     if (missing[i] == 0) order.sorted.push_back(i);
   }
   for (std::size_t i = 0; i < order.sorted.size(); ++i) {
     done[order.sorted[i]] = true;
-    for (const Index user : users[order.sorted[i]]) {
+    for (const StructureId user : users[order.sorted[i]]) {
       if (--missing[user] == 0) order.sorted.push_back(user);
     }
   }
@@ -62,17 +62,17 @@ StructureOrder order_structures(const std::vector<Structure>& structures) {
   return order;
 }
 
-std::vector<Structure> reordered(std::vector<Structure> structures, const std::vector<Index>& sorted) {
-  std::vector<Index> new_index(structures.size(), none);
-  std::vector<Structure> result;
+Structures reordered(Structures structures, const std::vector<StructureId>& sorted) {
+  Numbered<StructureId, StructureId> new_id(structures.size());
+  Structures result;
   result.reserve(structures.size());
-  for (const Index old : sorted) {
-    new_index[old] = static_cast<Index>(result.size());
+  for (const StructureId old : sorted) {
+    new_id[old] = result.next_id();
     result.push_back(std::move(structures[old]));
   }
   for (Structure& structure : result) {
     for (Field& field : structure.fields) {
-      if (uses_structure(field, new_index.size())) field.type.structure = new_index[field.type.structure];
+      if (uses_structure(field, new_id.size())) field.type.structure = new_id[field.type.structure];
     }
   }
   return result;

@@ -6,18 +6,19 @@
 
 namespace tessera::spec {
 
+using Structures = Numbered<StructureId, Structure>;
+
 struct StructureOrder {
-  /// old indices, each after those it uses; without those on cycles and those that use them
-  std::vector<Index> sorted;
+  /// old numbers, each after those it uses; without those on cycles and those that use them
+  std::vector<StructureId> sorted;
   /// each uses the next, the last one uses the first; no two share a member
-  std::vector<std::vector<Index>> cycles;
+  std::vector<std::vector<StructureId>> cycles;
 };
 
 /// Linear in structures and fields, without recursion.
-[[nodiscard]] StructureOrder order_structures(const std::vector<Structure>& structures);
+[[nodiscard]] StructureOrder order_structures(const Structures& structures);
 
-/// The structures in the order `sorted`, a permutation. The indices in their fields are changed to match.
-[[nodiscard]] std::vector<Structure> reordered(std::vector<Structure> structures,
-                                               const std::vector<Index>& sorted);
+/// The structures in the order `sorted`, a permutation. The numbers in their fields are changed to match.
+[[nodiscard]] Structures reordered(Structures structures, const std::vector<StructureId>& sorted);
 
 }  // namespace tessera::spec

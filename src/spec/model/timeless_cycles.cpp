@@ -13,19 +13,19 @@ bool repeats(const Behaviour& behaviour) {
 }
 
 /// Whether one of the behaviours `to` may follow it.
-bool passes_on(const Behaviour& behaviour, const std::vector<bool>& to) {
+bool passes_on(const Behaviour& behaviour, const Numbered<BehaviourId, bool>& to) {
   const Endings endings(behaviour);
-  for (Index entry = 0; entry < behaviour.next.size(); ++entry)
-    if (const Index next = behaviour.next[entry].behaviour;
-        next != none && to[next] && endings.can_be_taken(entry))
+  for (const NextId entry : behaviour.next.ids())
+    if (const BehaviourId next = behaviour.next[entry].behaviour;
+        next.valid() && to[next] && endings.can_be_taken(entry))
       return true;
   return false;
 }
 
 /// Removes behaviours after which no remaining behaviour can come, as long as there are any. The rest lies
 /// on cycles or leads to them.
-std::vector<bool> endless(const Subsystem& subsystem, const std::vector<bool>& waits) {
-  std::vector<bool> left(waits.size());
+Numbered<BehaviourId, bool> endless(const Subsystem& subsystem, const Numbered<BehaviourId, bool>& waits) {
+  Numbered<BehaviourId, bool> left(waits.size());
   std::transform(waits.begin(), waits.end(), left.begin(), [](bool one) { return !one; });
   for (bool changed = true; changed;) {
     changed = false;
@@ -41,11 +41,12 @@ std::vector<bool> endless(const Subsystem& subsystem, const std::vector<bool>& w
 
 }  // namespace
 
-std::vector<Index> timeless_cycles(const Subsystem& subsystem, const std::vector<bool>& waits) {
-  const std::vector<bool> left = endless(subsystem, waits);
-  std::vector<Index> found;
+std::vector<BehaviourId> timeless_cycles(const Subsystem& subsystem,
+                                         const Numbered<BehaviourId, bool>& waits) {
+  const Numbered<BehaviourId, bool> left = endless(subsystem, waits);
+  std::vector<BehaviourId> found;
   bool circle_found = false;
-  for (Index i = 0; i < left.size(); ++i) {
+  for (const BehaviourId i : left.ids()) {
     if (!left[i]) continue;
     // If behaviours only lead to one another, the first one represents the cycle.
     if (!repeats(subsystem.behaviours[i]) && circle_found) continue;

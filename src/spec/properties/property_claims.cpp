@@ -49,7 +49,7 @@ class ClaimReader {
 
  private:
   [[nodiscard]] std::string agent_of(const AgentGroup& group, std::int64_t number) const {
-    return lookup_.model().agents[group.first_agent + static_cast<Index>(number)].path;
+    return lookup_.model().agents[group.agent(static_cast<std::uint32_t>(number))].path;
   }
 
   [[nodiscard]] const AgentGroup* group_of(const WrittenPath& path) const {
@@ -88,7 +88,7 @@ class ClaimReader {
   bool gather(const WrittenPath& path, Range& range, bool quantified) {
     if (of_system(path)) return true;
     const AgentGroup* group = lookup_.find_group(path.agent, path.agent_span, out_);
-    if (group == nullptr || group->definition == none) return false;  // complained about
+    if (group == nullptr || !group->definition.valid()) return false;  // complained about
     if (!PathLookup::check_index(path.selector, *group, path.agent_span, path.index_span, out_)) return false;
     const Kind kind = path.selector.kind;
     const bool counts = kind == Kind::all || (kind == Kind::variable && !quantified);
@@ -179,9 +179,9 @@ class ClaimReader {
                                                 std::int64_t star) const {
     if (of_system(path)) return NetPath{path.agent, {}, path.whole};
     const AgentGroup& group = *group_of(path);
-    const Index number = agent_number(path.selector, group, path.selector.kind == Kind::all ? star : i);
-    if (number == none) return std::nullopt;
-    return NetPath{agent_of(group, number), path.parts, path.whole};
+    const auto number = agent_number(path.selector, group, path.selector.kind == Kind::all ? star : i);
+    if (!number) return std::nullopt;
+    return NetPath{agent_of(group, *number), path.parts, path.whole};
   }
 
   const PathLookup& lookup_;

@@ -48,11 +48,11 @@ bool is_built_in(std::string_view name) { return name == "string" || index_of(sc
 bool has_unit(const Type& type) { return type.kind == Type::Kind::scalar && type.scalar != Scalar::boolean; }
 
 /// Saturates well above the limit.
-std::uint64_t bytes_of(const Type& type, const std::vector<std::uint64_t>& structures) {
+std::uint64_t bytes_of(const Type& type, const Numbered<StructureId, std::uint64_t>& structures) {
   std::uint64_t one = std::uint64_t{type.capacity} + 4;
   if (type.kind == Type::Kind::scalar) one = bytes_of(type.scalar);
   if (type.kind == Type::Kind::structure)
-    one = type.structure < structures.size() ? structures[type.structure] : 0;
+    one = structures.has(type.structure) ? structures[type.structure] : 0;
   const std::uint64_t extent = std::max<std::uint64_t>(type.extent, 1);
   return one > largest_type / extent ? largest_type + 1 : one * extent;
 }
@@ -68,7 +68,7 @@ Type Types::unknown() {
 }
 
 bool Types::is_unknown(const Type& type) {
-  return type.kind == Type::Kind::structure && type.structure == none;
+  return type.kind == Type::Kind::structure && !type.structure.valid();
 }
 
 void Types::read(const Entry* section, Diagnostics& out) {
@@ -83,7 +83,7 @@ void Types::read(const Entry* section, Diagnostics& out) {
     } else if (index_of(generated_types, entry.key)) {
       out.error("E106", entry.span, "type name " + quoted(entry.key) + " is taken by the generated code");
     }
-    by_name_.emplace(entry.key, static_cast<Index>(structures_.size()));
+    by_name_.emplace(entry.key, structures_.next_id());
     known_names_.push_back(entry.key);
     structures_.push_back({entry.key, {}, entry.span});
   }
@@ -114,21 +114,21 @@ void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& o
 
 bool Types::sort(Diagnostics& out) {
   const StructureOrder order = order_structures(structures_);
-  for (const std::vector<Index>& cycle : order.cycles) {
+  for (const std::vector<StructureId>& cycle : order.cycles) {
     std::string names;
-    for (const Index one : cycle) names += structures_[one].name + " -> ";
+    for (const StructureId one : cycle) names += structures_[one].name + " -> ";
     const Structure& first = structures_[cycle.front()];
     out.error("E202", first.span, "type " + quoted(first.name) + " contains itself: " + names + first.name,
               "a structure has a fixed size, so it cannot hold one of its own kind");
   }
   if (!order.cycles.empty()) return false;
   structures_ = reordered(std::move(structures_), order.sorted);
-  for (Index i = 0; i < structures_.size(); ++i) by_name_[structures_[i].name] = i;
+  for (const StructureId i : structures_.ids()) by_name_[structures_[i].name] = i;
   return true;
 }
 
 void Types::check_size(Diagnostics& out) const {
-  std::vector<std::uint64_t> sizes;
+  Numbered<StructureId, std::uint64_t> sizes;
   for (const Structure& structure : structures_) {
     std::uint64_t size = 0;
     for (const Field& field : structure.fields) {

@@ -27,7 +27,7 @@ class Types {
   [[nodiscard]] std::string spelled(const Type& type) const;
 
   /// Each uses only earlier ones, unless one contains itself.
-  [[nodiscard]] const std::vector<Structure>& structures() const { return structures_; }
+  [[nodiscard]] const Numbered<StructureId, Structure>& structures() const { return structures_; }
 
   /// Stands for a type that could not be read, so that no second error follows from the first.
   [[nodiscard]] static Type unknown();
@@ -39,8 +39,8 @@ class Types {
   bool sort(Diagnostics& out);
   void check_size(Diagnostics& out) const;
 
-  std::vector<Structure> structures_;
-  std::unordered_map<std::string, Index> by_name_;
+  Numbered<StructureId, Structure> structures_;
+  std::unordered_map<std::string, StructureId> by_name_;
   std::vector<std::string> known_names_;  ///< built-in ones first, for hints
 };
 

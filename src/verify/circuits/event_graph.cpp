@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <deque>
+#include <optional>
 
 namespace tessera::verify {
 namespace {
@@ -13,25 +14,26 @@ class Tarjan {
   Tarjan(const EventGraph& graph, const EventGraph::Filter& filter)
       : graph_(graph),
         filter_(filter),
-        number_(graph.size(), unseen),
+        number_(graph.size()),
         low_(graph.size(), 0),
-        component_(graph.size(), unseen) {}
+        component_(graph.size(), 0),
+        closed_(graph.size(), false) {}
 
   std::vector<std::uint32_t> result() {
     for (std::uint32_t root = 0; root < graph_.size(); ++root)
-      if (number_[root] == unseen) visit(root);
+      if (!number_[root]) visit(root);
     return std::move(component_);
   }
 
  private:
-  static constexpr std::uint32_t unseen = UINT32_MAX;
   struct Frame {
     std::uint32_t node;
     std::size_t next = 0;  // edge to look at
   };
 
   void enter(std::uint32_t node) {
-    number_[node] = low_[node] = count_++;
+    low_[node] = count_++;
+    number_[node] = low_[node];
     open_.push_back(node);
     calls_.push_back({node});
   }
@@ -47,10 +49,10 @@ class Tarjan {
       }
       const EventGraph::Edge& edge = edges[frame.next++];
       if (!filter_(edge)) continue;
-      if (number_[edge.to] == unseen)
+      if (!number_[edge.to])
         enter(edge.to);
-      else if (component_[edge.to] == unseen)
-        low_[frame.node] = std::min(low_[frame.node], number_[edge.to]);
+      else if (!closed_[edge.to])
+        low_[frame.node] = std::min(low_[frame.node], *number_[edge.to]);
     }
   }
 
@@ -62,6 +64,7 @@ class Tarjan {
     for (bool more = true; more;) {
       more = open_.back() != node;
       component_[open_.back()] = components_;
+      closed_[open_.back()] = true;
       open_.pop_back();
     }
     ++components_;
@@ -69,7 +72,9 @@ class Tarjan {
 
   const EventGraph& graph_;
   const EventGraph::Filter& filter_;
-  std::vector<std::uint32_t> number_, low_, component_;
+  std::vector<std::optional<std::uint32_t>> number_;  // nullopt: not seen yet
+  std::vector<std::uint32_t> low_, component_;
+  std::vector<bool> closed_;  // its component is known
   std::vector<std::uint32_t> open_;
   std::vector<Frame> calls_;
   std::uint32_t count_ = 0, components_ = 0;

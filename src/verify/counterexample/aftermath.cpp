@@ -173,20 +173,20 @@ Aftermath::Markings Aftermath::reachable_from(Number from) const {
 }
 
 std::optional<Aftermath::Way> Aftermath::way(Number from, const Markings& goal) const {
-  constexpr Number nowhere = UINT32_MAX;
-  std::vector<Number> open{from}, before(size(), nowhere);
+  std::vector<Number> open{from};
+  std::vector<std::optional<Number>> before(size());
   std::vector<TransitionId> by(size());
   before[from] = from;
   for (std::size_t next = 0; next < open.size(); ++next) {
     const Number at = open[next];
     if (goal[at]) {
       Way way{{}, at};
-      for (Number step = at; step != from; step = before[step]) way.run.push_back(by[step]);
+      for (Number step = at; step != from; step = before[step].value()) way.run.push_back(by[step]);
       std::ranges::reverse(way.run);
       return way;
     }
     for (const Edge& edge : edges_[at]) {
-      if (before[edge.to] != nowhere) continue;
+      if (before[edge.to]) continue;
       before[edge.to] = at;
       by[edge.to] = edge.transition;
       open.push_back(edge.to);

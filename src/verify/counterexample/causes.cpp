@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <utility>
 
@@ -17,25 +18,24 @@ using net::PlaceId;
 using net::TransitionId;
 using Run = std::vector<TransitionId>;
 
-constexpr std::uint32_t from_the_start = UINT32_MAX;
-constexpr std::uint32_t unknown = UINT32_MAX;
+using FiringId = net::Id<struct FiringTag>;  ///< of a run; none: the token was there from the start
 
 /// The earlier firings that each firing of a run needed.
 class History {
  public:
   History(const net::Net& net, const Run& run) : causes_(run.size()), tokens_(net.places().size()) {
     for (std::uint32_t place = 0; place < tokens_.size(); ++place)
-      tokens_[place].assign(net.places()[place].tokens, from_the_start);
+      tokens_[place].resize(net.places()[place].tokens);
     for (std::uint32_t firing = 0; firing < run.size(); ++firing) {
       for (const Arc& arc : net.preset(run[firing]))
         for (std::uint32_t token = 0; token < arc.weight; ++token) {
-          std::vector<std::uint32_t>& held = tokens_[arc.place.value];
+          std::vector<FiringId>& held = tokens_[arc.place.value];
           if (held.empty()) return;
           causes_[firing].push_back(held.front());
           held.erase(held.begin());
         }
       for (const Arc& arc : net.postset(run[firing]))
-        tokens_[arc.place.value].insert(tokens_[arc.place.value].end(), arc.weight, firing);
+        tokens_[arc.place.value].insert(tokens_[arc.place.value].end(), arc.weight, {firing});
     }
     is_run_ = true;
   }
@@ -45,8 +45,8 @@ class History {
   /// The firings behind the tokens that the places hold in the end.
   [[nodiscard]] std::vector<bool> behind(const std::set<std::uint32_t>& places) const {
     std::vector<bool> needed(causes_.size(), false);
-    const auto need = [&](std::uint32_t firing) {
-      if (firing != from_the_start) needed[firing] = true;
+    const auto need = [&](FiringId firing) {
+      if (firing.valid()) needed[firing.value] = true;
     };
     for (const std::uint32_t place : places) std::ranges::for_each(tokens_[place], need);
     for (std::size_t firing = causes_.size(); firing-- > 0;)
@@ -55,8 +55,8 @@ class History {
   }
 
  private:
-  std::vector<std::vector<std::uint32_t>> causes_;  // per firing: those whose tokens it took
-  std::vector<std::vector<std::uint32_t>> tokens_;  // per place, in the end: the firings they come from
+  std::vector<std::vector<FiringId>> causes_;  // per firing: those whose tokens it took
+  std::vector<std::vector<FiringId>> tokens_;  // per place, in the end: the firings they come from
   bool is_run_ = false;
 };
 
@@ -64,7 +64,7 @@ class History {
 class Prospect {
  public:
   Prospect(const net::Net& net, const Run& run)
-      : net_(net), reached_by_(net.places().size(), unknown), missing_(net.transitions().size()) {
+      : net_(net), reached_by_(net.places().size()), missing_(net.transitions().size()) {
     const net::Marking tokens = net::marking_after(net, run);
     std::vector<std::vector<std::uint32_t>> takers(net.places().size());
     for (std::uint32_t index = 0; index < missing_.size(); ++index) {
@@ -73,7 +73,7 @@ class Prospect {
       if (missing_[index] == 0) fire(index);
     }
     for (std::uint32_t place = 0; place < tokens.size(); ++place)
-      if (tokens[place] > 0) reach(place, marked);
+      if (tokens[place] > 0) reach(place, {});
     for (std::size_t next = 0; next < places_.size(); ++next)
       for (const std::uint32_t taker : takers[places_[next]])
         if (--missing_[taker] == 0) fire(taker);
@@ -91,30 +91,28 @@ class Prospect {
       const TransitionId last{open.back()};
       open.pop_back();
       for (const Arc& arc : net_.preset(last)) {
-        const std::uint32_t from = reached_by_[arc.place.value];
-        if (from != marked && way.insert(from).second) open.push_back(from);
+        const TransitionId from = reached_by_[arc.place.value].value();
+        if (from.valid() && way.insert(from.value).second) open.push_back(from.value);
       }
     }
     return way;
   }
 
  private:
-  static constexpr std::uint32_t marked = UINT32_MAX - 1;
-
-  void reach(std::uint32_t place, std::uint32_t by) {
-    if (reached_by_[place] != unknown) return;
+  void reach(std::uint32_t place, TransitionId by) {
+    if (reached_by_[place]) return;
     reached_by_[place] = by;
     places_.push_back(place);
   }
   void fire(std::uint32_t transition) {
     if (net_.transitions()[transition].condition.truth == net::Condition::Truth::never) return;
-    for (const Arc& arc : net_.postset({transition})) reach(arc.place.value, transition);
+    for (const Arc& arc : net_.postset({transition})) reach(arc.place.value, {transition});
   }
 
   const net::Net& net_;
-  std::vector<std::uint32_t> reached_by_;  // per place: a transition, or marked
-  std::vector<std::size_t> missing_;       // per transition: input places not reached
-  std::vector<std::uint32_t> places_;      // reached, in order
+  std::vector<std::optional<TransitionId>> reached_by_;  // per place; a transition of none: it was marked
+  std::vector<std::size_t> missing_;                     // per transition: input places not reached
+  std::vector<std::uint32_t> places_;                    // reached, in order
 };
 
 /// Places that have to be as they are for the transitions to stay out of reach.

@@ -48,8 +48,10 @@ Formula unsound(const PagePlaces& page) {
 }
 
 std::uint32_t SharedMemory::id() const {
-  const PlaceId none;
-  return std::min(writes.empty() ? none : writes.front(), reads.empty() ? none : reads.front()).value;
+  PlaceId first;  // none: it comes after all others
+  for (const std::vector<PlaceId>* places : {&writes, &reads})
+    if (!places->empty()) first = std::min(first, places->front());
+  return first.value;
 }
 
 std::vector<SharedMemory> shared_memories(const net::Net& net) {

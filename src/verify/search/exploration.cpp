@@ -106,22 +106,22 @@ class StuckSearch {
  private:
   /// Transitions of a set within one component, by their numbers in it.
   using Local = std::vector<std::uint32_t>;
-  using Parts = std::map<std::uint32_t, Local>;  // by component
+  using ComponentId = net::Id<struct ComponentTag>;  // none: of transitions that need no token
+  using Parts = std::map<ComponentId, Local>;
 
   void place_members() {
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> where(reduced_.net.transitions().size(),
-                                                               {UINT32_MAX, 0});
+    std::vector<std::pair<ComponentId, std::uint32_t>> where(reduced_.net.transitions().size());
     for (std::uint32_t component = 0; component < components_.all.size(); ++component) {
       const auto& transitions = components_.all[component].transitions;
       for (std::uint32_t local = 0; local < transitions.size(); ++local)
-        where[transitions[local].value] = {component, local};
+        where[transitions[local].value] = {ComponentId{component}, local};
     }
     for (const std::vector<TransitionId>& set : reduced_.sets) {
       Parts& parts = members_.emplace_back();
       for (const TransitionId id : set) parts[where[id.value].first].push_back(where[id.value].second);
       for (auto& [component, local] : parts) {
         std::ranges::sort(local);
-        if (component != UINT32_MAX) answers_[{components_.all[component].kind, local}];
+        if (component.valid()) answers_[{components_.all[component.value].kind, local}];
       }
     }
   }
@@ -152,11 +152,11 @@ class StuckSearch {
     found.kind = Found::Kind::no;
     std::vector<TransitionId> run;
     for (const auto& [component, local] : parts) {
-      if (component == UINT32_MAX) {  // needs no token
+      if (!component.valid()) {  // needs no token
         found.kind = Found::Kind::yes;
         break;
       }
-      const explore::Answer& answer = answers_.at({components_.all[component].kind, local});
+      const explore::Answer& answer = answers_.at({components_.all[component.value].kind, local});
       if (answer.kind == explore::Answer::Kind::yes) {
         found.kind = Found::Kind::yes;
         break;
@@ -165,7 +165,7 @@ class StuckSearch {
         found.kind = Found::Kind::unknown;
         found.why = answer.why;
       }
-      append(answer.trace.firings, components_.all[component], run);
+      append(answer.trace.firings, components_.all[component.value], run);
     }
     if (found.kind == Found::Kind::no) found.trace = reduced_.lift(run);
     return found;

@@ -139,20 +139,20 @@ class Search {
   /// The parts of a list, those together that share a component.
   [[nodiscard]] std::vector<Goal> independent_parts(const Formula& list) const {
     std::vector<std::vector<Formula>> groups;
-    std::vector<std::size_t> group_of(components_.all.size(), none);
+    std::vector<std::optional<std::size_t>> group_of(components_.all.size());
     for (const Formula& part : list.parts) {
       const std::vector<std::uint32_t> components = parts_of({part});
       std::vector<Formula> joined{part};
       std::set<std::size_t> joins;
       for (const std::uint32_t component : components)
-        if (group_of[component] != none) joins.insert(group_of[component]);
+        if (group_of[component]) joins.insert(*group_of[component]);
       for (const std::size_t group : joins) {
         std::ranges::move(groups[group], std::back_inserter(joined));
         groups[group].clear();
       }
       if (!joins.empty())
-        for (std::size_t& group : group_of)
-          if (joins.contains(group)) group = groups.size();
+        for (std::optional<std::size_t>& group : group_of)
+          if (group && joins.contains(*group)) group = groups.size();
       for (const std::uint32_t component : components) group_of[component] = groups.size();
       groups.push_back(std::move(joined));
     }
@@ -228,7 +228,6 @@ class Search {
     text += ")";
   }
 
-  static constexpr std::size_t none = SIZE_MAX;
   reduce::Reduced reduced_;
   reduce::Components components_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> where_;  // per place: component, number in it

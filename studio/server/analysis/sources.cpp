@@ -155,7 +155,7 @@ std::optional<SpecFile::Outcome> Sources::write(const std::string& file, const s
   const std::optional<fs::path> path = path_of(file);
   std::error_code missing;
   if (!path || !fs::is_directory(path->parent_path(), missing)) return std::nullopt;
-  return SpecFile(*path).write(text, revision);
+  return SpecFile(*path).write_shown(text, revision);
 }
 
 }  // namespace tessera::server

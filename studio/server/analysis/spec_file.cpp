@@ -5,12 +5,14 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
 #include <stdexcept>
 #include <utility>
 
+#include "diagnostics/utf8.hpp"
 #include "project/files/files.hpp"
 
 namespace tessera::server {
@@ -35,7 +37,18 @@ class Descriptor {
 
 std::string reason() { return std::strerror(errno); }
 
-SpecFile::Content unreadable(std::string why) { return {{}, revision_of({}), std::move(why)}; }
+SpecFile::Content unreadable(std::string why) { return {{}, {}, std::move(why)}; }
+
+SpecFile::Content missing() { return {{}, revision_of({}), std::strerror(ENOENT)}; }
+
+/// Why it must not be replaced by a text that is told as JSON: there, the bytes look different. Empty: it may.
+std::string not_shown(const SpecFile::Content& content) {
+  if (content.revision.empty()) return content.error;
+  const std::optional<std::size_t> byte = diagnostics::first_invalid_byte(content.text);
+  if (!byte) return {};
+  const auto line = 1 + std::count(content.text.begin(), content.text.begin() + static_cast<std::ptrdiff_t>(*byte), '\n');
+  return fmt::format("a byte in line {} is not UTF-8, and would be lost; save it in the encoding UTF-8 first", line);
+}
 
 }  // namespace
 
@@ -52,6 +65,7 @@ SpecFile::~SpecFile() { close(folder_); }
 
 SpecFile::Content SpecFile::read() const {
   const Descriptor file(openat(folder_, name_.c_str(), O_RDONLY | O_NOFOLLOW | O_CLOEXEC | O_NONBLOCK));
+  if (!file.valid() && errno == ENOENT) return missing();
   if (!file.valid())
     return unreadable(errno == ELOOP ? "it is a symbolic link now, which is not followed" : reason());
   struct stat status {};
@@ -71,10 +85,17 @@ SpecFile::Content SpecFile::read() const {
   return content;
 }
 
+SpecFile::Outcome SpecFile::write_shown(std::string_view text, std::string_view revision) {
+  std::string why = not_shown(read());
+  if (!why.empty()) return {Written::failed, unreadable(std::move(why))};
+  return write(text, revision);
+}
+
 SpecFile::Outcome SpecFile::write(std::string_view text, std::string_view revision) {
   const std::lock_guard lock(writing_);
   const auto failed = [&](std::string why) { return Outcome{Written::failed, unreadable(std::move(why))}; };
   Content now = read();
+  if (now.revision.empty()) return failed(std::move(now.error));
   if (now.revision != revision) return {Written::conflict, std::move(now)};
   struct stat status {};
   const mode_t mode =

@@ -26,8 +26,8 @@ class SpecFile {
 
   struct Content {
     std::string text;
-    std::string revision;
-    std::string error;  ///< why the file cannot be read; empty: it was read
+    std::string revision;  ///< empty: the file is there, but cannot be read
+    std::string error;     ///< why the file cannot be read; empty: it was read
   };
   /// The content on disk now.
   [[nodiscard]] Content read() const;
@@ -40,6 +40,9 @@ class SpecFile {
   /// Replaces the file as a whole if the content on disk still has `revision`. A reader sees either the old
   /// text or the new one. A missing file has the revision of the empty text.
   [[nodiscard]] Outcome write(std::string_view text, std::string_view revision);
+  /// The same for a text that a page made of what it was told. JSON cannot tell bytes that are not UTF-8, so a
+  /// file with such bytes is not written.
+  [[nodiscard]] Outcome write_shown(std::string_view text, std::string_view revision);
 
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
   [[nodiscard]] std::filesystem::path folder() const { return path_.parent_path(); }

@@ -11,14 +11,15 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// In a model with errors, an index may be invalid.
-template <class Things>
-const typename Things::value_type* at(const Things& things, spec::Index index) {
-  return index < things.size() ? &things[index] : nullptr;
+/// In a model with errors, a number may be invalid.
+template <class Id, class Thing>
+const Thing* at(const Numbered<Id, Thing>& things, Id id) {
+  return things.has(id) ? &things[id] : nullptr;
 }
 
-std::string name_at(const std::vector<spec::Field>& buffers, spec::Index index) {
-  const spec::Field* buffer = at(buffers, index);
+template <class Id>
+std::string name_at(const Numbered<Id, spec::Field>& buffers, Id id) {
+  const spec::Field* buffer = at(buffers, id);
   return buffer == nullptr ? "?" : buffer->name;
 }
 
@@ -69,10 +70,10 @@ Json behaviour_json(const spec::Behaviour& behaviour, const spec::Subsystem& sub
                             {"line", next.span.line},
                             {"given", behaviour.next_given}});
   }
-  const auto names = [](const auto& list, const std::vector<spec::Field>& buffers) -> Json {
+  const auto names = [](const auto& list, const auto& buffers) -> Json {
     if (!list) return nullptr;
     Json listed = Json::array();
-    for (const spec::Index index : *list) listed.push_back(name_at(buffers, index));
+    for (const spec::BufferId id : *list) listed.push_back(name_at(buffers, id));
     return listed;
   };
   json["sends"] = names(behaviour.send, subsystem.outputs);
@@ -144,8 +145,8 @@ struct Known {
   std::string path;
   const spec::Subsystem* subsystem = nullptr;
 };
-Known instance(const spec::Model& model, spec::Index index) {
-  const spec::Instance* one = at(model.instances, index);
+Known instance(const spec::Model& model, spec::InstanceId id) {
+  const spec::Instance* one = at(model.instances, id);
   const spec::Agent* agent = one == nullptr ? nullptr : at(model.agents, one->agent);
   const spec::Definition* definition = agent == nullptr ? nullptr : at(model.definitions, agent->definition);
   const spec::Subsystem* found = definition == nullptr ? nullptr : at(definition->subsystems, one->subsystem);
@@ -165,8 +166,8 @@ std::map<std::string, std::string> drivers_of(const spec::Model& model) {
   const auto add = [&](const std::vector<spec::Driver>& list) {
     for (const spec::Driver& driver : list)
       if (const Known known = instance(model, driver.instance); known.subsystem != nullptr)
-        for (spec::Index buffer = 0; buffer < known.subsystem->real.size(); ++buffer)
-          if (driver.real == spec::none || driver.real == buffer)
+        for (const spec::RealId buffer : known.subsystem->real.ids())
+          if (!driver.real.valid() || driver.real == buffer)
             drivers.emplace(known.path + "." + name_at(known.subsystem->real, buffer), text_of(driver));
   };
   if (model.simulation) add(model.simulation->drivers);
@@ -174,13 +175,13 @@ std::map<std::string, std::string> drivers_of(const spec::Model& model) {
   return drivers;
 }
 
-Json channel_json(const spec::Model& model, spec::Index id) {
+Json channel_json(const spec::Model& model, spec::ChannelId id) {
   const spec::Channel& channel = model.channels[id];
   const Known from = instance(model, channel.from.instance), to = instance(model, channel.to.instance);
   if (from.subsystem == nullptr || to.subsystem == nullptr) return nullptr;
   const auto mode = [](spec::Mode one) { return one == spec::Mode::blocking ? "blocking" : "non_blocking"; };
   const spec::CommunicationModel* own = at(model.models, channel.model);
-  return {{"id", id},
+  return {{"id", id.value},
           {"from", from.path + "." + name_at(from.subsystem->outputs, channel.from.buffer)},
           {"to", to.path + "." + name_at(to.subsystem->inputs, channel.to.buffer)},
           {"send", mode(channel.send)},
@@ -205,7 +206,7 @@ std::string type_text(const spec::Model& model, const spec::Type& type) {
       text = fmt::format("string<={}", type.capacity);
       break;
     case spec::Type::Kind::structure:
-      text = type.structure < model.structures.size() ? model.structures[type.structure].name : "?";
+      text = model.structures.has(type.structure) ? model.structures[type.structure].name : "?";
       break;
   }
   if (type.extent > 0) text += fmt::format("[{}]", type.extent);
@@ -230,7 +231,7 @@ Json structure_json(const spec::Model& model) {
     }
     json["agents"].push_back(std::move(one));
   }
-  for (spec::Index id = 0; id < model.channels.size(); ++id)
+  for (const spec::ChannelId id : model.channels.ids())
     if (Json channel = channel_json(model, id); !channel.is_null())
       json["channels"].push_back(std::move(channel));
   return json;

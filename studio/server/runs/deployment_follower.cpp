@@ -170,7 +170,7 @@ json DeploymentFollower::processes() const {
   json all = json::array();
   for (const spec::Process& process : analysis_.model->deployment->processes) {
     json agents = json::array();
-    for (const std::uint32_t agent : process.agents) agents.push_back(analysis_.model->agents[agent].path);
+    for (const spec::AgentId agent : process.agents) agents.push_back(analysis_.model->agents[agent].path);
     json one{{"name", process.name}, {"agents", std::move(agents)}, {"state", "absent"},
              {"since_s", nullptr},   {"host", process.host},        {"pid", nullptr},
              {"time_s", nullptr},    {"emergency", nullptr},        {"overruns", 0},

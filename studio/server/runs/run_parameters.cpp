@@ -34,11 +34,10 @@ std::string plain(const spec::Parameter& parameter) {
 }  // namespace
 
 RunParameters::RunParameters(const spec::Model& model) {
-  std::vector<std::string> all;
-  for (spec::Index instance = 0; instance < model.instances.size(); ++instance)
-    all.push_back(model.instance_path(instance));
+  Numbered<spec::InstanceId, std::string> all;
+  for (const spec::InstanceId instance : model.instances.ids()) all.push_back(model.instance_path(instance));
   for (const spec::Parameter& parameter : model.parameters) add(model, parameter, all, parameter.name);
-  for (spec::Index instance = 0; instance < model.instances.size(); ++instance)
+  for (const spec::InstanceId instance : model.instances.ids())
     for (const spec::Parameter& parameter : model.subsystem(instance).parameters)
       add(model, parameter, {all[instance]}, all[instance] + "." + parameter.name);
 }

@@ -78,4 +78,4 @@ function useShortcuts(): void {
 
 /** In a text field, the keys for undo belong to the field. */
 const isField = (target: EventTarget | null, key: string) =>
-  target instanceof HTMLInputElement && "zy".includes(key.toLowerCase());
+  (target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement) && "zy".includes(key.toLowerCase());

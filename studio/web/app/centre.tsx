@@ -16,10 +16,13 @@ export function Centre() {
   const view = useStore(studio.view, (all) => all.view);
   const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
   const blank = useStore(studio.draft.store, (draft) => draft.text.trim() === "");
+  const unreadable = useStore(studio.draft.store, (draft) => draft.unreadable);
   const panes = useStore(studio.scene.store, (all) => all.panes);
   const sameTime = useStore(studio.scene.store, (all) => all.sameTime);
   if (problem && !project) return <Empty title="The server could not be asked" text={problem} />;
   if (!loaded) return <Empty title="Opening…" text="" />;
+  if (blank && unreadable)
+    return <Empty title={`${project?.file ?? "The file"} cannot be read`} text={`${unreadable}. It stays as it is.`} />;
   if (blank) return <StartPage />;
   const beside = panes.length > 1;
   // The structure view has no named panes.

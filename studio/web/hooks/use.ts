@@ -25,5 +25,13 @@ export function useStore<T extends object, S>(store: Store<T>, select: (value: T
   return useSyncExternalStore(store.subscribe, part);
 }
 
+/** Whether a run would save something first: the specification, or C++. */
+export function useUnsaved(): boolean {
+  const studio = useStudio();
+  const specification = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
+  const code = useStore(studio.sources.store, (all) => all.unsaved.length > 0);
+  return specification || code;
+}
+
 /** Whether the specification on disk has a simulated world. */
 export const useHasWorld = () => useStore(useStudio().project, (all) => Boolean(all.project?.simulation));

@@ -33,6 +33,9 @@ export function takeToken(): string {
   return sessionStorage.getItem(key) ?? "";
 }
 
+/** Whether an address was opened that has a key. */
+export const hasToken = () => location.hash.includes("token=");
+
 /** If another tab is opened with the key of a restarted server, this tab uses the key, too. */
 export function shareToken(token: string, taken: (token: string) => void): void {
   const tabs = new BroadcastChannel(key);
@@ -42,10 +45,6 @@ export function shareToken(token: string, taken: (token: string) => void): void 
     taken(event.data);
   };
   tabs.postMessage(token);
-  // Opening the new address in the old tab changes only the part after the #.
-  addEventListener("hashchange", () => {
-    if (location.hash.includes("token=")) location.reload();
-  });
 }
 
 type Body<Name extends keyof Requests> = Requests[Name] extends { body: infer Given } ? Given : undefined;

@@ -1,4 +1,5 @@
 import { History } from "../model/history";
+import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
 import { merge } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError } from "./api";
@@ -20,11 +21,17 @@ export interface DraftState {
   canUndo: boolean;
   canRedo: boolean;
   /** The file on disk, if it changed where this page changed it, too. */
-  conflict: { text: string; revision: string } | null;
+  conflict: File | null;
+  /** Why the file on disk cannot be read; empty: it can. */
+  unreadable: string;
   notice: string;
 }
 
-const kept = "tessera.draft";
+/** The file on disk, with lines that end as the page has them. */
+interface File {
+  text: string;
+  revision: string;
+}
 
 const netOf = ({ net, net_hash }: Analysis) => (net ? new NetModel(net, net_hash ?? "") : null);
 
@@ -45,8 +52,13 @@ export class Draft {
     canUndo: false,
     canRedo: false,
     conflict: null,
+    unreadable: "",
     notice: "",
   });
+  /** Where this tab keeps what is not saved: of each project apart, since another one may be served at this address. */
+  private kept = "";
+  private lineEnd: LineEnd = "\n";
+  private saving: Promise<boolean> | null = null;
   private history = new History("");
   private timer: ReturnType<typeof setTimeout> | undefined;
   private asked = 0;
@@ -57,22 +69,32 @@ export class Draft {
     return this.store.get().text !== this.store.get().saved;
   }
 
-  /** Reads the file, and restores text that this tab had not saved before a reload. */
-  async load(): Promise<void> {
-    const answer = await this.api.spec();
-    this.history = new History(answer.text);
-    this.onDisk(answer);
-    const { text, base } = JSON.parse(sessionStorage.getItem(kept) ?? "{}") as { text?: string; base?: string };
-    this.store.set({ text: answer.text, loaded: true });
+  /** Reads the file, and restores text that this tab had not saved before a reload. name: of the file, with its folder. */
+  async load(name: Promise<string>): Promise<void> {
+    const [answer, of] = await Promise.all([this.api.spec(), name]);
+    this.kept = `tessera.draft ${of}`;
+    const file = this.fileOf(answer);
+    this.history = new History(file.text);
+    this.onDisk(file);
+    const { text, base } = JSON.parse(sessionStorage.getItem(this.kept) ?? "{}") as { text?: string; base?: string };
+    this.store.set({ text: file.text, loaded: true });
     this.analysed(answer.analysis.diagnostics, netOf(answer.analysis));
-    if (text === undefined || text === answer.text) return;
-    const merged = merge(base ?? answer.text, text, answer.text);
+    if (text === undefined || text === file.text) return;
+    const merged = merge(base ?? file.text, text, file.text);
     this.edit(merged ?? text, "reload");
-    if (merged === null) this.store.set({ conflict: { text: answer.text, revision: answer.revision } });
+    if (merged === null) this.store.set({ conflict: file });
   }
 
-  private onDisk(answer: { text: string; revision: string }): void {
-    this.store.set({ saved: answer.text, revision: answer.revision });
+  /** The file of an answer. Whether it can be read, and how its lines end, is noted. */
+  private fileOf({ text, revision, error }: Pick<SpecAnswer, "text" | "revision" | "error">): File {
+    // A file that is missing reads as empty, and may be written.
+    this.store.set({ unreadable: revision === "" ? (error ?? "") : "" });
+    if (text !== "") this.lineEnd = lineEndOf(text);
+    return { text: withFeeds(text), revision };
+  }
+
+  private onDisk(file: File): void {
+    this.store.set({ saved: file.text, revision: file.revision, conflict: null });
   }
 
   private analysed(diagnostics: Diagnostic[], net: NetModel | null): void {
@@ -103,8 +125,8 @@ export class Draft {
 
   private keep(): void {
     const { text, saved } = this.store.get();
-    if (text === saved) sessionStorage.removeItem(kept);
-    else sessionStorage.setItem(kept, JSON.stringify({ text, base: saved }));
+    if (text === saved) sessionStorage.removeItem(this.kept);
+    else sessionStorage.setItem(this.kept, JSON.stringify({ text, base: saved }));
   }
 
   private async check(): Promise<void> {
@@ -118,17 +140,26 @@ export class Draft {
     }
   }
 
+  /** One save follows another: the second names the revision that the first has made. */
   async save(): Promise<boolean> {
+    while (this.saving) await this.saving;
+    this.saving = this.saveNow();
+    const saved = await this.saving;
+    this.saving = null;
+    return saved;
+  }
+
+  private async saveNow(): Promise<boolean> {
     const { text, revision } = this.store.get();
     try {
-      const answer = await this.api.save(text, revision);
+      const answer = await this.api.save(withEnds(text, this.lineEnd), revision);
       this.onDisk({ text, revision: answer.revision });
       this.keep();
       this.store.set({ notice: "Saved" });
       return true;
     } catch (error) {
       if (error instanceof ApiError && error.status === 409)
-        this.disk({ text: String(error.body.text ?? ""), revision: String(error.body.revision ?? "") });
+        this.disk(this.fileOf({ text: String(error.body.text ?? ""), revision: String(error.body.revision ?? ""), error: null }));
       else this.store.set({ notice: message(error) });
       return false;
     }
@@ -136,7 +167,9 @@ export class Draft {
 
   /** The server reports that the file changed on disk. */
   async changedOnDisk(revision: string): Promise<void> {
-    if (revision === this.store.get().revision) return;
+    await this.saving;
+    // What it was meanwhile, another program has put right.
+    if (revision === this.store.get().revision) return this.store.set({ conflict: null });
     let answer: SpecAnswer;
     try {
       answer = await this.api.spec();
@@ -144,11 +177,15 @@ export class Draft {
       this.store.set({ notice: message(error) });
       return;
     }
-    if (answer.revision !== this.store.get().revision) this.disk(answer);
+    await this.saving;
+    const file = this.fileOf(answer);
+    if (file.revision === "") this.store.set({ notice: `The file on disk cannot be read: ${answer.error}` });
+    else if (file.revision !== this.store.get().revision) this.disk(file);
+    else this.store.set({ conflict: null });
   }
 
   /** Takes the content on disk, merges it with the changes of this page, or asks. */
-  private disk(file: { text: string; revision: string }): void {
+  private disk(file: File): void {
     const { text, saved } = this.store.get();
     if (file.text === text) {
       this.onDisk(file);
@@ -168,13 +205,13 @@ export class Draft {
     });
   }
 
-  /** The answer to a conflict. In each case, undo leads back to the other text of this page. */
+  /** The answer to a conflict. In each case, undo leads back to the other text. */
   resolve(choice: "mine" | "theirs"): void {
-    const { conflict } = this.store.get();
+    const { conflict, text } = this.store.get();
     if (!conflict) return;
-    this.store.set({ conflict: null });
     this.onDisk(conflict);
-    if (choice === "theirs") this.edit(conflict.text, "disk");
+    this.edit(conflict.text, "disk");
+    if (choice === "mine") this.edit(text, "mine");
     this.keep();
   }
 }

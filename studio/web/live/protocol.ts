@@ -708,6 +708,8 @@ export interface MeasureOutcome {
   greatest_at_s: number;
   mean: number;
   last: number;
+  /** `m/s`. Missing: it has none, or it is not known. */
+  unit?: string;
 }
 /** The part of the net that a run has reached, as counted by `tessera simulate --coverage`. */
 export interface Coverage {

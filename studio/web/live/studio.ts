@@ -1,4 +1,4 @@
-import { Api, shareToken, takeToken } from "./api";
+import { Api, hasToken, shareToken, takeToken } from "./api";
 import { Camera } from "./camera";
 import { Connection } from "./connection";
 import { Coverages } from "./coverage";
@@ -56,6 +56,8 @@ function linkedView(): Partial<ViewState> {
   return view;
 }
 
+const fileOf = ({ folder, file }: Project) => `${folder}/${file}`;
+
 /** Milliseconds between two changes of the address while time goes on. */
 const linkPause = 400;
 
@@ -97,6 +99,7 @@ export class Studio {
   /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
   private linking: ReturnType<typeof setTimeout> | undefined;
+  private reloading = false;
 
   constructor() {
     this.view.subscribe(() => {
@@ -115,8 +118,12 @@ export class Studio {
       this.link();
     });
     this.operator.watch(document, window);
-    // A link that is opened in this tab changes only the part after the #.
-    addEventListener("hashchange", () => this.follow(readLink(location.hash)));
+    // After a reload, what is not saved is there again; after the tab is closed, it is gone.
+    addEventListener("beforeunload", (event) => {
+      if (this.unsaved && !this.reloading) event.preventDefault();
+    });
+    // An address that is opened in this tab changes only the part after the #.
+    addEventListener("hashchange", () => (hasToken() ? this.reload() : this.follow(readLink(location.hash))));
     this.draft.store.subscribe(() => {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
@@ -158,8 +165,10 @@ export class Studio {
 
   async open(): Promise<void> {
     try {
-      const [project] = await Promise.all([this.api.project(), this.draft.load()]);
+      const asked = this.api.project();
+      const [project] = await Promise.all([asked, this.draft.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
+      this.sources.restore(project.folder);
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
@@ -179,14 +188,25 @@ export class Studio {
     }
   }
 
+  /** What is not saved stays in this tab. */
+  private reload(): void {
+    this.reloading = true;
+    location.reload();
+  }
+
   /** The server has been restarted, so its information about the file may be new. */
   private async greeted(start: string): Promise<void> {
     const known = this.serverStart;
     this.serverStart = start;
     if (!this.project.get().project) {
-      this.project.set({ project: await this.api.project(), problem: "" });
-      await this.draft.load();
+      const project = await this.api.project();
+      this.project.set({ project, problem: "" });
+      await this.draft.load(Promise.resolve(fileOf(project)));
+      this.sources.restore(project.folder);
     } else if (known !== undefined && known !== start) {
+      const { project } = this.project.get();
+      // Another project at this address: its text is not to be mixed with that of this page.
+      if (project && fileOf(await this.api.project()) !== fileOf(project)) return this.reload();
       await this.draft.changedOnDisk("");
       this.draft.store.set({ notice: "The server was restarted; connected again" });
     }
@@ -205,6 +225,18 @@ export class Studio {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(cause.atEnd, cause.title);
     else this.lens.close();
+  }
+
+  get unsaved(): boolean {
+    return this.draft.dirty || this.sources.dirty;
+  }
+
+  /** Saves the specification and all C++, since a run uses the files on disk. false: not all of it is saved. */
+  async saveAll(): Promise<boolean> {
+    if (this.draft.dirty && !(await this.draft.save())) return false;
+    const saved = await this.sources.saveAll();
+    if (!saved) this.runner.store.set({ problem: this.sources.store.get().problem });
+    return saved;
   }
 
   /** Starts or follows a run. A game in play is closed. */

@@ -1,8 +1,10 @@
-import { useEffect, useId, useRef, useState, type ReactNode } from "react";
+import { useEffect, useId, useRef, type ReactNode } from "react";
 import { useStore, useStudio } from "../../hooks/use";
+import { edited, functionIn } from "../../live/code_draft";
 import type { FunctionShown } from "../../live/protocol";
 import { buildMessages, functionAt, type BuildMessage, type FunctionText } from "../../model/text/cpp_function";
 import type { Behaviour, Subsystem } from "../../model/structure/structure";
+import { Difference } from "../text/conflict_dialog";
 
 /** The C++ function of a behaviour: read, edited, or begun if it is missing. */
 export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsystem: Subsystem }) {
@@ -22,7 +24,7 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
     if (file) void studio.sources.open(file);
   }, [studio, file]);
   const source = file === undefined ? undefined : files.get(file)?.text;
-  const found = source !== undefined && known?.line ? functionAt(source, known.line) : null;
+  const found = known ? functionIn(source, known) : null;
   return (
     <section className="code" aria-label={`C++ of ${behaviour.name}`}>
       <h3>C++</h3>
@@ -97,26 +99,30 @@ function Message({ of, source, children }: { of: BuildMessage; source: string; c
   );
 }
 
+/** Another program changed the same lines of the function: the user decides which text to go on with. */
+function Conflict({ mine, theirs, choose }: { mine: string; theirs: string; choose: (text: string) => void }) {
+  return (
+    <div className="asked" role="group" aria-label="The function was changed by another program">
+      <p>Another program changed the same lines of this function in its file:</p>
+      <Difference mine={mine} theirs={theirs} />
+      <button onClick={() => choose(theirs)}>Take the file on disk</button>{" "}
+      <button onClick={() => choose(mine)}>Keep mine</button>
+    </div>
+  );
+}
+
 function Edited({ known, source, found }: { known: FunctionShown; source: string; found: FunctionText }) {
   const studio = useStudio();
   const id = useId();
-  const name = `${known.subsystem}.${known.function}`;
-  const [text, show] = useState(studio.sources.unsaved.get(name) ?? found.text);
-  const [base, setBase] = useState(found.text);
+  const held = studio.sources.edited(known);
+  // Drawn again with each change of it.
+  useStore(studio.sources.store, () => studio.sources.edited(known)?.text);
+  const now = edited(held, found.text);
+  const text = now?.text ?? held!.text;
+  const dirty = text !== found.text;
+  const set = (text: string) => studio.sources.edit(known, { text, base: now ? found.text : held!.base });
   const build = useStore(studio.runner.store, (all) => all.build);
   const functions = useStore(studio.sources.store, (all) => all.functions);
-  const setText = (text: string) => {
-    if (text === found.text) studio.sources.unsaved.delete(name);
-    else studio.sources.unsaved.set(name, text);
-    show(text);
-  };
-  useEffect(() => {
-    // Unsaved text stays when the file changes.
-    if (text === base) setText(found.text);
-    setBase(found.text);
-  }, [found.text]);
-  const dirty = text !== found.text;
-  if (!dirty) studio.sources.unsaved.delete(name);
   const area = useRef<HTMLTextAreaElement>(null);
   const messages = buildMessages(build, known.file);
   const inside = messages.filter(({ line }) => line >= found.firstLine && line <= found.lastLine);
@@ -125,7 +131,7 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
     ({ line, severity }) =>
       severity === "error" && !functionsIn(source, functions, known.file).some((one) => isWithin(line, one)),
   );
-  const save = () => void studio.sources.save(known.file, source.slice(0, found.from) + text + source.slice(found.to));
+  const save = () => void studio.sources.saveFunction(known);
   return (
     <>
       <label htmlFor={id}>
@@ -139,12 +145,12 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
         rows={Math.min(24, Math.max(5, text.split("\n").length + 1))}
         spellCheck={false}
         wrap="off"
-        onChange={(event) => setText(event.target.value)}
+        onChange={(event) => set(event.target.value)}
         onKeyDown={(event) => {
           if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
           event.preventDefault();
           event.stopPropagation();
-          if (dirty) save();
+          if (dirty && now) save();
         }}
       />
       {inside.length + outside.length > 0 && (
@@ -163,12 +169,17 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
           ))}
         </ul>
       )}
-      <div className="buttons">
-        <button className={dirty ? "primary" : ""} disabled={!dirty} onClick={save}>
-          Save the function
-        </button>
-        {dirty && <button onClick={() => setText(found.text)}>Discard</button>}
-      </div>
+      {!now && (
+        <Conflict mine={text} theirs={found.text} choose={(text) => studio.sources.edit(known, { text, base: found.text })} />
+      )}
+      {now && (
+        <div className="buttons">
+          <button className={dirty ? "primary" : ""} disabled={!dirty} onClick={save}>
+            Save the function
+          </button>
+          {dirty && <button onClick={() => set(found.text)}>Discard</button>}
+        </div>
+      )}
     </>
   );
 }

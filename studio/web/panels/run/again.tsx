@@ -1,12 +1,12 @@
 import { useEffect, useState } from "react";
-import { useStore, useStudio } from "../../hooks/use";
+import { useStore, useStudio, useUnsaved } from "../../hooks/use";
 import { againFrom } from "../../live/again";
 
 /** Repeats the run with the present code, and continues from the shown time. */
 export function Again() {
   const studio = useStudio();
   const { request, state } = useStore(studio.runner.store, (all) => all);
-  const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
+  const dirty = useUnsaved();
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const [typed, setTyped] = useState("");
   const [now, setNow] = useState(0);
@@ -21,8 +21,7 @@ export function Again() {
   const at = typed === "" ? now : Number(typed);
   const wrong = !(at >= 0 && at < 1e9);
   const again = async () => {
-    // A run uses the file on disk.
-    if (dirty && !(await studio.draft.save())) return;
+    if (!(await studio.saveAll())) return;
     const paused = studio.runner.store.get().state === "paused";
     await studio.runner.stop();
     await studio.run(againFrom(request, at, paused));

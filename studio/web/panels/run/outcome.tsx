@@ -83,7 +83,10 @@ function MeasuresOf({ measures }: { measures: Readonly<Record<string, MeasureOut
       <tbody>
         {Object.entries(measures).map(([name, one]) => (
           <tr key={name}>
-            <th scope="row">{name}</th>
+            <th scope="row">
+              {name}
+              {one?.unit && <span className="unit"> in {one.unit}</span>}
+            </th>
             <td title={one ? `at ${one.least_at_s.toFixed(2)} s` : ""}>{one?.least.toPrecision(4)}</td>
             <td>{one?.mean.toPrecision(4)}</td>
             <td title={one ? `at ${one.greatest_at_s.toFixed(2)} s` : ""}>{one?.greatest.toPrecision(4)}</td>

@@ -1,5 +1,5 @@
 import { useCallback, useEffect, useState } from "react";
-import { useHasWorld, useStore, useStudio } from "../../hooks/use";
+import { useHasWorld, useStore, useStudio, useUnsaved } from "../../hooks/use";
 import { message } from "../../live/draft";
 import type { Project, RunRequest } from "../../live/protocol";
 import { Choice, Field } from "../forms/field";
@@ -97,7 +97,7 @@ export function StartForm() {
   const runner = useStore(studio.runner.store, (all) => all);
   const project = useStore(studio.project, (all) => all.project);
   const hasWorld = useHasWorld();
-  const dirty = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
+  const dirty = useUnsaved();
   const current = useStore(studio.draft.store, (draft) => draft.current);
   const { wishes } = studio.runner;
   const { kind, track, time, seed, speed, all } = useStore(wishes, (all) => all);
@@ -105,8 +105,7 @@ export function StartForm() {
   if (kind === "attach") return <AttachForm />;
   if (kind === "deployment") return <DeploymentForm />;
   const start = async (paused: boolean) => {
-    // A run uses the file on disk.
-    if (dirty && !(await studio.draft.save())) return;
+    if (!(await studio.saveAll())) return;
     const simulated = kind === "simulate";
     const request: RunRequest = {
       kind,

@@ -27,7 +27,7 @@ export function ConflictDialog() {
   );
 }
 
-function Difference({ mine, theirs }: { mine: string; theirs: string }) {
+export function Difference({ mine, theirs }: { mine: string; theirs: string }) {
   const lines = mine.split("\n");
   return (
     <pre className="difference" tabIndex={0} aria-label="Differences">

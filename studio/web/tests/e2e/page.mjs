@@ -63,7 +63,11 @@ export const tab = (page, name) => page.getByRole("tab", { name, exact: true });
 export const button = (page, name) => page.getByRole("button", { name, exact: true });
 
 /** The text of the specification as the page has it. */
-export const draftText = (page) => page.evaluate(() => JSON.parse(sessionStorage.getItem("tessera.draft") ?? "{}").text);
+export const draftText = (page) =>
+  page.evaluate(() => {
+    const key = Object.keys(sessionStorage).find((one) => one.startsWith("tessera.draft "));
+    return key && JSON.parse(sessionStorage.getItem(key)).text;
+  });
 
 /** Lines that differ, as `diff` shows them; for changes that keep the order of lines. */
 export function changes(before, after) {

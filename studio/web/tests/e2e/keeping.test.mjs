@@ -1,0 +1,171 @@
+// Nothing that was typed is lost, and no file is changed otherwise than was asked.
+import assert from "node:assert/strict";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { test } from "node:test";
+import { button, draftText, example, folder, onPage, serve, tab, until } from "./page.mjs";
+
+const lineFollower = example("01_line_follower");
+const subsystem = '[data-path="robot.control"]';
+
+async function setRate(page, rate) {
+  await tab(page, "Structure").click();
+  await page.locator(subsystem).click();
+  await page.getByRole("textbox", { name: "Rate" }).fill(rate);
+  await page.keyboard.press("Enter");
+}
+
+/** The C++ of `follow`, in its text field. */
+async function codeOf(page) {
+  await tab(page, "Structure").click();
+  await page.locator('.chip[data-path="robot.control.follow"]').click();
+  const area = page.locator("section.code textarea");
+  await area.waitFor();
+  return area;
+}
+
+async function typeAtBegin(page, area, text) {
+  await area.focus();
+  await page.keyboard.press("Control+Home");
+  await page.keyboard.type(text);
+}
+
+const sourceOf = (server) => join(server.root, "src/control.cpp");
+
+test("undo in the C++ undoes the C++ and not the specification, and a reload loses neither", () =>
+  onPage(lineFollower, async (page) => {
+    await setRate(page, "33 Hz");
+    const area = await codeOf(page);
+    const before = await area.inputValue();
+    await typeAtBegin(page, area, "X");
+    await page.keyboard.press("Control+z");
+    assert.equal(await area.inputValue(), before);
+    assert.match(await draftText(page), /33 Hz/);
+    await typeAtBegin(page, area, "/* mine */ ");
+    const text = await area.inputValue();
+    await page.reload();
+    const again = await codeOf(page);
+    await until(page, async () => (await again.inputValue()) === text, "the C++ is there again");
+    assert.match(await draftText(page), /33 Hz/);
+  }));
+
+test("C++ that another program changed is merged, or asked about, and a run saves it first", () =>
+  onPage(lineFollower, async (page, server) => {
+    const area = await codeOf(page);
+    const source = sourceOf(server);
+    await typeAtBegin(page, area, "/* mine */ ");
+    // Two lines before the function: it is elsewhere now.
+    writeFileSync(source, `// theirs\n\n${readFileSync(source, "utf8")}`);
+    await button(page, "Save the function").click();
+    await page.getByText("This is its text now").waitFor();
+    await button(page, "Save the function").click();
+    await until(page, () => /\/\* mine \*\/ void follow/.test(readFileSync(source, "utf8")), "the function is saved");
+    assert.ok(readFileSync(source, "utf8").startsWith("// theirs\n\n"));
+    await typeAtBegin(page, area, "/* again */ ");
+    writeFileSync(source, readFileSync(source, "utf8").replace("/* mine */", "/* not mine */"));
+    await button(page, "Save the function").click();
+    const asked = page.getByRole("group", { name: "The function was changed by another program" });
+    await asked.getByText("/* not mine */").waitFor();
+    assert.match(readFileSync(source, "utf8"), /\/\* not mine \*\//);
+    await asked.getByRole("button", { name: "Keep mine" }).click();
+    await tab(page, "Run").click();
+    await button(page, "Save and run").click();
+    await until(page, () => /\/\* again \*\/ \/\* mine \*\/ void follow/.test(readFileSync(source, "utf8")), "the run saved it");
+    await button(page, "Stop").click();
+    await page.getByTestId("run-state").getByText("Ended").or(page.getByTestId("run-state").getByText("Failed")).waitFor();
+  }));
+
+test("lines keep their ends in the specification and in C++", () =>
+  onPage(lineFollower, async (page, server) => {
+    const source = sourceOf(server);
+    const [text, code] = [server.text(), readFileSync(source, "utf8")];
+    const windows = (text) => text.replaceAll("\n", "\r\n");
+    writeFileSync(server.file, windows(text));
+    writeFileSync(source, windows(code));
+    await page.reload();
+    await page.getByTestId("editor").getByText("20 Hz").waitFor();
+    assert.equal(await page.getByLabel("not saved").count(), 0, "nothing was edited");
+    await setRate(page, "33 Hz");
+    await page.keyboard.press("Control+s");
+    await page.getByText("Saved").waitFor();
+    assert.equal(server.text(), windows(text.replace("rate: 20 Hz", "rate: 33 Hz")));
+    await typeAtBegin(page, await codeOf(page), "/* mine */ ");
+    await button(page, "Save the function").click();
+    const expected = windows(code.replace("void follow", "/* mine */ void follow"));
+    await until(page, () => readFileSync(source, "utf8") === expected, "the function is saved");
+  }));
+
+test("what is typed in a field is saved with the rest, and a second save waits for the first", () =>
+  onPage(lineFollower, async (page, server) => {
+    await tab(page, "Structure").click();
+    await page.locator(subsystem).click();
+    await page.getByRole("textbox", { name: "Rate" }).fill("33 Hz");
+    await page.route("**/api/spec", async (route) => {
+      const answer = await route.fetch();
+      await new Promise((done) => setTimeout(done, 300));
+      await route.fulfill({ response: answer });
+    });
+    await page.keyboard.press("Control+s");
+    await page.getByRole("textbox", { name: "Rate" }).fill("34 Hz");
+    await page.keyboard.press("Control+s");
+    await until(page, () => /rate: 34 Hz/.test(server.text()), "both are saved");
+    await page.getByLabel("not saved").waitFor({ state: "detached" });
+    assert.equal(await page.getByRole("dialog").isVisible(), false);
+  }));
+
+test("a conflict that another program puts right is none, and undo leads to the text that was not kept", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    await setRate(page, "33 Hz");
+    const dialog = page.getByRole("dialog");
+    writeFileSync(server.file, "");
+    await dialog.waitFor();
+    writeFileSync(server.file, before);
+    await dialog.waitFor({ state: "hidden" });
+    assert.match(await draftText(page), /33 Hz/);
+    writeFileSync(server.file, before.replace("rate: 20 Hz", "rate: 44 Hz"));
+    await dialog.getByRole("button", { name: "Keep mine" }).click();
+    await page.keyboard.press("Control+s");
+    await page.getByText("Saved").waitFor();
+    assert.match(server.text(), /rate: 33 Hz/);
+    await button(page, "Undo").click();
+    assert.match(await draftText(page), /rate: 44 Hz/);
+  }));
+
+test("a file that cannot be read is not taken for an empty one", () =>
+  onPage(lineFollower, async (page, server) => {
+    const large = `${server.text()}${"# a long comment\n".repeat(600_000)}`;
+    writeFileSync(server.file, large);
+    await page.reload();
+    await page.getByText("spec.yaml cannot be read").waitFor();
+    await page.getByText("it is larger than 8 MB").waitFor();
+    assert.equal(await button(page, "An empty system").count(), 0);
+    await page.getByTestId("editor").locator(".cm-content").focus();
+    await page.keyboard.type("x");
+    await page.keyboard.press("Control+s");
+    await page.getByText("the file cannot be written").waitFor();
+    assert.ok(server.text() === large, "it stays as it was");
+  }));
+
+test("an address that is opened in the old tab is taken, and another project's text is not mixed in", () =>
+  onPage(lineFollower, async (page, server) => {
+    await setRate(page, "33 Hz");
+    await until(page, async () => /33 Hz/.test((await draftText(page)) ?? ""), "the edit");
+    await server.kill();
+    const other = await serve(folder("orchard"), { port: server.port });
+    try {
+      await page.goto(other.url);
+      await page.getByRole("heading", { name: "orchard" }).waitFor();
+      assert.equal(await page.getByLabel("not saved").count(), 0);
+    } finally {
+      await other.close();
+    }
+    const again = await serve(server.root, { port: server.port, copy: false });
+    try {
+      await page.goto(again.url);
+      await page.getByRole("heading", { name: "line_follower" }).waitFor();
+      await page.getByTestId("editor").getByText("33 Hz").waitFor();
+    } finally {
+      await again.close();
+    }
+  }));

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include "cli/outcome.hpp"
+#include "cli/terminal.hpp"
 #include "project/files/installation.hpp"
 
 namespace tessera::cli {

@@ -50,7 +50,7 @@ bool is_meant(const std::string& name, const std::string& which) {
 
 }  // namespace
 
-std::vector<RunningController> find_controllers(const std::string& which) {
+std::vector<RunningController> running_controllers(const std::string& which) {
   std::vector<RunningController> running;
   for (const fs::path& file : project::control_sockets(monitor_folder())) {
     const bool shortened = has_shortened_name(file.native());
@@ -61,9 +61,17 @@ std::vector<RunningController> find_controllers(const std::string& which) {
     if (shortened) one->learn_name();
     if (is_meant(one->name(), which)) running.push_back(std::move(*one));
   }
-  if (running.empty())
-    complain((which.empty() ? "no controller is running" : "no controller '" + which + "' is running") +
-             " in real time as this user; `tessera run` starts one");
+  return running;
+}
+
+int complain_of_none(const std::string& which) {
+  return complain((which.empty() ? "no controller is running" : "no controller '" + which + "' is running") +
+                  " in real time as this user; `tessera run` starts one");
+}
+
+std::vector<RunningController> find_controllers(const std::string& which) {
+  std::vector<RunningController> running = running_controllers(which);
+  if (running.empty()) complain_of_none(which);
   return running;
 }
 

@@ -53,6 +53,10 @@ struct SeenController {
 /// "tessera: error: several controllers are running (...): name one, ..."
 int complain_of_several(const std::vector<SeenController>& controllers);
 
+/// Prints "tessera: error: no controller is running ...".
+int complain_of_none(const std::string& which);
+/// All controllers that `which` names, as find_controllers. Prints nothing.
+[[nodiscard]] std::vector<RunningController> running_controllers(const std::string& which);
 /// All controllers that `which` names: a system, a process, or empty for all. Prints an error if there is
 /// none.
 [[nodiscard]] std::vector<RunningController> find_controllers(const std::string& which);

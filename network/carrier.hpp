@@ -9,6 +9,7 @@
 
 #include "network/clock_offset.hpp"
 #include "network/messages.hpp"
+#include "network/status.hpp"
 
 namespace tessera::network {
 
@@ -62,6 +63,12 @@ class Carrier {
   virtual void receive(Listener& listener, std::chrono::nanoseconds longest) = 0;
   /// Ends a wait of receive(), or the next one. Threads: any.
   virtual void wake() = 0;
+
+  /// The number of readers of the status of this process (network/status.hpp). Threads: any.
+  [[nodiscard]] virtual std::size_t watchers() { return 0; }
+  /// Tells them, as well as it goes: nobody answers, and what is lost is not sent again. Nothing else of the carrier
+  /// waits for it. text: at most longest_status_bytes. Threads: one, which may be another than that of the rest.
+  virtual void send_status(StatusPart /*part*/, std::string_view /*text*/) {}
 };
 
 /// The last domain of the middleware that has enough UDP ports.
@@ -95,6 +102,6 @@ struct CarrierSetup {
 ///
 /// Errors: nullptr, and `error` (of `size` bytes, terminated by 0) says why.
 using OpenCarrier = Carrier*(const CarrierSetup& setup, char* error, std::size_t size);
-inline constexpr const char* open_carrier_function = "tessera_open_carrier_3";
+inline constexpr const char* open_carrier_function = "tessera_open_carrier_4";
 
 }  // namespace tessera::network

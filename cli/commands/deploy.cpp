@@ -20,6 +20,7 @@
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/file_names.hpp"
+#include "project/meeting_place.hpp"
 #include "project/process/death.hpp"
 #include "spec/parser.hpp"
 #include "tessera/channel_limits.hpp"
@@ -45,17 +46,6 @@ std::vector<std::string> names_of_only(const std::string& list) {
   }
   if (names.empty()) throw std::runtime_error("--only names no process");
   return names;
-}
-
-/// Throws std::runtime_error: it does not exist.
-std::uint32_t domain_of(const spec::Deployment& deployment, const NetworkOptions& network) {
-  if (network.domain.empty()) return deployment.domain;
-  std::uint32_t domain = 0;
-  const char* const end = network.domain.data() + network.domain.size();
-  const auto [behind, problem] = std::from_chars(network.domain.data(), end, domain);
-  if (problem == std::errc{} && behind == end && domain <= last_domain) return domain;
-  throw std::runtime_error(
-      fmt::format("--domain {}: expected a whole number from 0 to {}", network.domain, last_domain));
 }
 
 /// Whether all of these processes may start here. Prints why not.

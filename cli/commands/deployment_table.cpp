@@ -58,40 +58,71 @@ std::string doings(const Snapshot& now) {
   return text;
 }
 
-/// The processes of this machine, and those that others report.
-std::vector<TableLine> process_lines(const DeploymentWatch& deployment) {
+/// Processes that are not seen, with what is known of them: that the deployment has them, and what others tell.
+std::vector<TableLine> unseen_lines(const DeploymentWatch& deployment, std::size_t width) {
+  struct Known {
+    std::string host, told;
+    bool reachable = false;
+  };
+  std::map<std::string, Known> all;
+  for (const Snapshot::Deployment::Process& one : deployment.declared())
+    if (deployment.watches_network() && deployment.find(one.name) == nullptr) all[one.name].host = one.host;
+  for (const WatchedProcess* one : deployment.processes())
+    if (one->state == WatchedProcess::State::running)
+      for (const Snapshot::Link& link : one->snapshot.links) {
+        if (deployment.find(link.process) != nullptr) continue;
+        Known& known = all[link.process];
+        if (!known.told.empty()) continue;
+        known = {link.host,
+                 fmt::format(", {} from {}", link.reachable ? "reachable" : "NOT REACHABLE", one->name()),
+                 link.reachable};
+      }
   std::vector<TableLine> lines;
-  std::map<std::string, std::pair<std::string, std::string>> elsewhere;  // host, and the process that reports
-                                                                         // it
+  for (const auto& [name, known] : all)
+    lines.push_back({fmt::format("{:<{}}  {}{}{}", name, width,
+                                 deployment.watches_network() ? "NOT HEARD" : "not on this machine",
+                                 known.host.empty() ? "" : " (" + known.host + ")", known.told),
+                     known.reachable && !deployment.watches_network()});
+  return lines;
+}
+
+/// Hosts are named if there are several.
+bool has_hosts(const DeploymentWatch& deployment) {
+  std::set<std::string> hosts;
+  for (const WatchedProcess* one : deployment.processes()) hosts.insert(one->snapshot.host);
+  hosts.erase("");
+  return hosts.size() > 1;
+}
+
+TableLine process_line(const WatchedProcess& one, std::size_t width, bool with_host) {
+  const Snapshot& now = one.snapshot;
+  std::uint64_t overruns = 0, errors = 0;
+  for (const Snapshot::Subsystem& subsystem : now.subsystems) {
+    overruns += subsystem.overruns;
+    errors += subsystem.errors;
+  }
+  const bool runs = one.state == WatchedProcess::State::running;
+  std::string doing = one.is_there() ? doings(now) : "";
+  if (now.left_out > 0) doing += fmt::format(" ... and {} more", now.left_out);
+  return {fmt::format("{:<{}}  {:<15} {:>8} {:>10} {:>8} {:>7}  {}{}", one.name(), width, state_text(one),
+                      now.process, now.net_hash.empty() ? "-" : seconds_text(now.time_s), overruns, errors,
+                      with_host ? fmt::format("{:<15} ", now.host) : "", doing),
+          runs && !now.emergency && errors == 0};
+}
+
+std::vector<TableLine> process_lines(const DeploymentWatch& deployment) {
   std::size_t width = 7;
   for (const WatchedProcess* one : deployment.processes()) width = std::max(width, one->name().size());
-  for (const WatchedProcess* one : deployment.processes()) {
-    const Snapshot& now = one->snapshot;
-    std::uint64_t overruns = 0, errors = 0;
-    for (const Snapshot::Subsystem& subsystem : now.subsystems) {
-      overruns += subsystem.overruns;
-      errors += subsystem.errors;
-    }
-    const bool runs = one->state == WatchedProcess::State::running;
-    lines.push_back(
-        {fmt::format("{:<{}}  {:<15} {:>8} {:>10} {:>8} {:>7}  {}", one->name(), width, state_text(*one),
-                     now.process, now.net_hash.empty() ? "-" : seconds_text(now.time_s), overruns, errors,
-                     one->is_there() ? doings(now) : ""),
-         runs && !now.emergency && errors == 0});
-    if (!one->is_there()) continue;
-    for (const Snapshot::Link& link : now.links)
-      if (deployment.find(link.process) == nullptr)
-        elsewhere.try_emplace(
-            link.process, link.host,
-            fmt::format("{} from {}", link.reachable ? "reachable" : "NOT REACHABLE", one->name()));
-  }
-  for (const auto& [name, told] : elsewhere)
-    lines.push_back({fmt::format("{:<{}}  not on this machine{}, {}", name, width,
-                                 told.first.empty() ? "" : " (" + told.first + ")", told.second),
-                     told.second.starts_with("reachable")});
-  lines.insert(lines.begin(), {fmt::format("{:<{}}  {:<15} {:>8} {:>10} {:>8} {:>7}  {}", "process", width,
-                                           "state", "number", "time", "overruns", "errors", "behaviours"),
-                               false});
+  for (const auto& one : deployment.declared()) width = std::max(width, one.name.size());
+  const bool with_host = has_hosts(deployment);
+  std::vector<TableLine> lines;
+  lines.push_back({fmt::format("{:<{}}  {:<15} {:>8} {:>10} {:>8} {:>7}  {}{}", "process", width, "state",
+                               "number", "time", "overruns", "errors",
+                               with_host ? fmt::format("{:<15} ", "host") : "", "behaviours"),
+                   false});
+  for (const WatchedProcess* one : deployment.processes())
+    lines.push_back(process_line(*one, width, with_host));
+  for (TableLine& one : unseen_lines(deployment, width)) lines.push_back(std::move(one));
   return lines;
 }
 
@@ -135,7 +166,7 @@ std::vector<TableLine> link_lines(const DeploymentWatch& deployment) {
     return fmt::format("{:<{}}  {:<22} {:>8} {:>7} {:>9} {:>9} {:>9} {:>10}  {}", cells...);
   };
   for (const WatchedProcess* one : deployment.processes()) {
-    if (!one->is_there()) continue;
+    if (one->state != WatchedProcess::State::running) continue;  // what it knew is old
     const Snapshot& now = one->snapshot;
     for (const Snapshot::Link& link : now.links) {
       const std::string state =
@@ -185,10 +216,15 @@ std::string deployment_table(const std::string& system, const DeploymentWatch& d
     lines.push_back({fmt::format("EMERGENCY STOP of {}: {}", names, why), false});
   if (!emergencies.empty()) lines.push_back({fmt::format("`tessera reset {}` ends it", system), false});
   const auto running = std::ranges::count(all, WatchedProcess::State::running, &WatchedProcess::state);
-  lines.push_back({fmt::format("{}  {} of {} processes run  net {}{}", system, running, all.size(),
-                               nets.empty() ? "-" : *nets.begin(),
-                               nets.size() > 1 ? "  AND OTHERS: they do not work together" : ""),
-                   false});
+  lines.push_back(
+      {fmt::format(
+           "{}  {} of {} processes run  net {}{}", system, running,
+           std::max(all.size(), deployment.watches_network() ? deployment.declared().size() : std::size_t{0}),
+           nets.empty() ? "-" : *nets.begin(),
+           nets.size() > 1 ? "  AND OTHERS: they do not work together" : ""),
+       false});
+  if (const std::string remark = deployment.remark(); !remark.empty())
+    lines.push_back({"network: " + remark, false});
   std::vector<TableLine> waits = waiting_lines(deployment), processes = process_lines(deployment),
                          links = link_lines(deployment);
   const auto parts = {&waits, &processes, &links};

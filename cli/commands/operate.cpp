@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <memory>
 #include <optional>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
+#include "cli/not_reached.hpp"
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
 #include "project/process/control_messages.hpp"
@@ -32,8 +34,9 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
   return controller.send(project::line_of(command, question));
 }
 
-/// nullopt: it has ended, or does not answer.
-std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
+/// nullopt: it has ended, or does not answer. first: gets its first line, if that comes before the answer.
+std::optional<project::CommandAnswer> answer_of(RunningController& controller,
+                                                std::optional<project::Snapshot>* first = nullptr) {
   // It sends its state several times a second, beside answers: lines come as long as it runs.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
@@ -42,6 +45,8 @@ std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
     std::optional<project::ControlLine> line = project::read_control_line(*said);
     auto* answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
     if (answer != nullptr && answer->id == question) return std::move(*answer);
+    auto* snapshot = line ? std::get_if<project::Snapshot>(&*line) : nullptr;
+    if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
   }
   return std::nullopt;
 }
@@ -89,6 +94,22 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
   return code;
 }
 
+/// Commands never go over the network: nothing there says who asks.
+void note_not_told(const std::vector<SeenController>& processes, const char* what) {
+  NotReached others;
+  for (const SeenController& one : processes)
+    if (one.snapshot) others.reached(*one.snapshot);
+  for (const std::string& text : others.texts())
+    fmt::print(stderr, "tessera: note: {}, on other machines: {}\n", what, text);
+}
+
+/// Whether not only one process was meant.
+bool is_system(const std::string& which, const std::vector<SeenController>& processes) {
+  return which.empty() || std::ranges::any_of(processes, [&](const SeenController& one) {
+           return one.snapshot && one.snapshot->system == which;
+         });
+}
+
 int set_command(const OperateOptions& options) {
   std::vector<SeenController> processes = find_system(options.which);
   if (processes.empty()) return failed;
@@ -98,6 +119,7 @@ int set_command(const OperateOptions& options) {
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
     if (set_in_all(processes, {one.substr(0, equals), one.substr(equals + 1)}) != ok) code = failed;
   }
+  if (is_system(options.which, processes)) note_not_told(processes, "not told");
   return code;
 }
 
@@ -108,12 +130,21 @@ int emergency_stop_command(const OperateOptions& options) {
   // Sends the command to all before it waits for one.
   for (RunningController& one : controllers) tell(one, command);
   int code = controllers.empty() ? failed : ok;
+  NotReached others;
   for (RunningController& one : controllers) {
-    if (const std::optional<Problem> wrong = problem_of(one, answer_of(one)); !wrong)
+    std::optional<project::Snapshot> first;
+    const std::optional<Problem> wrong = problem_of(one, answer_of(one, &first));
+    if (!wrong)
       fmt::print("{}: emergency stop\n", one.name());
     else
       code = complain(wrong->text + ": it is unknown whether its devices are safe");
+    others.tried(one.name());
+    if (first && (options.which.empty() || options.which == first->system)) others.reached(*first);
   }
+  // Half a stop is none: who types this shall know what may still move.
+  for (const std::string& text : others.texts())
+    code = complain("NOT STOPPED, because they are on other machines, if they run: " + text +
+                    ". Type `tessera emergency-stop` there, too");
   return code;
 }
 
@@ -132,6 +163,7 @@ int reset_processes(std::vector<SeenController>& processes, const std::string& s
   if (stopped.empty() && code == ok)
     return complain("no process of " + system + " on this machine has an emergency stop");
   for (SeenController* one : stopped) tell(one->controller, project::command::Reset{});
+  note_not_told(processes, "not reset");
   for (SeenController* one : stopped) {
     if (const std::optional<Problem> wrong = problem_of(one->controller, answer_of(one->controller)))
       code = complain(one->snapshot->name.value_or("") + ": " + wrong->text);
@@ -189,7 +221,9 @@ void add_emergency_stop(CommandLine& app, int& exit_code) {
   command.option("--why", options->why, "The reason, for its terminal and its recording");
   command.footer(
       "This is no substitute for an emergency stop in hardware: it needs the controller, this computer and\n"
-      "the connection between them.");
+      "the connection between them. It goes to the controllers of this machine: of a system of several "
+      "processes it\n"
+      "names those of other machines, which it does not stop. Type it on each.");
   command.callback([options, &exit_code] { exit_code = emergency_stop_command(*options); });
 }
 

@@ -1,26 +1,27 @@
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <filesystem>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <optional>
-#include <set>
 #include <string_view>
+#include <system_error>
 #include <utility>
 #include <variant>
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/deployment_table.hpp"
+#include "cli/commands/top_deployment.hpp"
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
+#include "project/launch.hpp"
+#include "project/meeting_place.hpp"
 #include "project/process/control_messages.hpp"
-#include "project/process/deployment_watch.hpp"
-#include "tessera/monitor.hpp"
+#include "spec/parser.hpp"
 #include "tessera/printable.hpp"
 
 namespace tessera::cli {
@@ -31,6 +32,7 @@ using project::Snapshot;
 
 struct TopOptions {
   std::string which;
+  project::NetworkOptions network;
   bool once = false, lines = false;
 };
 
@@ -99,12 +101,6 @@ std::string table(const Snapshot& now, const Snapshot& before) {
   return text;
 }
 
-ScreenSize screen_size() {
-  winsize size{};
-  if (ioctl(STDOUT_FILENO, TIOCGWINSZ, &size) != 0 || size.ws_row == 0 || size.ws_col == 0) return {};
-  return {size.ws_row, size.ws_col};
-}
-
 int watch_one(SeenController& watched, const TopOptions& options) {
   watched.controller.be_patient_for(std::chrono::milliseconds(0));  // without limit
   std::optional<Snapshot> before;
@@ -131,83 +127,38 @@ int watch_one(SeenController& watched, const TopOptions& options) {
   return ok;
 }
 
-using Clock = project::DeploymentWatch::Clock;
-
-/// Waits until each process that was found has sent its state, or takes too long.
-void wait_for_all(project::DeploymentWatch& deployment, std::size_t found,
-                  const project::DeploymentWatch::EachLine& each_line) {
-  const auto end = Clock::now() + project::DeploymentWatch::longest_silence + std::chrono::milliseconds(200);
-  while (std::ranges::count_if(deployment.processes(), [](const auto* one) { return one->is_there(); }) <
-             static_cast<std::ptrdiff_t>(found) &&
-         Clock::now() < end)
-    deployment.poll(std::chrono::milliseconds(100), each_line);
-}
-
-int print_lines(project::DeploymentWatch& deployment, std::size_t found, bool once) {
-  std::set<std::string> told;
-  const auto each_line = [&](std::string_view line) {
-    if (once) {
-      const std::optional<project::ControlLine> read = project::read_control_line(line);
-      const auto* snapshot = read ? std::get_if<Snapshot>(&*read) : nullptr;
-      if (snapshot == nullptr || !told.insert(snapshot->name.value_or("")).second) return;
-    }
-    fmt::print("{}\n", line);
-  };
-  const auto tell_of_gone = [](const project::WatchedProcess& process) {
-    nlohmann::json line{{"system", process.snapshot.system},
-                        {"process", process.name()},
-                        {"pid", process.snapshot.process},
-                        {"state", name_of(process.state)}};
-    fmt::print("{}\n", line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
-  };
-  wait_for_all(deployment, found, each_line);
-  std::set<std::string> gone;  // sockets
-  for (auto last_seen = Clock::now(); !once && Clock::now() < last_seen + std::chrono::seconds(2);) {
-    deployment.poll(std::chrono::milliseconds(200), each_line);
-    for (const project::WatchedProcess* one : deployment.processes()) {
-      if (one->is_there())
-        last_seen = Clock::now();
-      else if (gone.insert(one->socket).second)
-        tell_of_gone(*one);
-    }
-    std::fflush(stdout);
-  }
-  return ok;
-}
-
-int watch_deployment(const std::string& system, std::size_t found, const TopOptions& options) {
-  project::DeploymentWatch deployment(monitor_folder(), system);
-  if (options.lines) return print_lines(deployment, found, options.once);
-  wait_for_all(deployment, found, {});
-  const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.once;
-  auto shown = Clock::time_point::min(), last_seen = Clock::now();
-  for (;;) {
-    const auto now = Clock::now();
-    if (std::ranges::any_of(deployment.processes(), [](const auto* one) { return one->is_there(); }))
-      last_seen = now;
-    if (now - std::chrono::milliseconds(terminal ? 300 : 1000) >= shown) {
-      const ScreenSize screen = options.once ? ScreenSize{} : screen_size();
-      fmt::print("{}{}", terminal ? "\033[H\033[2J" : "",
-                 printable(deployment_table(system, deployment, screen)));
-      if (!terminal && !options.once) fmt::print("\n");
-      std::fflush(stdout);
-      shown = now;
-      if (options.once) return ok;
-    }
-    // A process that has failed may be started again.
-    if (now - last_seen > std::chrono::seconds(3)) break;
-    deployment.poll(std::chrono::milliseconds(200));
-  }
-  fmt::print("all processes of {} on this machine have ended\n", system);
-  return ok;
+/// The deployed system of a project, which may run on other machines only; nullopt: there is none in that place.
+std::optional<WatchedSystem> system_of_project(const TopOptions& options) {
+  const std::filesystem::path spec = project::spec_file(options.which.empty() ? "." : options.which);
+  std::error_code missing;
+  if (!std::filesystem::is_regular_file(spec, missing)) return std::nullopt;
+  diagnostics::Diagnostics found = diagnostics::load(spec);
+  const std::optional<spec::Model> model = found.has_errors() ? std::nullopt : spec::parse(found);
+  if (!model || !model->deployment) return std::nullopt;
+  const project::NetworkOptions& network = options.network;
+  return WatchedSystem{
+      .name = model->system,
+      .found = 0,
+      .given = project::meeting_place(*model->deployment, network, project::machine_name()),
+      .firm = !network.domain.empty() || !network.interface.empty() || !network.peers.empty()};
 }
 
 int top_command(const TopOptions& options) {
-  std::vector<SeenController> seen = first_look(find_controllers(options.which));
-  if (seen.empty()) return failed;
+  const WatchOptions how{.once = options.once, .lines = options.lines};
+  std::vector<SeenController> seen = first_look(running_controllers(options.which));
+  const project::NetworkOptions& network = options.network;
+  const bool tells_network = !network.domain.empty() || !network.interface.empty() || !network.peers.empty();
+  if (seen.empty() || tells_network) {
+    if (const std::optional<WatchedSystem> system = system_of_project(options))
+      return watch_deployment(*system, how);
+    if (tells_network)
+      return complain("--domain, --interface and --peers need a project with `deploy`: name it");
+    return complain_of_none(options.which);
+  }
   const std::optional<std::string> system = common_deployment(seen);
   const bool names_system = system && (options.which.empty() || options.which == *system);
-  if (names_system || (system && seen.size() > 1)) return watch_deployment(*system, seen.size(), options);
+  if (names_system || (system && seen.size() > 1))
+    return watch_deployment({.name = *system, .found = seen.size(), .given = {}, .firm = false}, how);
   if (seen.size() > 1) return complain_of_several(seen);
   return watch_one(seen.front(), options);
 }
@@ -217,16 +168,26 @@ int top_command(const TopOptions& options) {
 void add_top(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("top", "Watch a controller that runs in real time");
   auto options = std::make_shared<TopOptions>();
-  command.option("controller,--controller", options->which,
-                 "Its system, its process (cart[0]) or its process number; needed if several systems run");
+  command.option(
+      "controller,--controller", options->which,
+      "Its system, its process (cart[0]) or its process number; needed if several systems run. A project: "
+      "its processes on all machines");
   command.flag("--once", options->once, "Print one table (with --json: one line of each process) and end");
   command.flag("--json", options->lines, "Print the lines of JSON that the controllers send");
+  command.option("--domain", options->network.domain,
+                 "Of a project: domain of DDS (default: that of `deploy`)");
+  command.option("--interface", options->network.interface,
+                 "Of a project: network interface (default: that of `deploy`)");
+  command.option("--peers", options->network.peers,
+                 "Of a project: hosts of its processes: A,B (default: those of `deploy`)");
   command.footer(
       "A * behind a behaviour: its transition function is being executed. `call` is what its last one took,\n"
       "the lines below are its memory after that, `in use`: one side writes or reads the channel's memory. "
       "A\n"
       "system of several processes is shown as a whole, with those that wait for others for a second or\n"
-      "more; name a process to see only that one, with its memory.\n"
+      "more; name a process to see only that one, with its memory. One process of this machine is enough to "
+      "see\n"
+      "those of other machines. On a machine without one, name the project.\n"
       "Example: tessera run --world &  tessera top");
   command.callback([options, &exit_code] { exit_code = top_command(*options); });
 }

@@ -7,6 +7,7 @@
 #include "network/dds/middleware_log.hpp"
 #include "network/dds/received.hpp"
 #include "network/dds/setup_error.hpp"
+#include "network/dds/status.hpp"
 
 namespace tessera::dds {
 namespace {
@@ -101,12 +102,6 @@ Clock::time_point after(Clock::time_point now, std::chrono::nanoseconds time) {
   return time > Clock::time_point::max() - now ? Clock::time_point::max() : now + time;
 }
 
-std::vector<std::string> hosts_of(const std::vector<Location::Unresolved>& unresolved) {
-  std::vector<std::string> hosts;
-  for (const Location::Unresolved& one : unresolved) hosts.push_back(one.host);
-  return hosts;
-}
-
 }  // namespace
 
 DdsCarrier::DdsCarrier(const network::CarrierSetup& setup, const AddressOf& address_of,
@@ -116,7 +111,7 @@ DdsCarrier::DdsCarrier(const network::CarrierSetup& setup, const AddressOf& addr
       announcements_(deployment_),
       signs_(deployment_),
       location_(locate(setup.interface, setup.peers, address_of)),
-      search_(hosts_of(location_.unresolved), address_of, search_interval),
+      search_(location_.unresolved_hosts(), address_of, search_interval),
       domain_(setup.domain),
       endpoints_(std::make_unique<Endpoints>(deployment_, domain_, location_)),
       // One byte more than the longest value, so that a longer one is noticed.
@@ -125,6 +120,16 @@ DdsCarrier::DdsCarrier(const network::CarrierSetup& setup, const AddressOf& addr
 void DdsCarrier::wake() {
   const std::lock_guard lock(replacing_);
   endpoints_->wake();
+}
+
+std::size_t DdsCarrier::watchers() {
+  const std::lock_guard lock(sending_status_);
+  return matched_readers(endpoints_->status_writer());
+}
+
+void DdsCarrier::send_status(network::StatusPart part, std::string_view text) {
+  const std::lock_guard lock(sending_status_);
+  write_status(endpoints_->status_writer(), {deployment_.process, deployment_.incarnation}, part, text);
 }
 
 void DdsCarrier::tell_of_unresolved(Listener& listener) {
@@ -148,7 +153,7 @@ void DdsCarrier::join_found(Listener& listener) {
   if (!any) return;
   try {
     auto wider = std::make_unique<Endpoints>(deployment_, domain_, location_);
-    const std::lock_guard lock(replacing_);
+    const std::scoped_lock lock(replacing_, sending_status_);
     endpoints_.swap(wider);
     endpoints_->wake();  // a wake of the first domain may be lost
     next_sign_of_life_ = Clock::time_point::min();

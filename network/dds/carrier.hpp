@@ -39,6 +39,8 @@ class DdsCarrier final : public network::Carrier {
   void send(ChannelNumber channel, const network::State& state) override;
   void receive(Listener& listener, std::chrono::nanoseconds longest) override;
   void wake() override;
+  std::size_t watchers() override;
+  void send_status(network::StatusPart part, std::string_view text) override;
 
  private:
   void take_all(Listener& listener);
@@ -66,6 +68,8 @@ class DdsCarrier final : public network::Carrier {
   PeerSearch search_;
   const int domain_;
   std::mutex replacing_;  ///< protects endpoints_ against wake()
+  /// Protects endpoints_ against the thread that sends the status: wake() does not wait for that.
+  std::mutex sending_status_;
   std::unique_ptr<Endpoints> endpoints_;
   Clock::time_point next_sign_of_life_ = Clock::time_point::min();
   std::vector<std::uint8_t> room_;  ///< buffer for the value that is read next

@@ -9,10 +9,10 @@
 #include "network/dds/middleware_log.hpp"
 #include "network/dds/settings.hpp"
 #include "network/dds/setup_error.hpp"
+#include "network/dds/status.hpp"
 #include "wire.h"
 
 namespace tessera::dds {
-namespace {
 
 dds_entity_t made(dds_entity_t entity, const char* what) {
   if (entity < 0)
@@ -21,11 +21,12 @@ dds_entity_t made(dds_entity_t entity, const char* what) {
   return entity;
 }
 
-using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+namespace {
 
 Qos new_qos() { return {dds_create_qos(), &dds_delete_qos}; }
 
-/// Keeps the newest value of each channel. A write never waits.
+}  // namespace
+
 Qos newest(dds_reliability_kind_t reliability, dds_durability_kind_t durability) {
   Qos qos = new_qos();
   dds_qset_reliability(qos.get(), reliability, 0);
@@ -34,17 +35,23 @@ Qos newest(dds_reliability_kind_t reliability, dds_durability_kind_t durability)
   dds_qset_writer_data_lifecycle(qos.get(), false);
   return qos;
 }
+
+std::string plain_topic_name(std::string name) {
+  for (char& letter : name)
+    if (std::string_view("*[]?\"").find(letter) != std::string_view::npos) letter = '_';
+  return name;
+}
+
+namespace {
+
 Qos qos_of_data() { return newest(DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_VOLATILE); }
 Qos qos_of_state() { return newest(DDS_RELIABILITY_RELIABLE, DDS_DURABILITY_TRANSIENT_LOCAL); }
 Qos qos_of_alive() { return newest(DDS_RELIABILITY_BEST_EFFORT, DDS_DURABILITY_VOLATILE); }
 
 /// "tessera/2/line/0a1b/2c3d/data". Other versions, systems, nets and lists of processes have other names.
 std::string topic_name(const Deployment& deployment, const char* what) {
-  std::string name = "tessera/" + std::to_string(wire_version) + "/" + deployment.system + "/" +
-                     deployment.net_hash + "/" + deployment.processes_hash + "/" + what;
-  for (char& letter : name)
-    if (std::string_view("*[]?\"").find(letter) != std::string_view::npos) letter = '_';
-  return name;
+  return plain_topic_name("tessera/" + std::to_string(wire_version) + "/" + deployment.system + "/" +
+                          deployment.net_hash + "/" + deployment.processes_hash + "/" + what);
 }
 
 /// A number, because some implementations take names like "cart[0]" as patterns.
@@ -65,8 +72,8 @@ std::uint32_t next_number_of_domain() {
 
 }  // namespace
 
-Domain::Domain(int number, const Location& location) {
-  const std::string xml = settings(number, location);
+Domain::Domain(int number, const Location& location, std::chrono::seconds lease) {
+  const std::string xml = settings(number, location, lease);
   keep_middleware_log();
   const std::set<int> before = open_files();
   const std::uint32_t id = next_number_of_domain();
@@ -98,6 +105,7 @@ Endpoints::Endpoints(const Deployment& deployment, int domain, const Location& l
   make_readers(deployment);
   for (const ProcessNumber peer : deployment.peers) make_writers(deployment, peer);
   make_alive_writer(deployment);
+  make_status_writer(deployment);
   announce(deployment);
 }
 
@@ -139,6 +147,14 @@ void Endpoints::make_alive_writer(const Deployment& deployment) {
            "a DDS publisher");
   alive_writer_ =
       made(dds_create_writer(publisher, alive_topic_, qos_of_alive().get(), nullptr), "a DDS writer");
+}
+
+void Endpoints::make_status_writer(const Deployment& deployment) {
+  const dds_entity_t me = domain_.participant();
+  const std::string name = status_topic_name(deployment.system);
+  const dds_entity_t topic =
+      made(dds_create_topic(me, &tessera_wire_Status_desc, name.c_str(), nullptr, nullptr), name.c_str());
+  status_writer_ = made(dds_create_writer(me, topic, qos_of_status().get(), nullptr), "a DDS writer");
 }
 
 void Endpoints::announce(const Deployment& deployment) const {

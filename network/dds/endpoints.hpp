@@ -2,19 +2,31 @@
 
 #include <dds/dds.h>
 
+#include <chrono>
 #include <map>
+#include <memory>
+#include <string>
 
 #include "network/dds/deployment.hpp"
 #include "network/dds/location.hpp"
+#include "network/dds/settings.hpp"
 
 namespace tessera::dds {
+
+/// The entity that a call has made. Errors: SetupError: the call has failed.
+dds_entity_t made(dds_entity_t entity, const char* what);
+/// Keeps the newest value of each key. A write never waits.
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+[[nodiscard]] Qos newest(dds_reliability_kind_t reliability, dds_durability_kind_t durability);
+/// Without letters that are patterns for some implementations.
+[[nodiscard]] std::string plain_topic_name(std::string name);
 
 /// The DDS domain of a carrier with everything in it. Each carrier has a domain object of its own, even if
 /// others in this process use the same domain number, so that its configuration is its own.
 class Domain {
  public:
-  /// Errors: SetupError.
-  Domain(int number, const Location& location);
+  /// lease: the others forget a participant that was silent for so long. Errors: SetupError.
+  Domain(int number, const Location& location, std::chrono::seconds lease = usual_lease);
   ~Domain();
   Domain(const Domain&) = delete;
   Domain& operator=(const Domain&) = delete;
@@ -38,6 +50,8 @@ class Endpoints {
   };
   [[nodiscard]] Writers to(ProcessNumber peer) const;
   [[nodiscard]] dds_entity_t alive_writer() const { return alive_writer_; }
+  /// For those who watch; the others read nothing of it.
+  [[nodiscard]] dds_entity_t status_writer() const { return status_writer_; }
   [[nodiscard]] dds_entity_t data() const { return data_; }
   [[nodiscard]] dds_entity_t state() const { return state_; }
   [[nodiscard]] dds_entity_t alive() const { return alive_; }
@@ -53,6 +67,7 @@ class Endpoints {
   void make_readers(const Deployment& deployment);
   void make_writers(const Deployment& deployment, ProcessNumber peer);
   void make_alive_writer(const Deployment& deployment);
+  void make_status_writer(const Deployment& deployment);
   void announce(const Deployment& deployment) const;
   void wait_for(dds_entity_t reader) const;
 
@@ -60,7 +75,7 @@ class Endpoints {
   dds_entity_t data_topic_ = 0, state_topic_ = 0, alive_topic_ = 0, announcement_topic_ = 0;
   dds_entity_t waitset_ = 0, guard_ = 0;
   dds_entity_t data_ = 0, state_ = 0, alive_ = 0, announcements_ = 0;
-  dds_entity_t alive_writer_ = 0;
+  dds_entity_t alive_writer_ = 0, status_writer_ = 0;
   std::map<ProcessNumber, Writers> writers_;
 };
 

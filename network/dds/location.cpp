@@ -57,6 +57,12 @@ Location find_interface(const std::string& wanted) {
 
 }  // namespace
 
+std::vector<std::string> Location::unresolved_hosts() const {
+  std::vector<std::string> hosts;
+  for (const Unresolved& one : unresolved) hosts.push_back(one.host);
+  return hosts;
+}
+
 std::optional<std::string> resolve(const std::string& host, std::string& why) {
   addrinfo hints{};
   hints.ai_family = AF_INET;

@@ -20,6 +20,7 @@ struct Location {
     std::string host, why;
   };
   std::vector<Unresolved> unresolved;  ///< peers that have no address now
+  [[nodiscard]] std::vector<std::string> unresolved_hosts() const;
 };
 
 /// Asks the name service of this machine. See AddressOf.

@@ -26,11 +26,12 @@ std::string peers_of(const Location& location) {
 /// An interruption of the network that is shorter than the lease has no effect on discovery. After a longer
 /// one, the processes find each other again within the interval of discovery (SPDP). Both cost traffic
 /// (docs/scale.md).
-std::string discovery(int domain, const Location& location) {
+std::string discovery(int domain, const Location& location, std::chrono::seconds lease) {
   return element("Discovery",
                  element("ExternalDomainId", std::to_string(domain)) + element("ParticipantIndex", "auto") +
                      element("MaxAutoParticipantIndex", std::to_string(most_processes_on_a_host)) +
-                     peers_of(location) + element("SPDPInterval", "4 s") + element("LeaseDuration", "20 s"));
+                     peers_of(location) + element("SPDPInterval", "4 s") +
+                     element("LeaseDuration", std::to_string(lease.count()) + " s"));
 }
 
 /// A writer is never held back: it keeps one value of each channel, so its memory is bounded.
@@ -50,7 +51,7 @@ std::string writing() {
 
 int first_port(int domain) { return 7400 + 250 * domain + 10; }
 
-std::string settings(int domain, const Location& location) {
+std::string settings(int domain, const Location& location, std::chrono::seconds lease) {
   if (domain < 0 || domain > network::last_domain)
     throw SetupError("there is no domain " + std::to_string(domain) + ": use one of 0 to " +
                      std::to_string(network::last_domain));
@@ -59,7 +60,7 @@ std::string settings(int domain, const Location& location) {
   return element("CycloneDDS", "<Domain Id=\"any\">" +
                                    element("General", interface + element("AllowMulticast", "false") +
                                                           sizes(location.is_loopback)) +
-                                   discovery(domain, location) + writing() +
+                                   discovery(domain, location, lease) + writing() +
                                    element("Tracing", element("Verbosity", "none")) + "</Domain>");
 }
 

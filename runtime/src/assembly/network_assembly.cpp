@@ -27,22 +27,18 @@ namespace {
   const std::uint32_t process = *assembly.part.process;
   std::vector<std::string_view> names;
   for (const Process& one : whole.processes) names.push_back(one.name);
-  const std::vector<std::string_view> peers =
-      given.peers.empty() ? hosts_of(whole)
-                          : std::vector<std::string_view>(given.peers.begin(), given.peers.end());
+  const NetworkPlace place = place_of(assembly);
   const std::vector<network::ChannelSetup> channels = assembly.links->carried();
-  const network::CarrierSetup setup{
-      .system = whole.name,
-      .net_hash = whole.net_hash,
-      .process = process,
-      .processes = names,
-      .incarnation = assembly.incarnation.value,
-      .liveliness = whole.liveliness,
-      .domain = given.domain.value_or(static_cast<int>(whole.domain)),
-      .interface =
-          given.interface.empty() ? whole.processes[process].interface : std::string_view(given.interface),
-      .peers = peers,
-      .channels = channels};
+  const network::CarrierSetup setup{.system = whole.name,
+                                    .net_hash = whole.net_hash,
+                                    .process = process,
+                                    .processes = names,
+                                    .incarnation = assembly.incarnation.value,
+                                    .liveliness = whole.liveliness,
+                                    .domain = place.domain,
+                                    .interface = place.interface,
+                                    .peers = place.peers,
+                                    .channels = channels};
   assembly.carrier = open_carrier(given.library, setup, error);
   if (assembly.carrier == nullptr) return false;
   assembly.links->connect(*assembly.carrier);
@@ -71,6 +67,17 @@ namespace {
 }
 
 }  // namespace
+
+NetworkPlace place_of(const Assembly& assembly) {
+  const System& whole = *assembly.part.whole;
+  const RunOptions::Network& given = assembly.options.network;
+  return {
+      .domain = given.domain.value_or(static_cast<int>(whole.domain)),
+      .interface =
+          given.interface.empty() ? whole.processes[*assembly.part.process].interface : std::string_view(given.interface),
+      .peers = given.peers.empty() ? hosts_of(whole)
+                                   : std::vector<std::string_view>(given.peers.begin(), given.peers.end())};
+}
 
 std::uint16_t Assembly::Words::marking() const {
   if (of_receiver == nullptr) return of_sender == nullptr ? std::uint16_t{0} : of_sender->marking();

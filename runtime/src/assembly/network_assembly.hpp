@@ -2,6 +2,8 @@
 
 #include <cstddef>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "assembly/assembly.hpp"
 
@@ -23,6 +25,15 @@ struct MadeEnd {
 };
 [[nodiscard]] MadeEnd make_end(Assembly& assembly, const Clock& clock, std::uint32_t index, Side side,
                                const CarriedValue& value, network::Incarnation incarnation);
+
+/// Where a process of a deployed system meets the others: what the run was told, or else the specification.
+struct NetworkPlace {
+  int domain = 0;
+  std::string_view interface;
+  std::vector<std::string_view> peers;
+};
+/// Precondition: the assembly is of one process. Views are valid as long as the assembly.
+[[nodiscard]] NetworkPlace place_of(const Assembly& assembly);
 
 /// Opens the library of the network, or makes the network in memory. Precondition: all ends are made.
 ///

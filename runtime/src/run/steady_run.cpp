@@ -188,6 +188,7 @@ void SteadyRun::start_threads(Assembly& assembly) {
   if (!assembly.options.monitor) return;
   monitor_.emplace(assembly, clock_);
   monitor_->warn_of_failure(clock_.now());
+  if (assembly.carrier != nullptr) status_.emplace(assembly, clock_);
 }
 
 void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {

@@ -15,6 +15,7 @@
 #include "system/stop_signals.hpp"
 #include "watch/emergency_watch.hpp"
 #include "watch/monitor.hpp"
+#include "watch/status_sender.hpp"
 #include "watch/stillness.hpp"
 #include "watch/stuck.hpp"
 
@@ -89,7 +90,8 @@ class SteadyRun final : public Waker {
   std::vector<std::thread> threads_;        // per instance
   std::vector<std::thread> beside_;         // of the world and of the links
   std::optional<Securing> securing_;
-  std::optional<Monitor> monitor_;  // the last member: it looks at the others
+  std::optional<Monitor> monitor_;  // the last members: they look at the others
+  std::optional<StatusSender> status_;
 };
 
 }  // namespace tessera

@@ -143,8 +143,12 @@ void Monitor::accept_client() {
   if (accepted.socket < 0) return;
   auto client = std::make_unique<MonitorClient>(accepted.socket);
   if (clients_.size() >= most_clients) return;
+  Snapshot first = snapshot();
+  first.deployment = deployment_of(assembly_);
+  client->add(to_line(first));
+  client->send();
   clients_.push_back(std::move(client));
-  send_snapshots();
+  if (remote_ != nullptr) remote_->show_recording();
 }
 
 void Monitor::receive(MonitorClient& client) {
@@ -182,7 +186,7 @@ void Monitor::send_snapshots() {
       client->skip_snapshot();
       continue;
     }
-    if (line.empty()) line = snapshot_line();
+    if (line.empty()) line = to_line(snapshot());
     client->add(line);
     client->send();
   }
@@ -200,11 +204,11 @@ void Monitor::send_end(MonitorClient& client) {
   }
 }
 
-std::string Monitor::snapshot_line() const {
+Snapshot Monitor::snapshot() const {
   Snapshot snapshot = take_snapshot(assembly_, clock_);
   if (!recording_path_.empty()) snapshot.recording = recording_path_;
   if (remote_ != nullptr) snapshot.simulation = remote_->shown();
-  return to_line(snapshot);
+  return snapshot;
 }
 
 // -------------------------------------------------------------------------------------------- commands
@@ -224,7 +228,7 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
   } else {
     if (client.gone()) return;
     // Without this, a client that always has a piece on the way would never get a snapshot.
-    if (client.take_skipped()) client.add(snapshot_line());
+    if (client.take_skipped()) client.add(to_line(snapshot()));
     if (const auto* const scene = std::get_if<commands::SendScene>(&request.command))
       client.add_scene(assembly_.scene_file, scene->from);
     else

@@ -39,7 +39,7 @@ class Monitor {
   void remove_gone_clients();
   void send_snapshots();
   void send_end(MonitorClient& client);
-  [[nodiscard]] std::string snapshot_line() const;
+  [[nodiscard]] Snapshot snapshot() const;
 
   void execute_commands(MonitorClient& client);
   void execute_request(MonitorClient& client, const Request& request);

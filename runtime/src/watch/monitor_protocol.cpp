@@ -61,6 +61,19 @@ using nlohmann::json;
   return all;
 }
 
+[[nodiscard]] json to_json(const Snapshot::Deployment& deployment) {
+  json processes = json::array();
+  for (const Snapshot::Deployment::Process& one : deployment.processes) {
+    json process{{"name", one.name}};
+    if (!one.host.empty()) process["host"] = one.host;
+    processes.push_back(std::move(process));
+  }
+  return {{"domain", deployment.domain},
+          {"interface", deployment.interface},
+          {"peers", deployment.peers},
+          {"processes", std::move(processes)}};
+}
+
 template <class All>
 [[nodiscard]] json list_of(const All& all) {
   json list = json::array();
@@ -140,6 +153,9 @@ std::string to_line(const Snapshot& snapshot) {
         std::to_string(snapshot.process->incarnation);  // too large for some readers of numbers
     all["links"] = list_of(snapshot.links);
   }
+  if (snapshot.deployment) all["deployment"] = to_json(*snapshot.deployment);
+  if (snapshot.brief) all["brief"] = true;
+  if (snapshot.left_out > 0) all["left_out"] = snapshot.left_out;
   if (snapshot.emergency) all["emergency"] = *snapshot.emergency;
   if (snapshot.recording) all["recording"] = *snapshot.recording;
   if (snapshot.simulation) {

@@ -54,6 +54,16 @@ struct Snapshot {
     std::string name, host;
     std::uint64_t incarnation = 0;
   };
+  /// Where the processes of the system meet, as this one was told, and which there are.
+  struct Deployment {
+    int domain = 0;
+    std::string interface;
+    std::vector<std::string> peers;
+    struct Process {
+      std::string name, host;  ///< host empty: none is given
+    };
+    std::vector<Process> processes;
+  };
   /// Additional state of a run in simulated time.
   struct Simulation {
     bool paused = false;       ///< it stands still, and all its firings are in its recording
@@ -73,6 +83,9 @@ struct Snapshot {
   std::optional<std::string> emergency;  ///< the reason of the current emergency stop
   std::optional<std::string> recording;  ///< its file
   std::optional<Simulation> simulation;
+  std::optional<Deployment> deployment;  ///< only in the first line of a connection
+  bool brief = false;                    ///< lists are left out: of the network
+  std::uint64_t left_out = 0;            ///< members of lists for which a message of the network has no room
 };
 
 /// One line, with its line end. Text that is not UTF-8 is replaced (a path may hold any bytes).

@@ -12,6 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include "assembly/network_assembly.hpp"
+
 namespace tessera {
 namespace {
 
@@ -143,6 +145,18 @@ void show_process(const Assembly& assembly, Snapshot& snapshot) {
 }
 
 }  // namespace
+
+std::optional<Snapshot::Deployment> deployment_of(const Assembly& assembly) {
+  if (!assembly.part.process || assembly.carrier == nullptr) return std::nullopt;
+  const NetworkPlace place = place_of(assembly);
+  Snapshot::Deployment deployment{.domain = place.domain,
+                                  .interface = std::string(place.interface),
+                                  .peers = {place.peers.begin(), place.peers.end()},
+                                  .processes = {}};
+  for (const Process& one : assembly.part.whole->processes)
+    deployment.processes.push_back({std::string(one.name), std::string(one.host)});
+  return deployment;
+}
 
 Snapshot take_snapshot(const Assembly& assembly, const Clock& clock) {
   Snapshot snapshot;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <optional>
+
 #include "assembly/assembly.hpp"
 #include "watch/monitor_protocol.hpp"
 
@@ -9,5 +11,10 @@ namespace tessera {
 ///
 /// Threads: any.
 [[nodiscard]] Snapshot take_snapshot(const Assembly& assembly, const Clock& clock);
+
+/// Where the processes of the system meet, as this run was told; nullopt: it has no network.
+///
+/// Threads: any.
+[[nodiscard]] std::optional<Snapshot::Deployment> deployment_of(const Assembly& assembly);
 
 }  // namespace tessera

@@ -102,6 +102,19 @@ Snapshot::Control read_control(const json& object) {
   return control;
 }
 
+Snapshot::Deployment read_deployment(const json& object) {
+  Snapshot::Deployment read;
+  read_member(object, "domain", read.domain);
+  read_member(object, "interface", read.interface);
+  read_member(object, "peers", read.peers);
+  for (const json& one : list_in(object, "processes")) {
+    Snapshot::Deployment::Process& process = read.processes.emplace_back();
+    read_member(an_object(one), "name", process.name);
+    read_member(one, "host", process.host);
+  }
+  return read;
+}
+
 Snapshot read_snapshot(const json& object) {
   Snapshot snapshot;
   read_member(object, "system", snapshot.system);
@@ -121,6 +134,10 @@ Snapshot read_snapshot(const json& object) {
     snapshot.waits.push_back(read_wait(an_object(one)));
   for (const json& one : object.value("links", json::array()))
     snapshot.links.push_back(read_link(an_object(one)));
+  if (const auto found = object.find("deployment"); found != object.end())
+    snapshot.deployment = read_deployment(an_object(*found));
+  read_member(object, "brief", snapshot.brief);
+  read_member(object, "left_out", snapshot.left_out);
   if (object.contains("paused")) snapshot.control = read_control(object);
   return snapshot;
 }

@@ -55,6 +55,16 @@ struct Snapshot {
     double speed = 0;
     std::string broke_at;
   };
+  /// Where the processes of its system meet, and which there are.
+  struct Deployment {
+    int domain = 0;
+    std::string interface;
+    std::vector<std::string> peers;
+    struct Process {
+      std::string name, host;  ///< host empty: none is given
+    };
+    std::vector<Process> processes;
+  };
   std::string system, net_hash;
   std::int64_t process = -1;
   double time_s = 0;
@@ -67,6 +77,9 @@ struct Snapshot {
   std::vector<Subsystem> subsystems;
   std::vector<Channel> channels;
   std::optional<Control> control;
+  std::optional<Deployment> deployment;  ///< only in the first line of a connection
+  bool brief = false;                    ///< lists are left out: of the network
+  std::uint64_t left_out = 0;            ///< members of lists that had no room
 };
 
 /// The result of a command.

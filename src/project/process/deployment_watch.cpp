@@ -86,7 +86,38 @@ const char* name_of(WatchedProcess::State state) {
 }
 
 DeploymentWatch::DeploymentWatch(std::filesystem::path folder, std::string system, std::string net_hash)
-    : folder_(std::move(folder)), system_(std::move(system)), net_hash_(std::move(net_hash)) {}
+    : folder_(std::move(folder)),
+      system_(std::move(system)),
+      net_hash_(std::move(net_hash)),
+      elsewhere_(net_hash_) {}
+
+bool is_loopback(std::string_view interface) {
+  return interface.empty() || interface == "lo" || interface.starts_with("127.");
+}
+
+void DeploymentWatch::watch_network(OpenFeed open, std::optional<Snapshot::Deployment> given, bool firm) {
+  open_feed_ = std::move(open);
+  given_ = std::move(given);
+  if (given_) declared_ = given_->processes;
+  is_placed_ = firm;
+  patience_ = firm ? Clock::now() : Clock::now() + std::chrono::seconds(1);
+}
+
+/// Where the processes meet, as one of them says.
+void DeploymentWatch::learn(const Snapshot::Deployment& deployment, bool is_local) {
+  if (declared_.empty() || is_local) declared_ = deployment.processes;
+  if (!is_local || is_placed_ || !open_feed_) return;
+  is_placed_ = true;
+  given_.reset();
+  feed_ = is_loopback(deployment.interface) ? nullptr : open_feed_(system_, deployment);
+}
+
+/// As the specification says, if no process of this machine says it.
+void DeploymentWatch::enter_network() {
+  if (!given_ || (!connected_.empty() && Clock::now() < patience_)) return;
+  feed_ = open_feed_(system_, *given_);
+  given_.reset();
+}
 
 bool DeploymentWatch::poll(std::chrono::milliseconds longest, const EachLine& each_line) {
   look_for_sockets();
@@ -101,6 +132,11 @@ bool DeploymentWatch::poll(std::chrono::milliseconds longest, const EachLine& ea
     if (one.process && one.process->is_there()) {
       replace_older(socket);
     }
+  enter_network();
+  if (feed_ != nullptr)
+    changed = elsewhere_.take(*feed_, [&](const WatchedProcess& process, std::string_view line) {
+      if (each_line && find(process.name()) == &process) each_line(line);
+    }) || changed;
   return notice_silence() || changed;
 }
 
@@ -193,6 +229,7 @@ bool DeploymentWatch::take(const std::string& socket, Connected& one, std::strin
   if (one.process->state == WatchedProcess::State::silent) one.process->since = now;
   if (one.process->snapshot.process != snapshot->process)
     one.process->is_local = one.connection && one.connection->is_process(snapshot->process);
+  if (snapshot->deployment) learn(*snapshot->deployment, one.process->is_local);
   one.process->state = WatchedProcess::State::running;
   one.process->heard = now;
   one.process->snapshot = std::move(*snapshot);
@@ -210,7 +247,7 @@ void DeploymentWatch::replace_older(const std::string& socket) {
 }
 
 bool DeploymentWatch::notice_silence() {
-  bool changed = false;
+  bool changed = elsewhere_.notice_silence();
   const Clock::time_point now = Clock::now();
   for (auto& [socket, one] : connected_) {
     if (!one.process && one.connection && !one.ignored && now >= one.made + longest_silence) {
@@ -230,18 +267,25 @@ bool DeploymentWatch::notice_silence() {
 std::vector<const WatchedProcess*> DeploymentWatch::processes() const {
   std::vector<const WatchedProcess*> all;
   for (const auto& [socket, one] : connected_)
-    if (one.process) all.push_back(&*one.process);
+    if (one.process && shown_of(&*one.process, elsewhere_.find(one.process->name())) == &*one.process)
+      all.push_back(&*one.process);
+  for (const auto& [name, one] : elsewhere_.all())
+    if (shown_of(find_here(name), &one) == &one) all.push_back(&one);
   std::ranges::stable_sort(
       all, [](const auto* one, const auto* other) { return comes_before(one->name(), other->name()); });
   return all;
 }
 
-const WatchedProcess* DeploymentWatch::find(std::string_view name) const {
+const WatchedProcess* DeploymentWatch::find_here(std::string_view name) const {
   const WatchedProcess* found = nullptr;
   for (const auto& [socket, one] : connected_)
     if (one.process && one.process->name() == name && (found == nullptr || one.process->is_there()))
       found = &*one.process;
   return found;
+}
+
+const WatchedProcess* DeploymentWatch::find(std::string_view name) const {
+  return shown_of(find_here(name), elsewhere_.find(name));
 }
 
 }  // namespace tessera::project

@@ -13,49 +13,36 @@
 
 #include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/network_processes.hpp"
+#include "project/process/watched_process.hpp"
 
 namespace tessera::project {
 
-/// A process of a deployed system, as it is seen through its control socket.
-struct WatchedProcess {
-  using Clock = std::chrono::steady_clock;
-  enum class State : std::uint8_t {
-    running,
-    silent,  ///< it does not tell what it does any more: it is stopped, or hangs
-    ended,   ///< it has said so
-    gone     ///< the connection ended without that: it has died, or was killed
-  };
-  State state = State::running;
-  std::optional<Clock::time_point> since;  ///< of `state`; nullopt: it was so when it was found
-  Clock::time_point heard;                 ///< its last line; if it has said nothing, when it was found
-  std::string socket;                      ///< the file's name
-  bool is_local = false;                   ///< a process of this machine, and not the end of a tunnel
-  /// The last one. It has the name of the process; if it has said nothing, only that and the process number.
-  Snapshot snapshot;
-
-  [[nodiscard]] const std::string& name() const { return *snapshot.name; }
-  [[nodiscard]] bool is_there() const { return state == State::running || state == State::silent; }
-};
-
-/// "running", "silent", "ended", "gone"
-[[nodiscard]] const char* name_of(WatchedProcess::State state);
-
-/// All processes of a deployed system that run on this machine as this user. It finds them by their control
-/// sockets, those that start later too. A process that has died or ended stays in the list until another start
-/// of it takes its place. So does one that had died before, as far as its socket was left behind. Processes
-/// never wait for it, and do not notice whether it is there.
+/// All processes of a deployed system. It finds those that run on this machine as this user by their control sockets,
+/// and the others by what they tell over the network; those that start later too. A process that has died or ended
+/// stays in the list until another start of it takes its place. So does one that had died before, as far as its socket
+/// was left behind. What a control socket says goes before what the network says. Processes never wait for it.
 ///
 /// Threads: one.
 class DeploymentWatch {
  public:
   using Clock = WatchedProcess::Clock;
-  /// A process that tells nothing for so long is silent. In a usual system lines come five times a second.
-  static constexpr std::chrono::milliseconds longest_silence{2000};
+  static constexpr std::chrono::milliseconds longest_silence = project::longest_silence;
   /// Each line that a process sends, as it came.
   using EachLine = std::function<void(std::string_view)>;
 
   /// folder: of the sockets, tessera::monitor_folder(). net_hash: others are passed over; empty: none is.
   DeploymentWatch(std::filesystem::path folder, std::string system, std::string net_hash = {});
+
+  /// Watches other machines, too. given: where the processes meet, as the specification says; nullopt: not known. A
+  /// process of this machine knows better, unless `given` is `firm`. If all meet on loopback, and one of them is here,
+  /// all are here: the network is not entered then.
+  void watch_network(OpenFeed open, std::optional<Snapshot::Deployment> given = {}, bool firm = false);
+  [[nodiscard]] bool watches_network() const { return feed_ != nullptr; }
+  /// What a person should know of the watching of other machines; empty: nothing.
+  [[nodiscard]] std::string remark() const { return feed_ == nullptr ? std::string() : feed_->remark(); }
+  /// All processes that the deployment has, in its order; empty: not known.
+  [[nodiscard]] const std::vector<Snapshot::Deployment::Process>& declared() const { return declared_; }
 
   /// Takes what has come, and waits for it at most `longest`. Returns whether anything has changed.
   bool poll(std::chrono::milliseconds longest, const EachLine& each_line = {});
@@ -65,7 +52,7 @@ class DeploymentWatch {
   /// The running one of that name; nullptr: there is none.
   [[nodiscard]] const WatchedProcess* find(std::string_view name) const;
   /// Processes of the system with another net than the one that was asked for.
-  [[nodiscard]] std::size_t of_another_net() const { return of_another_net_; }
+  [[nodiscard]] std::size_t of_another_net() const { return of_another_net_ + elsewhere_.of_another_net(); }
 
  private:
   struct Connected {
@@ -81,6 +68,9 @@ class DeploymentWatch {
   bool take(const std::string& socket, Connected& one, std::string_view line);
   void replace_older(const std::string& socket);
   bool notice_silence();
+  void learn(const Snapshot::Deployment& deployment, bool is_local);
+  void enter_network();
+  [[nodiscard]] const WatchedProcess* find_here(std::string_view name) const;
 
   std::filesystem::path folder_;
   std::string system_, net_hash_;
@@ -88,6 +78,17 @@ class DeploymentWatch {
   std::map<std::string, Clock::time_point> refused_;
   Clock::time_point next_look_{};
   std::size_t of_another_net_ = 0;
+
+  OpenFeed open_feed_;
+  std::optional<Snapshot::Deployment> given_;  ///< not entered yet
+  bool is_placed_ = false;                     ///< where the processes meet is known for good
+  Clock::time_point patience_{};               ///< until then a process of this machine may say where
+  std::unique_ptr<StatusFeed> feed_;
+  NetworkProcesses elsewhere_;
+  std::vector<Snapshot::Deployment::Process> declared_;
 };
+
+/// Whether only processes of this machine meet there.
+[[nodiscard]] bool is_loopback(std::string_view interface);
 
 }  // namespace tessera::project

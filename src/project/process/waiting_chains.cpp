@@ -22,7 +22,7 @@ using Waits = std::map<std::string, WaitingStep>;
 Waits waits_of(const DeploymentWatch& deployment, double least_s) {
   Waits all;
   for (const WatchedProcess* process : deployment.processes()) {
-    if (!process->is_there()) continue;
+    if (process->state != Seen::running) continue;  // whatever it waited for: it is what others wait for
     const Snapshot& now = process->snapshot;
     for (const Snapshot::Wait& wait : now.waits) {
       const double for_s = now.time_s - wait.since_s;
@@ -50,6 +50,11 @@ const Snapshot::Link* link_of(const DeploymentWatch& deployment, const WaitingSt
   return found == links.end() ? nullptr : &*found;
 }
 
+/// How one is that is neither on this machine nor heard.
+std::string unseen(const DeploymentWatch& deployment) {
+  return deployment.watches_network() ? "is not heard here" : "is not on this machine";
+}
+
 std::string end_of(const DeploymentWatch& deployment, const WaitingStep& last) {
   const std::string& name = last.other_process;
   const Snapshot::Link* link = last.process == name ? nullptr : link_of(deployment, last);
@@ -62,8 +67,8 @@ std::string end_of(const DeploymentWatch& deployment, const WaitingStep& last) {
     return fmt::format("process {} has said nothing for {:.1f} s", name, seconds_since(other->heard));
   if (link != nullptr && !link->reachable)
     return fmt::format("process {} cannot be reached from {}{}", name, last.process,
-                       other == nullptr ? ", and is not on this machine" : "");
-  if (other == nullptr) return fmt::format("process {} is not on this machine", name);
+                       other == nullptr ? ", and " + unseen(deployment) : "");
+  if (other == nullptr) return fmt::format("process {} {}", name, unseen(deployment));
   const auto& all = other->snapshot.subsystems;
   const auto found = std::ranges::find(all, last.waits_for, &Snapshot::Subsystem::path);
   if (found == all.end()) return "";

@@ -7,6 +7,7 @@
 #include <set>
 #include <utility>
 
+#include "project/meeting_place.hpp"
 #include "project/process/waiting_chains.hpp"
 #include "server/recordings/marking_tracker.hpp"
 #include "server/recordings/recording_stream.hpp"
@@ -33,18 +34,26 @@ double seconds_since(std::chrono::steady_clock::time_point time) {
 
 }  // namespace
 
-DeploymentFollower::DeploymentFollower(const Analysis& analysis, Reached& reached)
+DeploymentFollower::DeploymentFollower(const Analysis& analysis, Reached& reached,
+                                       project::OpenFeed open_feed)
     : analysis_(analysis),
       reached_(reached),
       watch_(monitor_folder(), analysis.model->system, analysis.net_hash),
       initial_(MarkingTracker(*analysis.net).marked()),
-      seen_(Clock::now()) {}
+      seen_(Clock::now()) {
+  if (open_feed)
+    watch_.watch_network(std::move(open_feed),
+                         project::meeting_place(*analysis.model->deployment, {}, project::machine_name()));
+}
 
 DeploymentFollower::News DeploymentFollower::poll() {
   watch_.poll(std::chrono::milliseconds(15));
   News news;
   const std::vector<const WatchedProcess*> all = watch_.processes();
-  if (std::ranges::any_of(all, [](const auto* one) { return one->is_there(); })) seen_ = Clock::now();
+  if (std::ranges::any_of(all, [](const auto* one) { return one->is_there(); })) {
+    seen_ = Clock::now();
+    any_ = true;
+  }
   follow_new_ones();
   if (Clock::now() - read_ >= between_reads) {
     read_ = Clock::now();
@@ -56,20 +65,29 @@ DeploymentFollower::News DeploymentFollower::poll() {
   }
   if (!all.empty() && Clock::now() - told_ >= between_reports) {
     told_ = Clock::now();
-    news.deployment = {{"t", time_ns_}, {"processes", processes()}, {"links", links()}, {"waits", waits()}};
+    news.deployment = {{"t", time_ns_},
+                       {"network", watch_.watches_network()},
+                       {"remark", watch_.remark()},
+                       {"processes", processes()},
+                       {"links", links()},
+                       {"waits", waits()}};
   }
   news.time_ns = time_ns_;
   return news;
 }
 
-bool DeploymentFollower::is_going_on() const { return Clock::now() - seen_ < std::chrono::seconds(5); }
+/// Processes of other machines are found within 5 s or so.
+bool DeploymentFollower::is_going_on() const {
+  return Clock::now() - seen_ < std::chrono::seconds(any_ ? 5 : 7);
+}
 
 std::string DeploymentFollower::why_nothing() const {
   return watch_.of_another_net() > 0
              ? fmt::format("processes of {} run, but with another net than the specification here",
                            analysis_.model->system)
-             : fmt::format("no process of {} runs on this machine in real time as this user",
-                           analysis_.model->system);
+             : fmt::format("no process of {} runs on this machine in real time as this user{}{}{}",
+                           analysis_.model->system, watch_.watches_network() ? ", and none is heard" : "",
+                           watch_.remark().empty() ? "" : ": ", watch_.remark());
 }
 
 void DeploymentFollower::follow_new_ones() {
@@ -174,7 +192,8 @@ json DeploymentFollower::processes() const {
     json one{{"name", process.name}, {"agents", std::move(agents)}, {"state", "absent"},
              {"since_s", nullptr},   {"host", process.host},        {"pid", nullptr},
              {"time_s", nullptr},    {"emergency", nullptr},        {"overruns", 0},
-             {"errors", 0},          {"followed", false},           {"subsystems", json::array()}};
+             {"errors", 0},          {"followed", false},           {"by_network", false},
+             {"left_out", 0},        {"subsystems", json::array()}};
     if (const WatchedProcess* seen = watch_.find(process.name); seen != nullptr) {
       const Snapshot& now = seen->snapshot;
       std::uint64_t overruns = 0, errors = 0;
@@ -194,6 +213,8 @@ json DeploymentFollower::processes() const {
       if (now.emergency) one["emergency"] = *now.emergency;
       one["overruns"] = overruns;
       one["errors"] = errors;
+      one["by_network"] = seen->by_network;
+      one["left_out"] = now.left_out;
       const auto followed = followed_.find(seen->socket);
       one["followed"] = followed != followed_.end() && followed->second.recording != nullptr;
     }
@@ -205,7 +226,7 @@ json DeploymentFollower::processes() const {
 json DeploymentFollower::links() const {
   json all = json::array();
   for (const WatchedProcess* one : watch_.processes()) {
-    if (!one->is_there()) continue;
+    if (one->state != WatchedProcess::State::running) continue;  // what it knew is old
     const Snapshot& now = one->snapshot;
     for (const Snapshot::Link& link : now.links) {
       if (all.size() >= most_links) return all;

@@ -15,9 +15,9 @@
 
 namespace tessera::server {
 
-/// Collects the state of all processes of a deployed system on this machine: the snapshots of their control
-/// sockets, and the firings and values of their recordings. The results are ready to be sent. The processes
-/// are not affected.
+/// Collects the state of all processes of a deployed system: the snapshots of their control sockets, the
+/// firings and values of their recordings, and the state that those of other machines send over the network.
+/// The results are ready to be sent. The processes are not affected.
 ///
 /// Times are those of the process that was found first; those of the others are shifted by the difference of
 /// their clocks, measured when they were found. So they agree within some milliseconds.
@@ -26,7 +26,8 @@ namespace tessera::server {
 class DeploymentFollower {
  public:
   /// analysis: of a specification with `deploy:`; it and `reached` must outlive this object.
-  DeploymentFollower(const Analysis& analysis, Reached& reached);
+  /// open_feed: of the network; empty: only this machine is watched.
+  DeploymentFollower(const Analysis& analysis, Reached& reached, project::OpenFeed open_feed = {});
 
   struct News {
     nlohmann::json firings, values, subsystems, deployment;  ///< data of the events; null: nothing new
@@ -66,6 +67,7 @@ class DeploymentFollower {
   std::optional<Clock::time_point> first_began_;
   std::int64_t time_ns_ = 0;
   std::uint64_t gone_firings_ = 0;  ///< of starts that are no longer followed
+  bool any_ = false;                ///< a process was seen
   Clock::time_point seen_, read_{}, marking_told_{}, told_{}, subsystems_told_{};
 };
 

@@ -3,9 +3,11 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <exception>
 #include <filesystem>
 #include <utility>
 
+#include "project/files/installation.hpp"
 #include "server/runs/deployment_follower.hpp"
 #include "server/runs/run.hpp"
 #include "tessera/monitor.hpp"
@@ -77,10 +79,21 @@ void Run::attach() {
   set_state(State::failed, "the connection to the controller is lost; it may still be running");
 }
 
+namespace {
+
+/// Empty: the installation has no library of the network, and this machine alone is watched.
+project::OpenFeed network_feed() try {
+  return project::feed_of_library(project::Installation::find().carrier_library);
+} catch (const std::exception&) {
+  return {};
+}
+
+}  // namespace
+
 void Run::watch_deployment() {
   if (!analysis_->model->deployment)
     return set_state(State::failed, "the specification has no `deploy`: attach to a controller by its name");
-  DeploymentFollower follower(*analysis_, reached_);
+  DeploymentFollower follower(*analysis_, reached_, network_feed());
   bool found = false;
   while (!stop_ && follower.is_going_on()) {
     DeploymentFollower::News news = follower.poll();

@@ -615,6 +615,10 @@ export interface Channel {
 export interface DeploymentSeen {
   /** Nanoseconds of the run's clock. */
   t: number;
+  /** Other machines are watched, too. */
+  network: boolean;
+  /** Why the network is not heard, or what was dropped there; empty: nothing. */
+  remark: string;
   processes: ProcessSeen[];
   links: LinkSeen[];
   waits: WaitingChain[];
@@ -622,7 +626,7 @@ export interface DeploymentSeen {
 export interface ProcessSeen {
   name: string;
   agents: string[];
-  /** silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine. */
+  /** silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine, and not heard on the network. */
   state: "running" | "silent" | "ended" | "gone" | "absent";
   /** It has been in this state for so long. */
   since_s: number | null;
@@ -637,6 +641,10 @@ export interface ProcessSeen {
   errors: number;
   /** Its recording is read, so its tokens are shown. */
   followed: boolean;
+  /** It tells this over the network, where nobody is authenticated. */
+  by_network: boolean;
+  /** So many of its subsystems, waits and links had no room in its message. */
+  left_out: number;
   subsystems: {
     path: string;
     /** Null: none yet. */
@@ -920,6 +928,10 @@ export interface DeploymentEvent {
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
+  /** Other machines are watched, too. */
+  network: boolean;
+  /** Why the network is not heard, or what was dropped there; empty: nothing. */
+  remark: string;
   processes: ProcessSeen[];
   links: LinkSeen[];
   /** The chains of waits that have lasted for a second or more, the longest first. */

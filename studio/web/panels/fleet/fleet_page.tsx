@@ -3,12 +3,11 @@ import { lossOf, trouble, worstFirst } from "../../live/deployment";
 import type { LinkSeen, ProcessSeen, WaitingChain } from "../../live/protocol";
 import { reason } from "../pane_title";
 
-const stateTitles: Record<ProcessSeen["state"], string> = {
+const stateTitles: Record<Exclude<ProcessSeen["state"], "absent">, string> = {
   running: "running",
   silent: "says nothing",
   ended: "ended",
   gone: "gone",
-  absent: "not on this machine",
 };
 const seconds = (value: number) => `${value.toFixed(1)} s`;
 /** The largest number of rows of links; the rest has no problem. */
@@ -27,7 +26,11 @@ export function FleetPage() {
   return (
     <section className="fleet" aria-label="Fleet" data-testid="fleet">
       <header className="fleet-head">
-        <h2>{watching && seen ? `${running} of ${names.length} processes run on this machine` : `${names.length} processes`}</h2>
+        <h2>
+          {watching && seen
+            ? `${running} of ${names.length} processes run${seen.network ? "" : " on this machine"}`
+            : `${names.length} processes`}
+        </h2>
         {watching ? (
           <button onClick={() => void studio.runner.control({ command: "stop" })}>Let go</button>
         ) : (
@@ -45,6 +48,7 @@ export function FleetPage() {
         </p>
       )}
       {seen && !watching && <p className="fleet-old">What was seen last; nothing is watched now.</p>}
+      {seen?.remark && <p className="problem-hint">{seen.remark}</p>}
       {seen && (
         <>
           {seen.waits.length > 0 && <Waits waits={seen.waits} />}
@@ -52,7 +56,7 @@ export function FleetPage() {
             {[...seen.processes]
               .sort((one, other) => trouble(other) - trouble(one))
               .map((one) => (
-                <Card key={one.name} process={one} />
+                <Card key={one.name} process={one} network={seen.network} />
               ))}
           </ul>
           {seen.links.length > 0 && <Links links={seen.links} />}
@@ -95,7 +99,7 @@ function Waits({ waits }: { waits: readonly WaitingChain[] }) {
   );
 }
 
-function Card({ process }: { process: ProcessSeen }) {
+function Card({ process, network }: { process: ProcessSeen; network: boolean }) {
   const studio = useStudio();
   const { name, state, since_s, host, pid, time_s, emergency, overruns, errors, agents, subsystems } = process;
   const dot = state === "running" ? (emergency === null ? "good" : "error") : state === "gone" ? "error" : "warning";
@@ -106,7 +110,7 @@ function Card({ process }: { process: ProcessSeen }) {
         <span className={`dot ${state === "absent" || state === "ended" ? "" : dot}`} /> <span className="path">{name}</span>
       </h3>
       <p>
-        {stateTitles[state]}
+        {state !== "absent" ? stateTitles[state] : network ? "not heard" : "not on this machine"}
         {(state === "gone" || state === "silent") && since_s !== null && ` for ${seconds(since_s)}`}
         {state === "running" && time_s !== null && `, ${seconds(time_s)}`}
         {host && <span className="faint"> on {host}</span>}
@@ -115,8 +119,12 @@ function Card({ process }: { process: ProcessSeen }) {
       {emergency !== null && <p className="fleet-emergency">Emergency stop: {emergency}</p>}
       {errors > 0 && <p className="fleet-emergency">{errors} errors of user code</p>}
       {overruns > 0 && <p className="faint">{overruns} overruns</p>}
+      {process.left_out > 0 && <p className="faint">Its message had no room for {process.left_out} more lines.</p>}
       {there && !process.followed && (
-        <p className="faint">Its recording cannot be read here: the drawing of the net does not show its tokens.</p>
+        <p className="faint">
+          {process.by_network ? "It is heard over the network. " : "Its recording cannot be read here. "}The drawing of the net
+          does not show its tokens.
+        </p>
       )}
       {subsystems.length === 0 && <p className="faint">{agents.join(", ")}</p>}
       <ul className="fleet-doings">

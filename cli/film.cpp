@@ -47,7 +47,7 @@ struct Survey {
     std::string text;
   };
   std::vector<Alarm> alarms;  ///< failed checks
-  /// Of the first entry, if the beginning of the recording is gone.
+  /// Time of the first entry, if the beginning of the recording is gone.
   std::optional<std::int64_t> begins_late_ns;
 };
 

@@ -66,8 +66,9 @@ class Carrier {
 
   /// The number of readers of the status of this process (network/status.hpp). Threads: any.
   [[nodiscard]] virtual std::size_t watchers() { return 0; }
-  /// Tells them, as well as it goes: nobody answers, and what is lost is not sent again. Nothing else of the carrier
-  /// waits for it. text: at most longest_status_bytes. Threads: one, which may be another than that of the rest.
+  /// Sends the status to them once: there is no answer, and a lost text is not repeated. Nothing else of the
+  /// carrier waits for it. text: at most longest_status_bytes. Threads: one, which may differ from that of the
+  /// other members.
   virtual void send_status(StatusPart /*part*/, std::string_view /*text*/) {}
 };
 

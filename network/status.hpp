@@ -46,7 +46,7 @@ class StatusReader {
   virtual void receive(Listener& listener, std::chrono::nanoseconds longest) = 0;
 };
 
-/// What a reader has to know. Views are valid while it is made.
+/// The settings of a reader. Views are valid while it is made.
 struct StatusReaderSetup {
   std::string_view system;
   int domain = 0;

@@ -7,7 +7,7 @@
 #include <optional>
 #include <set>
 
-#include "cli/running_controller.hpp"
+#include "cli/watching/running_controller.hpp"
 #include "diagnostics/source.hpp"
 #include "net/net.hpp"
 #include "project/process/control_connection.hpp"

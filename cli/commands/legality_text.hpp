@@ -12,7 +12,7 @@ namespace tessera::cli {
 void print_verdict(const replay::Legality& legality, const std::string& net_hash, std::size_t recordings);
 /// {"verdict", "firings", "why"}
 [[nodiscard]] nlohmann::json json_of(const replay::Legality& legality);
-/// Of `tessera replay --check`.
+/// The exit code of `tessera replay --check`.
 [[nodiscard]] int exit_code_of(replay::Legality::Verdict verdict);
 
 }  // namespace tessera::cli

@@ -10,9 +10,9 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/not_reached.hpp"
-#include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "cli/watching/not_reached.hpp"
+#include "cli/watching/running_controller.hpp"
 #include "project/process/control_messages.hpp"
 #include "tessera/result.hpp"
 

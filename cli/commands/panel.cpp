@@ -16,8 +16,8 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "cli/watching/running_controller.hpp"
 #include "project/process/control_messages.hpp"
 #include "tessera/given_values.hpp"
 

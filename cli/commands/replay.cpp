@@ -148,7 +148,7 @@ json to_json(const Distribution& distribution) {
           {"histogram", distribution.histogram}};
 }
 
-/// Of a recording whose beginning is gone; null: nothing is left in it.
+/// The time at which a recording without its beginning begins; null: nothing is left in it.
 json recorded_from_s(const Recording& recording) {
   if (recording.entries.empty()) return nullptr;
   return static_cast<double>(recording.entries.front().event.time_ns) * 1e-9;

@@ -14,9 +14,9 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/top_deployment.hpp"
-#include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
+#include "cli/watching/running_controller.hpp"
+#include "cli/watching/top_deployment.hpp"
 #include "diagnostics/source.hpp"
 #include "project/launch.hpp"
 #include "project/meeting_place.hpp"

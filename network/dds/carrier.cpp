@@ -7,7 +7,7 @@
 #include "network/dds/middleware_log.hpp"
 #include "network/dds/received.hpp"
 #include "network/dds/setup_error.hpp"
-#include "network/dds/status.hpp"
+#include "network/dds/status/status_topic.hpp"
 
 namespace tessera::dds {
 namespace {

@@ -9,7 +9,7 @@
 #include "network/dds/middleware_log.hpp"
 #include "network/dds/settings.hpp"
 #include "network/dds/setup_error.hpp"
-#include "network/dds/status.hpp"
+#include "network/dds/status/status_topic.hpp"
 #include "wire.h"
 
 namespace tessera::dds {

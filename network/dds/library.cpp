@@ -3,7 +3,7 @@
 #include <string_view>
 
 #include "network/dds/carrier.hpp"
-#include "network/dds/status_reader.hpp"
+#include "network/dds/status/status_reader.hpp"
 
 namespace {
 

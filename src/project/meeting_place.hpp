@@ -7,8 +7,8 @@
 
 namespace tessera::project {
 
-/// Where the processes of a deployment meet, as one sees it who watches from a machine and runs none of them: the
-/// interface is that of the processes of this machine; without such, the one that all have.
+/// The network on which the processes of a deployment meet, for a machine that runs none of them. The interface is that
+/// of the processes of this machine; without such, the one that all have.
 ///
 /// options: what differs. Throws std::runtime_error for a domain that is none.
 [[nodiscard]] Snapshot::Deployment meeting_place(const spec::Deployment& deployment,

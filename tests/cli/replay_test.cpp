@@ -146,7 +146,7 @@ TEST_F(Replay, WhoeverReadsARecordingWithoutItsBeginningIsToldFromWhenOnItIs) {
   EXPECT_EQ(tessera("simulate 01_line_follower --from run.tsr").code, 1);
   expect_note(tessera("simulate 01_line_follower --from run.tsr").text);
 
-  // Of a recording that is whole nobody says such things, and a limit is there unless it is unwanted.
+  // A whole recording has no such remark. A limit is there unless it was switched off.
   const nlohmann::json whole = json("simulate 01_line_follower --for 10s --record whole.tsr");
   EXPECT_FALSE(whole.contains("recorded_from_s"));
   EXPECT_TRUE(whole.contains("laps"));

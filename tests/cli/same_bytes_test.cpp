@@ -68,7 +68,7 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
 
 class SameBytes : public Command {
  protected:
-  /// What one run leaves.
+  /// The results of one run.
   struct Left {
     std::string recording;
     nlohmann::json summary;

@@ -15,7 +15,7 @@ namespace {
 
 using Json = nlohmann::json;
 
-/// What a person types on the machines: of the crossing, gate, rover[0] and rover[1] run on the machines 0 to 2.
+/// A user's commands on the machines. The processes gate, rover[0] and rover[1] run on the machines 0 to 2.
 constexpr const char* look_around = R"sh(
 all() { on $1 $T top --once --json >"$run/all$1.json" 2>"$run/all$1.txt" && test $(wc -l <"$run/all$1.json") = 3 &&
         ! grep -q '"state"' "$run/all$1.json"; }
@@ -121,7 +121,7 @@ TEST_F(Watched, EveryMachineSeesAllProcessesWhoWaitsForWhomAndWhoIsGone) {
                            "NOT HEARD, NOT REACHABLE from rover[0]", "rover[1] <- gate", "DISCONNECTED"})
     EXPECT_NE(table.find(part), std::string::npos) << part << "\n" << table;
 
-  // Who runs none of them names the project.
+  // A machine that runs none of them names the project.
   EXPECT_EQ(lines_of(runs() / "outside.json").size(), 3U) << content_of(runs() / "outside.json");
 
   // Half a stop is none.

@@ -1,5 +1,3 @@
-#include "network/dds/status.hpp"
-
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
@@ -11,11 +9,12 @@
 #include <set>
 
 #include "network/dds/carrier.hpp"
-#include "network/dds/status_reader.hpp"
+#include "network/dds/status/status_reader.hpp"
+#include "network/dds/status/status_topic.hpp"
 #include "tests/dds/crossing.hpp"
 #include "tests/dds/heard.hpp"
 
-/// What processes tell those who watch, over real DDS.
+/// The status of processes over real DDS.
 namespace tessera::test {
 namespace {
 

@@ -109,7 +109,7 @@ class UdpCarrier final : public Carrier {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) tessera::network::Carrier* tessera_open_carrier_3(
+extern "C" __attribute__((visibility("default"))) tessera::network::Carrier* tessera_open_carrier_4(
     const tessera::network::CarrierSetup& setup, char* error, std::size_t size) {
   if (std::getenv("TEST_LINKS_PORT") == nullptr) {
     std::snprintf(error, size, "the test has given no port");

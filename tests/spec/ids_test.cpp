@@ -15,7 +15,7 @@ concept Indexes = requires(const List& list, Number number) {
   list[number];
 };
 
-// What a mix-up would look like. It does not compile.
+// A mix-up of kinds does not compile.
 static_assert(Indexes<decltype(Model::agents), AgentId>);
 static_assert(!Indexes<decltype(Model::agents), InstanceId>);
 static_assert(!Indexes<decltype(Model::instances), AgentId>);

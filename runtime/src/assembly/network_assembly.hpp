@@ -26,7 +26,7 @@ struct MadeEnd {
 [[nodiscard]] MadeEnd make_end(Assembly& assembly, const Clock& clock, std::uint32_t index, Side side,
                                const CarriedValue& value, network::Incarnation incarnation);
 
-/// Where a process of a deployed system meets the others: what the run was told, or else the specification.
+/// The network on which a process meets the others: from the options of the run, or else from the specification.
 struct NetworkPlace {
   int domain = 0;
   std::string_view interface;

@@ -54,7 +54,7 @@ struct Snapshot {
     std::string name, host;
     std::uint64_t incarnation = 0;
   };
-  /// Where the processes of the system meet, as this one was told, and which there are.
+  /// The network on which the processes of the system meet, as this run was told, and their names.
   struct Deployment {
     int domain = 0;
     std::string interface;

@@ -12,7 +12,7 @@ namespace tessera {
 /// Threads: any.
 [[nodiscard]] Snapshot take_snapshot(const Assembly& assembly, const Clock& clock);
 
-/// Where the processes of the system meet, as this run was told; nullopt: it has no network.
+/// The network on which the processes of the system meet, as this run was told; nullopt: it has none.
 ///
 /// Threads: any.
 [[nodiscard]] std::optional<Snapshot::Deployment> deployment_of(const Assembly& assembly);

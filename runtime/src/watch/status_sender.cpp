@@ -26,7 +26,7 @@ constexpr auto period_per_reader = 50ms;
 constexpr int rest_per_sending = 50;
 constexpr auto longest_rest = 1000ms;
 
-/// Of this thread: a machine that does other work does not count.
+/// Processor time of this thread: other work of the machine does not count.
 [[nodiscard]] std::chrono::nanoseconds work_so_far() {
   timespec time{};
   clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);

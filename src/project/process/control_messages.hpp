@@ -55,7 +55,7 @@ struct Snapshot {
     double speed = 0;
     std::string broke_at;
   };
-  /// Where the processes of its system meet, and which there are.
+  /// The network on which the processes of its system meet, and their names.
   struct Deployment {
     int domain = 0;
     std::string interface;

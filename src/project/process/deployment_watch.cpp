@@ -103,7 +103,7 @@ void DeploymentWatch::watch_network(OpenFeed open, std::optional<Snapshot::Deplo
   patience_ = firm ? Clock::now() : Clock::now() + std::chrono::seconds(1);
 }
 
-/// Where the processes meet, as one of them says.
+/// Takes the network on which the processes meet from the first line of one of them.
 void DeploymentWatch::learn(const Snapshot::Deployment& deployment, bool is_local) {
   if (declared_.empty() || is_local) declared_ = deployment.processes;
   if (!is_local || is_placed_ || !open_feed_) return;

@@ -19,9 +19,9 @@
 namespace tessera::project {
 
 /// All processes of a deployed system. It finds those that run on this machine as this user by their control sockets,
-/// and the others by what they tell over the network; those that start later too. A process that has died or ended
-/// stays in the list until another start of it takes its place. So does one that had died before, as far as its socket
-/// was left behind. What a control socket says goes before what the network says. Processes never wait for it.
+/// and the others by the state that they send over the network; those that start later too. A process that has died or
+/// ended stays in the list until another start of it takes its place. So does one that had died before, if its socket
+/// was left behind. A control socket goes before the network. Processes never wait for it.
 ///
 /// Threads: one.
 class DeploymentWatch {
@@ -39,7 +39,7 @@ class DeploymentWatch {
   /// all are here: the network is not entered then.
   void watch_network(OpenFeed open, std::optional<Snapshot::Deployment> given = {}, bool firm = false);
   [[nodiscard]] bool watches_network() const { return feed_ != nullptr; }
-  /// What a person should know of the watching of other machines; empty: nothing.
+  /// Remarks for a person about the watching of other machines; empty: none.
   [[nodiscard]] std::string remark() const { return feed_ == nullptr ? std::string() : feed_->remark(); }
   /// All processes that the deployment has, in its order; empty: not known.
   [[nodiscard]] const std::vector<Snapshot::Deployment::Process>& declared() const { return declared_; }

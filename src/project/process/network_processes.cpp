@@ -19,7 +19,7 @@ std::uint64_t number_of(std::string_view incarnation) {
   return number;
 }
 
-/// What a brief text says of a process whose lists are known.
+/// Takes a brief text of a process whose lists are known.
 void take_brief(Snapshot& known, const Snapshot& brief) {
   known.time_s = brief.time_s;
   known.process = brief.process;

@@ -38,8 +38,8 @@ class NetworkProcesses {
   std::size_t of_another_net_ = 0;
 };
 
-/// Which of two views of a process of one name is shown; they may be nullptr. What a control socket says goes first.
-/// A start elsewhere is shown if that here is over and was earlier.
+/// Chooses between two views of a process of one name, each of which may be nullptr. A control socket goes before the
+/// network. A start elsewhere is shown if the one here is over and was earlier.
 [[nodiscard]] const WatchedProcess* shown_of(const WatchedProcess* here, const WatchedProcess* elsewhere);
 
 }  // namespace tessera::project

@@ -11,8 +11,8 @@
 
 namespace tessera::project {
 
-/// What a process of another machine (or of this one) has sent over the network. Any program there can have written it; it
-/// is checked as far as one can: it has a form that this version reads, and names a process of the deployment.
+/// The state that a process of another machine (or of this one) has sent over the network. Any program there can have
+/// written it. It was checked: this version reads its form, and it names a process of the deployment.
 struct HeardStatus {
   enum class What : std::uint8_t {
     told,
@@ -25,7 +25,7 @@ struct HeardStatus {
   std::string line;   ///< the same, as JSON of plain letters; empty: it was a brief one
 };
 
-/// Where what processes tell over the network comes from.
+/// The source of the states that processes send over the network.
 ///
 /// Threads: one.
 class StatusFeed {
@@ -33,7 +33,7 @@ class StatusFeed {
   virtual ~StatusFeed() = default;
   /// Removes and returns what has come since the last call. Never waits.
   [[nodiscard]] virtual std::vector<HeardStatus> take() = 0;
-  /// What a person should know, the newest of each kind: why the network is not heard, what was dropped. Empty: nothing.
+  /// The newest remarks for a person: why nothing is heard, which messages were dropped. Empty: none.
   [[nodiscard]] virtual std::string remark() const = 0;
 };
 /// Opens one for a system that meets there.

@@ -14,8 +14,8 @@
 
 namespace tessera::project {
 
-/// Checks what is heard on the network, and keeps it until it is taken. What is kept is bounded: a source has one
-/// newest text of each part, and only starts of processes of the deployment are sources, of each process a few.
+/// Checks texts from the network, and keeps them until they are taken. Their number is bounded: a source has one newest
+/// text of each part, and only a few starts of each process of the deployment are sources.
 ///
 /// Threads: any.
 class StatusInbox final : public network::StatusReader::Listener {

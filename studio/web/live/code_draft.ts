@@ -17,7 +17,7 @@ export function functionIn(source: string | undefined, known: FunctionShown): Fu
   return new RegExp(`\\b${known.function}\\b`).test(line) ? functionAt(source, known.line) : null;
 }
 
-/** What is to be shown of a function, whose file may have changed since the edit began; null: both changed the same lines. */
+/** The text of a function to show if its file has changed since the edit began; null: both changed the same lines. */
 export function edited(held: Edited | undefined, inFile: string): Edited | null {
   if (!held) return { text: inFile, base: inFile };
   if (held.base === inFile) return held;

@@ -55,7 +55,7 @@ export class Draft {
     unreadable: "",
     notice: "",
   });
-  /** Where this tab keeps what is not saved: of each project apart, since another one may be served at this address. */
+  /** The key under which this tab keeps unsaved text. Each project has its own: another may be served at this address. */
   private kept = "";
   private lineEnd: LineEnd = "\n";
   private saving: Promise<boolean> | null = null;
@@ -168,7 +168,7 @@ export class Draft {
   /** The server reports that the file changed on disk. */
   async changedOnDisk(revision: string): Promise<void> {
     await this.saving;
-    // What it was meanwhile, another program has put right.
+    // Another program has undone its change.
     if (revision === this.store.get().revision) return this.store.set({ conflict: null });
     let answer: SpecAnswer;
     try {

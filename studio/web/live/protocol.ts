@@ -626,7 +626,10 @@ export interface DeploymentSeen {
 export interface ProcessSeen {
   name: string;
   agents: string[];
-  /** silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine, and not heard on the network. */
+  /**
+   * silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine, and not heard
+   * on the network.
+   */
   state: "running" | "silent" | "ended" | "gone" | "absent";
   /** It has been in this state for so long. */
   since_s: number | null;

@@ -188,7 +188,7 @@ export class Studio {
     }
   }
 
-  /** What is not saved stays in this tab. */
+  /** Unsaved text stays in this tab. */
   private reload(): void {
     this.reloading = true;
     location.reload();

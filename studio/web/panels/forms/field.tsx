@@ -28,7 +28,7 @@ export function Field({ label, of, value, hint, placeholder, choices, mono, wron
   };
   const key = (event: KeyboardEvent<HTMLInputElement>) => {
     if (event.key === "Enter") take();
-    // What is in the field is saved, too.
+    // The text of the field is saved, too.
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") take();
     if (event.key === "Escape") setText(value);
   };

@@ -1,8 +1,8 @@
 import { type Pace, wholeShare } from "../run/pace";
 
-/** Of width and height: what is drawn is stretched to the canvas. Less than half would look bad. */
+/** Parts of width and height: the picture is stretched to the canvas. Less than half would look bad. */
 const steps = [1, 0.84, 0.71, 0.6, 0.5] as const;
-/** A picture of fewer pixels would look bad, and takes its time for other things. */
+/** A picture of fewer pixels would look bad, and its time goes to other things. */
 const fewest = 125_000;
 /** Milliseconds of a picture: with more, `Pace` lets the next frame of the page pass; with less, there is room. */
 const most = 0.92 * wholeShare * (1000 / 60);
@@ -41,7 +41,7 @@ export class Sharpness {
     if (this.step > this.coarsest) this.to(this.coarsest, false);
   }
 
-  /** Of width and height of the canvas, for a picture now. */
+  /** The part of width and height of the canvas for a picture now. */
   scale(now: number): number {
     return this.isMoving(now) ? steps[this.step]! : 1;
   }

@@ -192,7 +192,7 @@ export class World3d {
     this.waitUntilDrawn();
   }
 
-  /** What is drawn has so many pixels, and is stretched to the canvas. */
+  /** Sets the part of the canvas's pixels that is drawn; the picture is stretched to the canvas. */
   private resize(scale: number): void {
     if (scale === this.scale) return;
     this.scale = scale;

@@ -1,4 +1,4 @@
-#include "cli/running_controller.hpp"
+#include "cli/watching/running_controller.hpp"
 
 #include <algorithm>
 #include <variant>

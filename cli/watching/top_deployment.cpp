@@ -1,4 +1,4 @@
-#include "cli/commands/top_deployment.hpp"
+#include "cli/watching/top_deployment.hpp"
 
 #include <fmt/core.h>
 #include <sys/ioctl.h>
@@ -13,8 +13,8 @@
 #include <string_view>
 #include <variant>
 
-#include "cli/commands/deployment_table.hpp"
 #include "cli/terminal.hpp"
+#include "cli/watching/deployment_table.hpp"
 #include "project/files/installation.hpp"
 #include "project/process/deployment_watch.hpp"
 #include "tessera/monitor.hpp"

@@ -1,4 +1,4 @@
-#include "cli/commands/deployment_table.hpp"
+#include "cli/watching/deployment_table.hpp"
 
 #include <fmt/core.h>
 

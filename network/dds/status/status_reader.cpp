@@ -1,9 +1,9 @@
-#include "network/dds/status_reader.hpp"
+#include "network/dds/status/status_reader.hpp"
 
 #include "network/dds/middleware_log.hpp"
 #include "network/dds/presence.hpp"
 #include "network/dds/setup_error.hpp"
-#include "network/dds/status.hpp"
+#include "network/dds/status/status_topic.hpp"
 #include "wire.h"
 
 namespace tessera::dds {

@@ -1,4 +1,4 @@
-#include "network/dds/status.hpp"
+#include "network/dds/status/status_topic.hpp"
 
 #include "wire.h"
 

@@ -1,4 +1,4 @@
-#include "cli/not_reached.hpp"
+#include "cli/watching/not_reached.hpp"
 
 #include "project/process/deployment_watch.hpp"
 

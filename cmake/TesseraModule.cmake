@@ -45,6 +45,22 @@ endmacro()
 # For tests with long computations: naive answers to large questions.
 macro(tessera_compile_for_speed)
   add_compile_options(-O1)
+  set(TESSERA_TEST_HEADERS OFF)  # they were compiled with other flags
+endmacro()
+
+# Compiles the headers that most tests include once. The presets that compile each source on its own do not,
+# so that a missing include is found there. An executable, because position-independent code for libraries has
+# other flags.
+macro(tessera_test_headers)
+  set(TESSERA_TEST_HEADERS ${CMAKE_UNITY_BUILD})
+  if(TESSERA_TEST_HEADERS)
+    file(CONFIGURE OUTPUT ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp CONTENT "")
+    add_executable(tessera_test_headers EXCLUDE_FROM_ALL ${CMAKE_CURRENT_BINARY_DIR}/test_headers.cpp)
+    target_link_libraries(tessera_test_headers PRIVATE GTest::gtest GTest::gmock GTest::gtest_main tessera_flags)
+    target_precompile_headers(tessera_test_headers PRIVATE
+      <gmock/gmock.h> <gtest/gtest.h> <nlohmann/json.hpp> <algorithm> <chrono> <filesystem> <fstream> <functional> <map>
+      <memory> <optional> <random> <set> <sstream> <string> <string_view> <thread> <variant> <vector>)
+  endif()
 endmacro()
 
 # tessera_module(NAME SOURCES ... [PUBLIC targets...] [PRIVATE targets...])
@@ -71,6 +87,9 @@ function(tessera_gtest name)
   endif()
   add_executable(test_${name} ${TEST_SOURCES})
   target_link_libraries(test_${name} PRIVATE ${TEST_LIBRARIES} GTest::gtest GTest::gmock GTest::gtest_main tessera_flags)
+  if(TESSERA_TEST_HEADERS)
+    target_precompile_headers(test_${name} REUSE_FROM tessera_test_headers)
+  endif()
   target_compile_definitions(test_${name} PRIVATE TESSERA_SOURCE_DIR="${PROJECT_SOURCE_DIR}" TESSERA_BINARY_DIR="${PROJECT_BINARY_DIR}")
   if(TESSERA_SANITIZE AND NOT "slow" IN_LIST TEST_LABELS)
     set(TEST_WHOLE TRUE)

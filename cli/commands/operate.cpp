@@ -14,6 +14,7 @@
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "tessera/result.hpp"
 
 /// Commands of an operator to a running controller: `tessera set`, `emergency-stop`, `reset`.
@@ -34,18 +35,17 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
   return controller.send(project::line_of(command, question));
 }
 
-/// nullopt: it has ended, or does not answer. first: gets its first line, if that comes before the answer.
+/// nullopt: it has ended, or does not answer. first: gets its first state, if that comes before the answer.
 std::optional<project::CommandAnswer> answer_of(RunningController& controller,
                                                 std::optional<project::Snapshot>* first = nullptr) {
   // It sends its state several times a second, beside answers: lines come as long as it runs.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
-    const std::optional<std::string> said = controller.line();
+    std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
-    std::optional<project::ControlLine> line = project::read_control_line(*said);
-    auto* answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
+    auto* answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == question) return std::move(*answer);
-    auto* snapshot = line ? std::get_if<project::Snapshot>(&*line) : nullptr;
+    auto* snapshot = said->content ? std::get_if<project::Snapshot>(&*said->content) : nullptr;
     if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
   }
   return std::nullopt;

@@ -19,6 +19,7 @@
 #include "cli/running_controller.hpp"
 #include "cli/terminal.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "tessera/given_values.hpp"
 
 /// `tessera panel`: a panel for an operator without a browser.
@@ -71,10 +72,9 @@ std::optional<project::CommandAnswer> panel_answer(RunningController& controller
   const auto end = Clock::now() + std::chrono::seconds(2);
   if (!controller.send(project::line_of(command, id))) return std::nullopt;
   while (Clock::now() < end) {
-    const std::optional<std::string> said = controller.line();
+    const std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
-    const auto line = project::read_control_line(*said);
-    const auto* const answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
+    const auto* const answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == id) return *answer;
   }
   return std::nullopt;

@@ -15,6 +15,7 @@
 #include <string_view>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include "command.hpp"
 #include "project/build/controller.hpp"
@@ -22,6 +23,7 @@
 #include "project/launch.hpp"
 #include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "project/process/listener.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/recording.hpp"
@@ -48,7 +50,7 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
   if (!connection) return;
   std::mt19937_64 draws(seed);
   std::int64_t id = 0;
-  std::string heard;
+  project::ControlReader heard;
   const auto say = [&](const project::ControlCommand& what) {
     return connection->send(project::line_of(what, ++id));
   };
@@ -63,7 +65,8 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
   goes_on = goes_on && say(command::Speed{0}) && say(command::Resume{});
   while (connection->receive(heard) == Received::bytes) {
   }
-  for (std::size_t at = 0; (at = heard.find("\"answer\"", at)) != std::string::npos; ++at) ++answers;
+  while (const std::optional<project::ControlMessage> message = heard.next())
+    if (message->content && std::holds_alternative<project::CommandAnswer>(*message->content)) ++answers;
 }
 
 class SameBytes : public Command {

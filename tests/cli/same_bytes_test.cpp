@@ -17,6 +17,7 @@
 #include <utility>
 #include <variant>
 
+#include "../schema/judge.hpp"
 #include "command.hpp"
 #include "project/build/controller.hpp"
 #include "project/files/file_names.hpp"
@@ -99,6 +100,7 @@ class SameBytes : public Command {
     const fs::path summary = folder_ / project::file_names::summary;
     EXPECT_TRUE(fs::exists(summary)) << exit.text;
     Left left{content_of(folder_ / recording_file_name), nlohmann::json::parse(content_of(summary))};
+    schema_test::judge_summary(left.summary);
     fs::remove(summary);
     fs::remove(folder_ / recording_file_name);
     return left;

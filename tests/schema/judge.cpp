@@ -115,4 +115,6 @@ void judge_command(const json& data) {
   judge({{"kind", "command"}, {"data", data}}, "a command of the control socket");
 }
 
+void judge_summary(const json& data) { judge({{"kind", "summary"}, {"data", data}}, "a summary"); }
+
 }  // namespace tessera::schema_test

@@ -218,8 +218,10 @@ std::optional<RerunReport> rerun(const System& system, RunOptions options, const
   const std::optional<Recording> recording = read_recording(file, error);
   if (!recording) return std::nullopt;
   std::optional<RerunReport> report = Play(system, std::move(options), *recording).report(error);
-  if (report) report->recording = file;
-  if (!error.empty()) error = fmt::format("cannot run again from '{}': {}", file, error);
+  if (report)
+    report->recording = file;
+  else
+    error = fmt::format("cannot run again from '{}': {}", file, error);
   return report;
 }
 

@@ -51,11 +51,10 @@ std::optional<project::CommandAnswer> answer_of(RunningController& controller,
   return std::nullopt;
 }
 
-/// The mistake; nullopt: there is none.
 std::optional<Problem> problem_of(const RunningController& controller,
                                   const std::optional<project::CommandAnswer>& answer) {
   if (!answer) return Problem{controller.name() + " has ended, or does not answer"};
-  return answer->error.empty() ? std::nullopt : std::optional(Problem{answer->error});
+  return answer->problem;
 }
 
 /// One controller, or all processes of a deployed system: a parameter may be in any of them. Empty: there is
@@ -81,13 +80,14 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
       code = complain(name + " has ended, or does not answer: it is unknown whether it takes " +
                       command.path + "=" + command.value);
     } else if (answer->elsewhere) {
-      if (unknown.empty() || answer->error.size() > unknown.size()) unknown = answer->error;  // with a hint
-    } else if (answer->error.empty()) {
+      if (answer->problem && answer->problem->text.size() > unknown.size())
+        unknown = answer->problem->text;  // with a hint
+    } else if (!answer->problem) {
       taken = true;
       if (processes.size() > 1) fmt::print("{}: {}={}\n", name, command.path, command.value);
     } else {
       taken = true;
-      code = complain(processes.size() > 1 ? name + ": " + answer->error : answer->error);
+      code = complain(processes.size() > 1 ? name + ": " + answer->problem->text : answer->problem->text);
     }
   }
   if (!taken && !silent) code = complain(unknown);

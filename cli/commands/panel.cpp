@@ -86,8 +86,8 @@ RunningController* operate(std::vector<SeenController>& processes, const PanelCo
   for (SeenController& one : processes) {
     one.controller.be_patient_for(std::chrono::seconds(2));
     const auto answer = panel_answer(one.controller, command);
-    if (answer && answer->error.empty()) return &one.controller;
-    if (answer) unknown = answer->error;
+    if (answer && !answer->problem) return &one.controller;
+    if (answer) unknown = answer->problem->text;
     if (answer && !answer->elsewhere) break;
   }
   complain(unknown);
@@ -113,7 +113,7 @@ int panel_command(const PanelOptions& options) {
     if (interrupted || Clock::now() >= end) break;
     const auto answer = panel_answer(*controller, *command);
     if (!answer) code = complain(controller->name() + " has ended, or does not answer");
-    if (answer && !answer->error.empty()) code = complain(answer->error);
+    if (answer && answer->problem) code = complain(answer->problem->text);
   }
   static_cast<void>(panel_answer(*controller, {command->path, command->who, {}}));
   return code;

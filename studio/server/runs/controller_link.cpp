@@ -78,7 +78,7 @@ void ControllerLink::understand() {
 
 void ControllerLink::take(project::CommandAnswer answer) {
   const std::lock_guard lock(mutex_);
-  answers_[answer.id] = std::move(answer.error);
+  answers_[answer.id] = std::move(answer.problem);
   answered_.notify_all();
 }
 
@@ -134,9 +134,7 @@ std::optional<Problem> ControllerLink::command(const project::ControlCommand& co
     return Problem{"the controller does not answer"};
   const auto answer = answers_.find(id);
   if (answer == answers_.end()) return Problem{"the controller has ended"};
-  std::string problem = answers_.extract(answer).mapped();
-  if (problem.empty()) return std::nullopt;
-  return Problem{std::move(problem)};
+  return std::move(answers_.extract(answer).mapped());
 }
 
 void ControllerLink::close() {

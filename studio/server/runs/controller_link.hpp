@@ -69,7 +69,7 @@ class ControllerLink {
   /// guards the members below, and writing to and closing the connection
   std::mutex mutex_;
   std::condition_variable answered_;
-  std::map<std::int64_t, std::string> answers_;
+  std::map<std::int64_t, std::optional<Problem>> answers_;
   std::int64_t last_ = 0;
   bool open_ = false, over_ = false;
 };

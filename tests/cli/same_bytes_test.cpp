@@ -142,7 +142,7 @@ class SameBytes : public Command {
 [[nodiscard]] std::vector<std::pair<std::int64_t, std::uint32_t>> firings_in(const std::string& bytes) {
   RecordingReader reader;
   reader.feed(bytes);
-  EXPECT_TRUE(reader.has_ended()) << reader.problem();
+  EXPECT_TRUE(reader.has_ended()) << reader.problem().value_or(Problem{}).text;
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings;
   for (const Recording::Entry& entry : reader.recording().entries)
     if (entry.event.kind() == Event::Kind::firing)

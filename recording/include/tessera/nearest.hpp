@@ -13,7 +13,7 @@ namespace tessera {
 /// considers the first thousand candidates only.
 [[nodiscard]] std::string nearest(std::string_view word, const std::vector<std::string>& candidates);
 
-/// What to do about a mistake.
+/// Advice about a mistake.
 struct Hint {
   Hint() = default;
   Hint(std::string words) : text(std::move(words)) {}

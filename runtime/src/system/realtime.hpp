@@ -27,7 +27,7 @@ class RealTimePriority {
   RealTimePriority(const RealTimePriority&) = delete;
   RealTimePriority& operator=(const RealTimePriority&) = delete;
   ~RealTimePriority();
-  /// What was not permitted.
+  /// The priority that was not permitted, and why.
   [[nodiscard]] const std::optional<Problem>& denied() const { return denied_; }
   /// The priority that the thread got; 0: the one that it had before.
   [[nodiscard]] int priority() const { return priority_; }

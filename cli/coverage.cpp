@@ -75,7 +75,7 @@ void CoverageInput::add_firings(const std::string& file, const std::string& net,
         fmt::format("it is of the net {}, and {} now gives {}: name the specification it was made with, "
                     "with --spec",
                     net, state_->specification, state_->hash));
-  if (const std::string why = state_->counts.add(firings, runs); !why.empty()) refuse_input(file, why);
+  if (const auto why = state_->counts.add(firings, runs)) refuse_input(file, why->text);
 }
 
 void CoverageInput::add_file(const std::string& file) {
@@ -84,7 +84,7 @@ void CoverageInput::add_file(const std::string& file) {
     const std::optional<Recording> recording = read_recording(file, error);
     if (!recording) throw std::runtime_error(error);
     add_firings(file, recording->net_hash, {}, 0);
-    if (const std::string why = state_->counts.add(*recording); !why.empty()) refuse_input(file, why);
+    if (const auto why = state_->counts.add(*recording)) refuse_input(file, why->text);
     return;
   }
   const Result<statistics::Results> results = statistics::parse_results(content_of(file));

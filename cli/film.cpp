@@ -189,8 +189,8 @@ class PoseTimes {
   return caption;
 }
 
-[[nodiscard]] std::string write_film(const FilmOptions& options, const Survey& found, WorldPainter& painter,
-                                     int width, int height) {
+[[nodiscard]] std::optional<Problem> write_film(const FilmOptions& options, const Survey& found,
+                                                WorldPainter& painter, int width, int height) {
   const std::string ending = ending_of(options.file);
   const auto length_s = static_cast<double>(found.last_ns - found.first_ns) * 1e-9;
   const auto count = static_cast<std::size_t>(length_s / options.speed * frames_per_s) + 1;
@@ -214,9 +214,9 @@ class PoseTimes {
   }
   if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r\033[K");
   good = good && writer->finish();
-  if (std::string problem = file.finish(good); !problem.empty()) return problem;
+  if (std::optional<Problem> problem = file.finish(good)) return problem;
   fmt::print("{}: {} frames, {:.1f} s of the run\n", options.file, count, length_s);
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -280,8 +280,8 @@ int make_film(const FilmOptions& options) {
   const auto painter = needed(open_painter(world, picture));
   if (found.begins_late_ns && nanoseconds_of(options.from_s) < *found.begins_late_ns)
     fmt::print(stderr, "note: the recording: {}\n", note_on_lost_beginning(found.begins_late_ns));
-  const std::string problem = write_film(options, found, *painter, size->first, size->second);
-  return problem.empty() ? ok : complain(problem);
+  const std::optional<Problem> problem = write_film(options, found, *painter, size->first, size->second);
+  return problem ? complain(problem->text) : ok;
 }
 
 }  // namespace tessera::cli

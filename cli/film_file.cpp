@@ -124,21 +124,22 @@ bool FilmFile::write(std::string_view bytes) {
   return true;
 }
 
-std::string FilmFile::finish(bool complete) {
-  if (close(std::exchange(descriptor_, -1)) != 0 && reason_.empty()) reason_ = std::strerror(errno);
+std::optional<Problem> FilmFile::finish(bool complete) {
+  if (close(std::exchange(descriptor_, -1)) != 0 && !reason_) reason_ = std::strerror(errno);
   if (child_ > 0) {
     int status = 0;
     while (waitpid(child_, &status, 0) < 0 && errno == EINTR) continue;
     child_ = -1;
     if (film_interrupted == 0 && (!WIFEXITED(status) || WEXITSTATUS(status) != 0))
-      return "ffmpeg failed; its message stands above\nhint: --film FILE.png needs no other program";
+      return Problem{"ffmpeg failed; its message stands above\nhint: --film FILE.png needs no other program"};
   }
-  if (film_interrupted != 0) return fmt::format("interrupted: there is no new '{}'", file_);
-  if (!complete || !reason_.empty()) return fmt::format("cannot write '{}': {}", file_, reason_);
+  if (film_interrupted != 0) return Problem{fmt::format("interrupted: there is no new '{}'", file_)};
+  if (!complete || reason_) return Problem{fmt::format("cannot write '{}': {}", file_, reason_.value_or(""))};
   std::error_code problem;
   fs::rename(unfinished_, file_, problem);
   finished_ = !problem;
-  return problem ? fmt::format("cannot write '{}': {}", file_, problem.message()) : std::string();
+  if (problem) return Problem{fmt::format("cannot write '{}': {}", file_, problem.message())};
+  return std::nullopt;
 }
 
 void FilmFile::start_ffmpeg(const std::string& ending) {

@@ -3,8 +3,11 @@
 #include <sys/types.h>
 
 #include <array>
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "tessera/result.hpp"
 
 namespace tessera::cli {
 
@@ -26,13 +29,14 @@ class FilmFile {
   ~FilmFile();
 
   [[nodiscard]] bool write(std::string_view bytes);
-  /// Empty: the film is complete. Otherwise the reason.
-  [[nodiscard]] std::string finish(bool complete);
+  /// nullopt: the film is complete. Otherwise the reason.
+  [[nodiscard]] std::optional<Problem> finish(bool complete);
 
  private:
   void start_ffmpeg(const std::string& ending);
 
-  std::string file_, unfinished_, reason_;
+  std::string file_, unfinished_;
+  std::optional<std::string> reason_;  ///< why it cannot be written
   int descriptor_ = -1;
   pid_t child_ = -1;
   std::array<void (*)(int), 3> before_{};  ///< the earlier handlers of the signals

@@ -30,7 +30,7 @@ WorldScene PoseSampler::scene(const Physics& physics, const Track* floor,
 }
 
 void PoseSampler::look(const Physics& physics) {
-  if (sink_ == nullptr || physics.time() < next_ || !physics.failure().empty()) return;
+  if (sink_ == nullptr || physics.time() < next_ || physics.failure()) return;
   next_ = (physics.time() / pose_period + 1) * pose_period;
   if (bodies_.empty()) bodies_ = moving_bodies(physics.model());
   read_poses(physics.positions(), bodies_, poses_);

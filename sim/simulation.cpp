@@ -36,12 +36,12 @@ Simulation::Simulation(std::unique_ptr<Physics> physics, std::optional<Track> fl
 
 void Simulation::advance_to(Time time) {
   const std::scoped_lock lock(mutex_);
-  while (physics_->failure().empty()) {
+  while (!physics_->failure()) {
     if (physics_->time() >= next_sample_) sample();
     watched_.look(*physics_);
     if (physics_->next_time() > time.time_since_epoch()) break;
     physics_->step();
-    if (judging_ && physics_->failure().empty()) judging_->after_step();
+    if (judging_ && !physics_->failure()) judging_->after_step();
   }
   throw_failure();
 }
@@ -113,7 +113,7 @@ std::optional<Problem> Simulation::finish() {
   const std::scoped_lock lock(mutex_);
   trace_.begin(robot_names());  // for a run that has ended before it began
   std::optional<Problem> problem = trace_.finish();
-  if (!physics_->failure().empty()) return Problem{physics_->failure()};
+  if (physics_->failure()) return physics_->failure();
   return problem;
 }
 
@@ -139,7 +139,7 @@ void Simulation::wrap(int joint, double length) {
 }
 
 void Simulation::throw_failure() const {
-  if (!physics_->failure().empty()) throw std::runtime_error(physics_->failure());
+  if (physics_->failure()) throw std::runtime_error(physics_->failure()->text);
 }
 
 }  // namespace tessera::sim

@@ -70,11 +70,11 @@ std::optional<Problem> vary(mjModel& model, const std::vector<Variation>& variat
   for (const Variation& one : variations)
     if (auto problem = vary(model, one, seed)) return problem;
   // Updates the values that the engine derives from masses.
-  std::string complaint = complaint_of([&] {
+  const std::optional<Problem> complaint = complaint_of([&] {
     const DataPtr data(mj_makeData(&model));
     if (data) mj_setConst(&model, data.get());
   });
-  return complaint.empty() ? std::nullopt : std::optional(Problem{"vary: " + complaint});
+  return complaint ? std::optional(Problem{"vary: " + complaint->text}) : std::nullopt;
 }
 
 }  // namespace tessera::sim

@@ -14,6 +14,7 @@
 #include "cli/watching/not_reached.hpp"
 #include "cli/watching/running_controller.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "tessera/result.hpp"
 
 /// Commands of an operator to a running controller: `tessera set`, `emergency-stop`, `reset`.
@@ -34,28 +35,26 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
   return controller.send(project::line_of(command, question));
 }
 
-/// nullopt: it has ended, or does not answer. first: gets its first line, if that comes before the answer.
+/// nullopt: it has ended, or does not answer. first: gets its first state, if that comes before the answer.
 std::optional<project::CommandAnswer> answer_of(RunningController& controller,
                                                 std::optional<project::Snapshot>* first = nullptr) {
   // It sends its state several times a second, beside answers: lines come as long as it runs.
   const auto end = std::chrono::steady_clock::now() + patience;
   while (std::chrono::steady_clock::now() < end) {
-    const std::optional<std::string> said = controller.line();
+    std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
-    std::optional<project::ControlLine> line = project::read_control_line(*said);
-    auto* answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
+    auto* answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == question) return std::move(*answer);
-    auto* snapshot = line ? std::get_if<project::Snapshot>(&*line) : nullptr;
+    auto* snapshot = said->content ? std::get_if<project::Snapshot>(&*said->content) : nullptr;
     if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
   }
   return std::nullopt;
 }
 
-/// The mistake; nullopt: there is none.
 std::optional<Problem> problem_of(const RunningController& controller,
                                   const std::optional<project::CommandAnswer>& answer) {
   if (!answer) return Problem{controller.name() + " has ended, or does not answer"};
-  return answer->error.empty() ? std::nullopt : std::optional(Problem{answer->error});
+  return answer->problem;
 }
 
 /// One controller, or all processes of a deployed system: a parameter may be in any of them. Empty: there is
@@ -81,13 +80,14 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
       code = complain(name + " has ended, or does not answer: it is unknown whether it takes " +
                       command.path + "=" + command.value);
     } else if (answer->elsewhere) {
-      if (unknown.empty() || answer->error.size() > unknown.size()) unknown = answer->error;  // with a hint
-    } else if (answer->error.empty()) {
+      if (answer->problem && answer->problem->text.size() > unknown.size())
+        unknown = answer->problem->text;  // with a hint
+    } else if (!answer->problem) {
       taken = true;
       if (processes.size() > 1) fmt::print("{}: {}={}\n", name, command.path, command.value);
     } else {
       taken = true;
-      code = complain(processes.size() > 1 ? name + ": " + answer->error : answer->error);
+      code = complain(processes.size() > 1 ? name + ": " + answer->problem->text : answer->problem->text);
     }
   }
   if (!taken && !silent) code = complain(unknown);

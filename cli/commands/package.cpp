@@ -68,8 +68,8 @@ int package_command(PackageCommandOptions& options) {
   if (!every_real_buffer_has_driver(options, /*simulated=*/false, terminal())) return failed;
   const std::optional<Specification> specification = read(options.spec, terminal());
   if (!specification) return exit_code_without_net();
-  if (const std::string wrong = wrong_with(package, specification->model); !wrong.empty())
-    return complain(wrong), usage;
+  if (const std::optional<Problem> wrong = wrong_with(package, specification->model))
+    return complain(wrong->text), usage;
   package.parameters = parameter_values(*specification, options);
   const std::optional<OtherProcessor> processor = processor_of(options);
   const std::optional<Controller> controller =

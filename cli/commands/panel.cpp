@@ -19,6 +19,7 @@
 #include "cli/terminal.hpp"
 #include "cli/watching/running_controller.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "tessera/given_values.hpp"
 
 /// `tessera panel`: a panel for an operator without a browser.
@@ -71,10 +72,9 @@ std::optional<project::CommandAnswer> panel_answer(RunningController& controller
   const auto end = Clock::now() + std::chrono::seconds(2);
   if (!controller.send(project::line_of(command, id))) return std::nullopt;
   while (Clock::now() < end) {
-    const std::optional<std::string> said = controller.line();
+    const std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
-    const auto line = project::read_control_line(*said);
-    const auto* const answer = line ? std::get_if<project::CommandAnswer>(&*line) : nullptr;
+    const auto* const answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == id) return *answer;
   }
   return std::nullopt;
@@ -86,8 +86,8 @@ RunningController* operate(std::vector<SeenController>& processes, const PanelCo
   for (SeenController& one : processes) {
     one.controller.be_patient_for(std::chrono::seconds(2));
     const auto answer = panel_answer(one.controller, command);
-    if (answer && answer->error.empty()) return &one.controller;
-    if (answer) unknown = answer->error;
+    if (answer && !answer->problem) return &one.controller;
+    if (answer) unknown = answer->problem->text;
     if (answer && !answer->elsewhere) break;
   }
   complain(unknown);
@@ -113,7 +113,7 @@ int panel_command(const PanelOptions& options) {
     if (interrupted || Clock::now() >= end) break;
     const auto answer = panel_answer(*controller, *command);
     if (!answer) code = complain(controller->name() + " has ended, or does not answer");
-    if (answer && !answer->error.empty()) code = complain(answer->error);
+    if (answer && answer->problem) code = complain(answer->problem->text);
   }
   static_cast<void>(panel_answer(*controller, {command->path, command->who, {}}));
   return code;

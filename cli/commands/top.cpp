@@ -21,6 +21,7 @@
 #include "project/launch.hpp"
 #include "project/meeting_place.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "spec/parser.hpp"
 #include "tessera/printable.hpp"
 
@@ -104,16 +105,13 @@ std::string table(const Snapshot& now, const Snapshot& before) {
 int watch_one(SeenController& watched, const TopOptions& options) {
   watched.controller.be_patient_for(std::chrono::milliseconds(0));  // without limit
   std::optional<Snapshot> before;
-  std::optional<std::string> said =
-      watched.line.empty() ? watched.controller.line() : std::optional(std::move(watched.line));
-  for (; said; said = watched.controller.line()) {
-    std::optional<project::ControlLine> line = project::read_control_line(*said);
-    if (!line) return complain("the controller sent what this version does not understand");
-    if (std::holds_alternative<project::ControllerHasEnded>(*line)) break;
-    auto* now = std::get_if<Snapshot>(&*line);
+  while (std::optional<project::ControlMessage> said = watched.controller.message()) {
+    if (!said->content) return complain("the controller sent what this version does not understand");
+    if (std::holds_alternative<project::ControllerHasEnded>(*said->content)) break;
+    auto* now = std::get_if<Snapshot>(&*said->content);
     if (now == nullptr) continue;
     if (options.lines) {
-      fmt::print("{}\n", *said);
+      fmt::print("{}\n", said->line);
       if (options.once) return ok;
     } else if (before) {
       const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.once;

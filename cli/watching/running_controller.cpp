@@ -1,6 +1,7 @@
 #include "cli/watching/running_controller.hpp"
 
 #include <algorithm>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -17,24 +18,32 @@ std::optional<RunningController> RunningController::attach(const fs::path& socke
   return RunningController(std::move(*made), socket_file.stem().string());
 }
 
-std::optional<std::string> RunningController::line() {
+std::optional<project::ControlMessage> RunningController::message() {
+  if (coming_) return std::exchange(coming_, std::nullopt);
   for (;;) {
-    if (const std::size_t end = pending_.find('\n'); end != std::string::npos) {
-      std::string line = pending_.substr(0, end);
-      pending_.erase(0, end + 1);
-      return line;
-    }
-    if (connection_.receive(pending_) != project::ControlConnection::Received::bytes) return std::nullopt;
+    if (std::optional<project::ControlMessage> message = heard_.next()) return message;
+    if (heard_.exceeds_limits() || connection_.receive(heard_) != project::ControlConnection::Received::bytes)
+      return std::nullopt;
   }
 }
 
+const project::ControlMessage* RunningController::coming_message() {
+  if (!coming_) coming_ = message();
+  return coming_ ? &*coming_ : nullptr;
+}
+
+namespace {
+
+const project::Snapshot* snapshot_in(const project::ControlMessage* message) {
+  return message != nullptr && message->content ? std::get_if<project::Snapshot>(&*message->content)
+                                                : nullptr;
+}
+
+}  // namespace
+
 void RunningController::learn_name() {
   connection_.limit_waits(std::chrono::seconds(2));
-  const std::optional<std::string> first = line();
-  if (!first) return;
-  pending_.insert(0, *first + "\n");
-  std::optional<project::ControlLine> said = project::read_control_line(*first);
-  const auto* snapshot = said ? std::get_if<project::Snapshot>(&*said) : nullptr;
+  const project::Snapshot* snapshot = snapshot_in(coming_message());
   if (snapshot == nullptr) return;
   name_ = snapshot->system + "." + (snapshot->name ? *snapshot->name + "." : "") +
           std::to_string(snapshot->process);
@@ -80,13 +89,11 @@ std::vector<SeenController> first_look(std::vector<RunningController> controller
   const auto end = Clock::now() + std::chrono::seconds(2);
   std::vector<SeenController> seen;
   for (RunningController& one : controllers) {
-    SeenController& looked_at = seen.emplace_back(SeenController{std::move(one), {}, {}});
+    SeenController& looked_at = seen.emplace_back(SeenController{std::move(one), {}});
     const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
     looked_at.controller.be_patient_for(std::max(left, std::chrono::milliseconds(50)));
-    looked_at.line = looked_at.controller.line().value_or("");
-    std::optional<project::ControlLine> line = project::read_control_line(looked_at.line);
-    if (auto* snapshot = line ? std::get_if<project::Snapshot>(&*line) : nullptr)
-      looked_at.snapshot = std::move(*snapshot);
+    if (const project::Snapshot* snapshot = snapshot_in(looked_at.controller.coming_message()))
+      looked_at.snapshot = *snapshot;
   }
   return seen;
 }

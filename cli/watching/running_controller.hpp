@@ -10,6 +10,7 @@
 
 #include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 
 namespace tessera::cli {
 
@@ -22,12 +23,15 @@ class RunningController {
   [[nodiscard]] static std::optional<RunningController> attach(const std::filesystem::path& socket_file);
   /// SYSTEM.PID, or SYSTEM.PROCESS.PID of a deployed system.
   [[nodiscard]] const std::string& name() const { return name_; }
-  /// If the name of the socket is shortened, takes the full name from the first line, which stays unread.
-  /// Waits for that line for two seconds; a process that hangs keeps the name of the socket.
+  /// If the name of the socket is shortened, takes the full name from the first message, which stays unread.
+  /// Waits for that message for two seconds; a process that hangs keeps the name of the socket.
   void learn_name();
 
-  /// The next line from the controller. nullopt: it has ended or was silent for too long (`be_patient_for`).
-  [[nodiscard]] std::optional<std::string> line();
+  /// The next message from the controller. nullopt: it has ended or was silent for too long
+  /// (`be_patient_for`).
+  [[nodiscard]] std::optional<project::ControlMessage> message();
+  /// The same, but the message stays unread. nullptr: there is none.
+  [[nodiscard]] const project::ControlMessage* coming_message();
   /// Limits all later waits to this time, because the process may be stopped or hang.
   void be_patient_for(std::chrono::milliseconds time) { connection_.limit_waits(time); }
   /// false: the controller has ended, or accepts no data.
@@ -37,14 +41,15 @@ class RunningController {
   RunningController(project::ControlConnection connection, std::string name)
       : connection_(std::move(connection)), name_(std::move(name)) {}
   project::ControlConnection connection_;
-  std::string name_, pending_;
+  std::string name_;
+  project::ControlReader heard_;
+  std::optional<project::ControlMessage> coming_;  ///< nullopt: nobody has looked at it yet
 };
 
-/// A controller and its first message.
+/// A controller and its first message, which stays unread.
 struct SeenController {
   RunningController controller;
-  std::string line;                           ///< its first line; empty: none within two seconds
-  std::optional<project::Snapshot> snapshot;  ///< the content of that line
+  std::optional<project::Snapshot> snapshot;  ///< nullopt: none within two seconds
 };
 /// Sends no request, and listens to all of them at once.
 [[nodiscard]] std::vector<SeenController> first_look(std::vector<RunningController> controllers);

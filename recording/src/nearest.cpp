@@ -92,13 +92,19 @@ std::string nearest(std::string_view word, const std::vector<std::string>& candi
   return found == nullptr ? abbreviated(wanted, tried) : *found;
 }
 
-std::string did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
-  const std::string found = nearest(word, candidates);
-  return found.empty() ? std::string() : "did you mean '" + found + "'?";
+Hint proposing(std::string name) {
+  Hint hint("did you mean '" + name + "'?");
+  hint.proposal = std::move(name);
+  return hint;
 }
 
-std::string with_hint(std::string message, std::string_view hint) {
-  if (!hint.empty()) message.append("; ").append(hint);
+Hint did_you_mean(std::string_view word, const std::vector<std::string>& candidates) {
+  std::string found = nearest(word, candidates);
+  return found.empty() ? Hint() : proposing(std::move(found));
+}
+
+std::string with_hint(std::string message, const Hint& hint) {
+  if (!hint.empty()) message.append("; ").append(hint.text);
   return message;
 }
 

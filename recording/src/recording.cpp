@@ -23,14 +23,14 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
          ((flags & ValueFlags::hashed) != 0 ? 2 * sizeof(std::uint64_t) : 0);
 }
 
-/// bytes: the first eight, or fewer. Empty: none so far.
-[[nodiscard]] std::string problem_of_magic(std::string_view bytes) {
+/// bytes: the first eight, or fewer. nullopt: none so far.
+[[nodiscard]] std::optional<Problem> problem_of_magic(std::string_view bytes) {
   const std::string_view name = recording_magic.substr(0, recording_magic.size() - 1);
-  if (!bytes.starts_with(name.substr(0, bytes.size()))) return "is no recording of Tessera";
-  if (bytes.size() < recording_magic.size() || is_recording_magic(bytes)) return "";
+  if (!bytes.starts_with(name.substr(0, bytes.size()))) return Problem{"is no recording of Tessera"};
+  if (bytes.size() < recording_magic.size() || is_recording_magic(bytes)) return std::nullopt;
   const bool is_newer = bytes.back() > recording_magic_with_memory.back() && bytes.back() <= '9';
-  return is_newer ? "was recorded by a newer version of Tessera, which has to read it"
-                  : "is no recording of Tessera";
+  return Problem{is_newer ? "was recorded by a newer version of Tessera, which has to read it"
+                          : "is no recording of Tessera"};
 }
 
 [[nodiscard]] bool makes_sense(const Event& event, const Recording& recording) {
@@ -92,7 +92,7 @@ void RecordingReader::feed(std::string_view bytes) {
 }
 
 void RecordingReader::give_up(std::string problem) {
-  problem_ = std::move(problem);
+  problem_ = Problem{std::move(problem)};
   state_ = State::damaged;
 }
 
@@ -100,9 +100,8 @@ void RecordingReader::give_up(std::string problem) {
 std::size_t RecordingReader::take_header(std::string_view bytes) {
   std::uint32_t length = 0;
   const std::size_t before_header = recording_magic.size() + sizeof length;
-  if (const std::string problem = problem_of_magic(bytes.substr(0, recording_magic.size()));
-      !problem.empty()) {
-    give_up(problem);
+  if (const std::optional<Problem> problem = problem_of_magic(bytes.substr(0, recording_magic.size()))) {
+    give_up(problem->text);
     return 0;
   }
   if (bytes.size() < before_header) return 0;
@@ -201,17 +200,17 @@ namespace {
   }
   RecordingReader reader;
   reader.feed(content);
-  const bool cut = !reader.has_header() && reader.problem().empty();
+  const bool cut = !reader.has_header() && !reader.problem();
   if (cut && content.size() >= 12) reader.feed(std::string(7, '\0'));  // ends the padding after the header
   if (!reader.has_header()) {
-    const bool begins_well = content.size() >= 12 && reader.problem().empty();
+    const bool begins_well = content.size() >= 12 && !reader.problem();
     error = fmt::format("'{}' {}", path,
-                        begins_well                ? "has a damaged header"
-                        : reader.problem().empty() ? "is no recording of Tessera"
-                                                   : reader.problem());
+                        begins_well        ? "has a damaged header"
+                        : reader.problem() ? reader.problem()->text
+                                           : "is no recording of Tessera");
     return std::nullopt;
   }
-  reader.recording().truncated = !reader.problem().empty() || !reader.has_ended() || reader.pending() > 0;
+  reader.recording().truncated = reader.problem() || !reader.has_ended() || reader.pending() > 0;
   return std::move(reader.recording());
 }
 

@@ -12,6 +12,7 @@
 
 #include "ros2/codec/value_type.hpp"
 #include "ros2/definitions/type.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::ros2 {
 
@@ -43,7 +44,8 @@ struct Mapping {
 /// A mistake in a mapping.
 struct MappingProblem {
   std::string subject;  ///< the field of the message as the mapping names it; "names"; empty: all of it
-  std::string text, hint{};
+  std::string text;
+  Hint hint{};
 };
 
 /// The time stamp of a sent message.

@@ -35,8 +35,8 @@ std::vector<std::string> member_names(const ValueType& type) {
 }
 
 /// "did you mean 'x'?", or all names if none is near.
-std::string hint_of(std::string_view word, const std::vector<std::string>& names, std::string_view owner) {
-  if (std::string guess = did_you_mean(word, names); !guess.empty()) return guess;
+Hint hint_of(std::string_view word, const std::vector<std::string>& names, std::string_view owner) {
+  if (Hint guess = did_you_mean(word, names); !guess.empty()) return guess;
   std::string list;
   for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
   return std::string(owner) + " has " + (list.empty() ? "no fields" : list);
@@ -71,7 +71,7 @@ class Planner {
   }
 
  private:
-  void wrong(std::string text, std::string hint = {}) {
+  void wrong(std::string text, Hint hint = {}) {
     problems_.push_back({subject_, std::move(text), std::move(hint)});
   }
 

@@ -85,7 +85,7 @@ class MessageReader {
   }
 
  private:
-  void wrong(std::string text, std::string hint = {}) {
+  void wrong(std::string text, Hint hint = {}) {
     mistakes_.push_back({file_, line_, std::move(text), std::move(hint)});
   }
 

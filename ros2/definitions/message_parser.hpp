@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "ros2/definitions/type.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::ros2 {
 
@@ -14,7 +15,8 @@ namespace tessera::ros2 {
 struct Mistake {
   std::string file;      ///< empty: the mistake is in no file
   std::size_t line = 0;  ///< from 1; 0: the whole file
-  std::string text, hint{};
+  std::string text;
+  Hint hint{};
 
   /// "Twist.msg:3: unknown type 'flaot64'; did you mean 'float64'?"
   [[nodiscard]] std::string shown() const;

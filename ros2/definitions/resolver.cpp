@@ -71,7 +71,7 @@ class Resolver {
     return known_[name] = std::make_shared<const Structure>(std::move(parsed));
   }
 
-  std::shared_ptr<const Structure> wrong(std::string file, std::string text, std::string hint = {}) {
+  std::shared_ptr<const Structure> wrong(std::string file, std::string text, Hint hint = {}) {
     mistakes_.push_back({std::move(file), 0, std::move(text), std::move(hint)});
     return nullptr;
   }
@@ -81,7 +81,7 @@ class Resolver {
     std::vector<std::string> names;
     for (const std::string& one : definitions_.names())
       if (is_service_type(one) == service) names.push_back(short_name(one));
-    std::string hint = did_you_mean(short_name(name), names);
+    Hint hint = did_you_mean(short_name(name), names);
     if (hint.empty())
       hint =
           "write its definition into msg/" + name + (service ? ".srv" : ".msg") + " beside the specification";

@@ -113,11 +113,12 @@ Result<Volume> volume_of(const std::string& world_file, const std::string& site)
   Volume volume{model.site_type[id], {}, {}, {}};
   std::copy_n(model.site_size + 3 * id, 3, volume.size.begin());
   DataPtr data;
-  const std::string complaint = complaint_of([&] {
+  const std::optional<Problem> complaint = complaint_of([&] {
     data.reset(mj_makeData(&model));
     if (data) mj_kinematics(&model, data.get());
   });
-  if (!data || !complaint.empty()) return Problem{world_file + ": " + complaint};
+  if (complaint) return Problem{world_file + ": " + complaint->text};
+  if (!data) return Problem{world_file + ": there is no memory for its state"};
   std::copy_n(data->site_xpos + 3 * id, 3, volume.position.begin());
   std::copy_n(data->site_xmat + 9 * id, 9, volume.axes.begin());
   return volume;

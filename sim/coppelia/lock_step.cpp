@@ -48,7 +48,7 @@ LockStep::~LockStep() { static_cast<void>(finish()); }
 
 void LockStep::advance_to(Time time) {
   const std::scoped_lock lock(mutex_);
-  if (!failure_.empty() || is_finished_) return;
+  if (failure_ || is_finished_) return;
   try {
     if (!is_running_) start();
     while (time_ + step_ <= time.time_since_epoch()) {
@@ -56,7 +56,7 @@ void LockStep::advance_to(Time time) {
       time_ += step_;
     }
   } catch (const std::exception& error) {
-    failure_ = error.what();
+    failure_ = Problem{error.what()};
   }
 }
 
@@ -106,7 +106,7 @@ Duration LockStep::time() const {
 void LockStep::end() {
   constexpr Duration patience = std::chrono::seconds(2);
   if (simulator_.is_lost()) simulator_.connect_again(patience);
-  if (is_running_ && failure_.empty()) send_commands();
+  if (is_running_ && !failure_) send_commands();
   if (is_running_) simulator_.stop();
   if (is_loaded_) simulator_.close_scene();
 }
@@ -117,10 +117,10 @@ std::optional<Problem> LockStep::finish() {
     try {
       end();
     } catch (const std::exception& error) {
-      if (failure_.empty()) failure_ = error.what();
+      if (!failure_) failure_ = Problem{error.what()};
     }
   }
-  return failure_.empty() ? std::nullopt : std::optional(Problem{failure_});
+  return failure_;
 }
 
 std::optional<Object> LockStep::find(const std::string& agent, const std::string& path) {
@@ -145,7 +145,7 @@ void LockStep::command(const Object& joint, JointCommand how, double value) {
 }
 
 void LockStep::throw_failure() const {
-  if (!failure_.empty()) throw std::runtime_error(failure_);
+  if (failure_) throw std::runtime_error(failure_->text);
 }
 
 }  // namespace tessera::coppelia

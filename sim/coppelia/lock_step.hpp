@@ -49,7 +49,7 @@ class LockStep {
     try {
       return std::forward<Use>(use)(simulator_);
     } catch (const LinkError& error) {
-      failure_ = error.what();
+      failure_ = Problem{error.what()};
       throw;
     }
   }
@@ -85,7 +85,7 @@ class LockStep {
   double start_s_ = 0;      // the time of the simulation at the run's time zero
   std::vector<Command> commands_;
   std::map<std::string, std::optional<Object>> found_;
-  std::string failure_;
+  std::optional<Problem> failure_;
 };
 
 }  // namespace tessera::coppelia

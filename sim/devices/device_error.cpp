@@ -18,7 +18,7 @@ DriverProblem unknown_name(const std::string& what, const std::string& name,
                            const std::vector<std::string>& known) {
   const std::string text = "the world has no " + what + " '" + name + "'";
   if (known.empty()) return {text, "it has no " + what + " with a name at all", name};
-  const std::string near = did_you_mean(name, known);
+  const std::string near = did_you_mean(name, known).text;
   return {text, near + (near.empty() ? "" : " ") + "the world has: " + short_list(known), name};
 }
 

@@ -98,7 +98,7 @@ std::optional<std::vector<int>> Options::indices(const std::string& name, int la
 void Options::refuse_others() const {
   for (const auto& [name, option] : request_.options) {
     if (std::ranges::find(asked_, name) != asked_.end()) continue;
-    const std::string near = did_you_mean(name, asked_);
+    const std::string near = did_you_mean(name, asked_).text;
     const std::string text = "'" + request_.kind + "' has no option '" + name + "'";
     if (asked_.empty()) throw DeviceError(text, "it has no options", name);
     throw DeviceError(text, near + (near.empty() ? "" : " ") + "its options: " + short_list(asked_), name);

@@ -9,7 +9,7 @@ namespace tessera::sim {
 namespace {
 
 /// Receives the warnings of the engine that this thread causes.
-thread_local std::string* warnings = nullptr;
+thread_local std::optional<Problem>* warnings = nullptr;
 
 /// MuJoCo requires that this function does not return. Its C code has unwind tables on all Debian
 /// architectures that ship it.
@@ -18,8 +18,8 @@ thread_local std::string* warnings = nullptr;
 void on_warning(const char* message) {
   if (warnings == nullptr) {
     std::fprintf(stderr, "MuJoCo: %s\n", message);
-  } else if (warnings->empty()) {
-    *warnings = message;
+  } else if (!*warnings) {
+    *warnings = Problem{message};
   }
 }
 
@@ -30,7 +30,7 @@ void catch_complaints() {
   mju_user_warning = on_warning;
 }
 
-WarningScope::WarningScope(std::string& text) : outer_(warnings) { warnings = &text; }
+WarningScope::WarningScope(std::optional<Problem>& complaint) : outer_(warnings) { warnings = &complaint; }
 WarningScope::~WarningScope() { warnings = outer_; }
 
 }  // namespace tessera::sim

@@ -1,8 +1,10 @@
 #pragma once
 
 #include <exception>
-#include <string>
+#include <optional>
 #include <utility>
+
+#include "tessera/result.hpp"
 
 /// Errors and warnings of MuJoCo, which would end the process or go to a file otherwise.
 namespace tessera::sim {
@@ -14,30 +16,30 @@ void catch_complaints();
 /// Collects the first warning of the engine in this thread during its lifetime.
 class WarningScope {
  public:
-  explicit WarningScope(std::string& text);
+  explicit WarningScope(std::optional<Problem>& complaint);
   WarningScope(const WarningScope&) = delete;
   WarningScope& operator=(const WarningScope&) = delete;
   ~WarningScope();
 
  private:
-  std::string* outer_;
+  std::optional<Problem>* outer_;
 };
 
-/// Calls the engine. Returns its error or its first warning; empty: none.
+/// Calls the engine. Returns its error or its first warning.
 ///
 /// Threads: any; each gets its own complaints.
 template <class Call>
-[[nodiscard]] std::string complaint_of(Call&& call) {
-  std::string text;
-  const WarningScope scope(text);
+[[nodiscard]] std::optional<Problem> complaint_of(Call&& call) {
+  std::optional<Problem> complaint;
+  const WarningScope scope(complaint);
   try {
     std::forward<Call>(call)();
   } catch (const std::exception& e) {
-    text = e.what();
+    complaint = Problem{e.what()};
   } catch (...) {  // the engine's own exception type, which no header declares
-    text = "the engine gave up without saying why";
+    complaint = Problem{"the engine gave up without saying why"};
   }
-  return text;
+  return complaint;
 }
 
 }  // namespace tessera::sim

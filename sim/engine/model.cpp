@@ -16,39 +16,39 @@
 namespace tessera::sim {
 namespace {
 
-/// Empty: a run can use this time step.
-std::string problem_with_time_step(double step_s) {
+/// Why no run can use this time step.
+std::optional<Problem> problem_with_time_step(double step_s) {
   constexpr double shortest_s = 1e-6, longest_s = 0.1;
-  if (step_s > longest_s) return "the time step is longer than 0.1 s";
-  if (step_s >= shortest_s) return {};
+  if (step_s > longest_s) return Problem{"the time step is longer than 0.1 s"};
+  if (step_s >= shortest_s) return std::nullopt;
   std::array<char, 96> text{};
   std::snprintf(text.data(), text.size(), "the time step is %g s; it must be 1 us (1e-6 s) or longer",
                 step_s);
-  return text.data();
+  return Problem{text.data()};
 }
 
-/// Empty: it is a file that can be read. Reading a pipe would wait for ever.
-std::string problem_with_file(const std::string& path) {
+/// Why it is no file that can be read. Reading a pipe would wait for ever.
+std::optional<Problem> problem_with_file(const std::string& path) {
   namespace fs = std::filesystem;
   std::error_code problem;
   const fs::file_status status = fs::status(path, problem);
-  if (!fs::exists(status)) return "there is no such file";
-  if (fs::is_directory(status)) return "is a folder; name the file in it";
-  if (!fs::is_regular_file(status)) return "is no regular file";
-  if (fs::file_size(path, problem) == 0 && !problem) return "the file is empty";
-  return {};
+  if (!fs::exists(status)) return Problem{"there is no such file"};
+  if (fs::is_directory(status)) return Problem{"is a folder; name the file in it"};
+  if (!fs::is_regular_file(status)) return Problem{"is no regular file"};
+  if (fs::file_size(path, problem) == 0 && !problem) return Problem{"the file is empty"};
+  return std::nullopt;
 }
 
 /// The engine refuses what is not a number, but takes what is infinite.
-std::string problem_with_sensors(const mjModel& model) {
+std::optional<Problem> problem_with_sensors(const mjModel& model) {
   for (int id = 0; id < model.nsensor; ++id) {
     const bool good = std::isfinite(model.sensor_noise[id]) && std::isfinite(model.sensor_cutoff[id]);
     const char* const name = mj_id2name(&model, mjOBJ_SENSOR, id);
     if (!good)
-      return "the `noise` or `cutoff` of sensor '" + std::string(name == nullptr ? "" : name) +
-             "' is infinite";
+      return Problem{"the `noise` or `cutoff` of sensor '" + std::string(name == nullptr ? "" : name) +
+                     "' is infinite"};
   }
-  return {};
+  return std::nullopt;
 }
 
 /// A NaN may also be in a file that this one includes.
@@ -61,23 +61,23 @@ std::string place_of_nan(const std::string& mjcf) {
 }  // namespace
 
 Result<ModelPtr> load_model(const std::string& mjcf, const mjVFS* files) {
-  if (const std::string problem = files == nullptr ? problem_with_file(mjcf) : ""; !problem.empty())
-    return Problem{mjcf + ": " + problem};
+  if (const std::optional<Problem> problem = files == nullptr ? problem_with_file(mjcf) : std::nullopt)
+    return Problem{mjcf + ": " + problem->text};
   static std::mutex loading;  // the engine's parser keeps global state
   const std::scoped_lock lock(loading);
   catch_complaints();
   std::array<char, 1024> message{};
   ModelPtr model;
-  std::string complaint = complaint_of([&] {
+  std::optional<Problem> complaint = complaint_of([&] {
     model.reset(mj_loadXML(mjcf.c_str(), files, message.data(), static_cast<int>(message.size())));
   });
-  if (model && complaint.empty()) complaint = problem_with_time_step(model->opt.timestep);
-  if (model && complaint.empty()) complaint = problem_with_sensors(*model);
-  if (model && complaint.empty()) return model;
-  if (files == nullptr && complaint.find("contains a 'NaN'") != std::string::npos)
-    complaint = place_of_nan(mjcf);
-  if (complaint.empty()) complaint = message.data();
-  return Problem{mjcf + ": " + explained(complaint)};
+  if (model && !complaint) complaint = problem_with_time_step(model->opt.timestep);
+  if (model && !complaint) complaint = problem_with_sensors(*model);
+  if (model && !complaint) return model;
+  if (!complaint) return Problem{mjcf + ": " + explained(message.data())};
+  if (files == nullptr && complaint->text.find("contains a 'NaN'") != std::string::npos)
+    complaint = Problem{place_of_nan(mjcf)};
+  return Problem{mjcf + ": " + explained(complaint->text)};
 }
 
 }  // namespace tessera::sim

@@ -57,13 +57,13 @@ Result<std::unique_ptr<Physics>> Physics::load(const std::string& mjcf) {
 Result<std::unique_ptr<Physics>> Physics::of(ModelPtr model, const std::string& name) {
   catch_complaints();
   DataPtr data, view;
-  std::string complaint = complaint_of([&] {
+  const std::optional<Problem> complaint = complaint_of([&] {
     data.reset(mj_makeData(model.get()));
     view.reset(mj_makeData(model.get()));
   });
-  if (complaint.empty() && data && view)
+  if (!complaint && data && view)
     return std::unique_ptr<Physics>(new Physics(std::move(model), std::move(data), std::move(view)));
-  return Problem{name + ": " + (complaint.empty() ? "there is no memory for its state" : complaint)};
+  return Problem{name + ": " + (complaint ? complaint->text : "there is no memory for its state")};
 }
 
 /// Sensors are computed only for readers. Their noise would come from a generator that the whole process
@@ -90,18 +90,18 @@ void Physics::start_with(const std::function<void(const mjModel& model, mjData& 
 }
 
 void Physics::step() {
-  if (!failure_.empty()) return;
+  if (failure_) return;
   apply_commands();
-  if (!failure_.empty()) return;
+  if (failure_) return;
   keep_state();
-  const std::string complaint = in_buffers_that_suffice([this] {
+  const std::optional<Problem> complaint = in_buffers_that_suffice([this] {
     restore_state();
     mj_step(model_.get(), data_.get());
   });
   wrap_positions();
   ++steps_;
   known_ = View::old;
-  if (!complaint.empty()) fail(complaint);
+  if (complaint) fail(*complaint);
 }
 
 void Physics::wrap_positions() {
@@ -113,8 +113,7 @@ void Physics::wrap_positions() {
 void Physics::apply_commands() {
   for (const std::vector<Change> changes = std::exchange(changes_, {}); const Change& change : changes) {
     const mjData& now = positions();
-    const std::string complaint = complaint_of([&] { change(*model_, *data_, now); });
-    if (!complaint.empty()) return fail(complaint);
+    if (const auto complaint = complaint_of([&] { change(*model_, *data_, now); })) return fail(*complaint);
     known_ = View::old;
   }
   copy(commands_, data_->ctrl);
@@ -136,18 +135,19 @@ void Physics::restore_state() {
   data_->time = kept_.time;
 }
 
-std::string Physics::in_buffers_that_suffice(const std::function<void()>& compute) const {
+std::optional<Problem> Physics::in_buffers_that_suffice(const std::function<void()>& compute) const {
   for (;;) {
-    const std::string complaint = complaint_of(compute);
-    if (complaint.empty()) return complaint;
+    std::optional<Problem> complaint = complaint_of(compute);
+    if (!complaint) return std::nullopt;
     const mjData* const full = lacks_room(*data_) ? data_.get() : lacks_room(*view_) ? view_.get() : nullptr;
-    const bool stack = full == nullptr && is_stack_overflow(complaint);
+    const bool stack = full == nullptr && is_stack_overflow(complaint->text);
     if (full == nullptr && !stack) return complaint;
-    if (std::string why = grow(stack ? *data_ : *full, stack); !why.empty()) return complaint + "; " + why;
+    if (const std::optional<Problem> why = grow(stack ? *data_ : *full, stack))
+      return Problem{complaint->text + "; " + why->text};
   }
 }
 
-std::string Physics::grow(const mjData& full, bool stack) const {
+std::optional<Problem> Physics::grow(const mjData& full, bool stack) const {
   // The memory of constraints grows with the square of their number: 0.84 GB for 8000.
   constexpr int most_contacts = 20'000, most_constraints = 8'000, most_stack = 200'000'000;
   const bool contacts = full.warning[mjWARN_CONTACTFULL].number > 0;
@@ -158,7 +158,7 @@ std::string Physics::grow(const mjData& full, bool stack) const {
     return true;
   };
   const auto too_many = [](const char* what, int most) {
-    return std::string("a world may have at most ") + std::to_string(most) + " " + what;
+    return Problem{std::string("a world may have at most ") + std::to_string(most) + " " + what};
   };
   if (contacts && !doubled(model_->nconmax, most_contacts)) return too_many("contacts", most_contacts);
   if (constraints) {
@@ -171,30 +171,30 @@ std::string Physics::grow(const mjData& full, bool stack) const {
   if (stack && !doubled(model_->nstack, most_stack))
     return too_many("numbers on the engine's stack", most_stack);
   DataPtr data, view;
-  const std::string complaint = complaint_of([&] {
+  std::optional<Problem> complaint = complaint_of([&] {
     data.reset(mj_makeData(model_.get()));
     view.reset(mj_makeData(model_.get()));
   });
-  if (!complaint.empty()) return complaint;
-  if (!data || !view) return "there is no memory for larger buffers";
+  if (complaint) return complaint;
+  if (!data || !view) return Problem{"there is no memory for larger buffers"};
   copy_state(*model_, *data_, *data);
   data_ = std::move(data);
   view_ = std::move(view);
   known_ = View::old;
-  return {};
+  return std::nullopt;
 }
 
-void Physics::fail(const std::string& complaint) const {
+void Physics::fail(const Problem& complaint) const {
   std::array<char, 64> when{};
   std::snprintf(when.data(), when.size(), "the physics failed at %.3f s: ", seconds(time()));
-  failure_ = when.data() + complaint;
+  failure_ = Problem{when.data() + complaint.text};
 }
 
 void Physics::copy_state_to_view() const { copy_state(*model_, *data_, *view_); }
 
 /// A warning of the engine here appears again at the next step, which stops the run.
 const mjData& Physics::positions() const {
-  if (known_ != View::old || !failure_.empty()) return *view_;
+  if (known_ != View::old || failure_) return *view_;
   copy_state_to_view();
   static_cast<void>(complaint_of([&] { mj_kinematics(model_.get(), view_.get()); }));
   known_ = View::positions;
@@ -203,8 +203,8 @@ const mjData& Physics::positions() const {
 
 /// The state is copied again, so that the result does not depend on an earlier call of positions().
 const mjData& Physics::state() const {
-  if (known_ == View::all || !failure_.empty()) return *view_;
-  const std::string complaint = in_buffers_that_suffice([this] {
+  if (known_ == View::all || failure_) return *view_;
+  const std::optional<Problem> complaint = in_buffers_that_suffice([this] {
     copy_state_to_view();
     model_->opt.disableflags &= ~static_cast<int>(mjDSBL_SENSOR);
     const struct SensorsOff {
@@ -214,7 +214,7 @@ const mjData& Physics::state() const {
     mj_forward(model_.get(), view_.get());
   });
   known_ = View::all;
-  if (!complaint.empty()) fail(complaint);
+  if (complaint) fail(*complaint);
   return *view_;
 }
 

@@ -42,7 +42,7 @@ class Physics {
   void step();
   [[nodiscard]] Duration time() const { return steps_ * step_; }
   [[nodiscard]] Duration next_time() const { return (steps_ + 1) * step_; }
-  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] const std::optional<Problem>& failure() const { return failure_; }
 
   [[nodiscard]] const mjModel& model() const { return *model_; }
   /// The poses of bodies, geoms, sites and cameras now. All else in it may be old.
@@ -99,12 +99,12 @@ class Physics {
   void keep_state();
   void restore_state();
   /// Runs `compute`, again in larger buffers as long as they are too small. Returns the complaint of the
-  /// engine; empty: none.
-  [[nodiscard]] std::string in_buffers_that_suffice(const std::function<void()>& compute) const;
-  /// Makes the buffers larger. Empty, or why not.
-  [[nodiscard]] std::string grow(const mjData& full, bool stack) const;
+  /// engine.
+  [[nodiscard]] std::optional<Problem> in_buffers_that_suffice(const std::function<void()>& compute) const;
+  /// Makes the buffers larger. Returns why that is not possible.
+  [[nodiscard]] std::optional<Problem> grow(const mjData& full, bool stack) const;
   void copy_state_to_view() const;
-  void fail(const std::string& complaint) const;
+  void fail(const Problem& complaint) const;
 
   ModelPtr model_;
   mutable DataPtr data_;
@@ -113,7 +113,7 @@ class Physics {
   std::vector<Change> changes_;
   std::map<int, double> wraps_;  // by the index in qpos
   Kept kept_;
-  mutable std::string failure_;
+  mutable std::optional<Problem> failure_;
   Duration step_{0};
   std::int64_t steps_ = 0;
   int robot_joint_ = -1;

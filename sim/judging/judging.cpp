@@ -111,10 +111,10 @@ void Judging::after_step() {
 void Judging::finish() {
   if (!judge_ || std::exchange(finished_, true)) return;
   static_cast<void>(physics_.state());  // it may fail only at this call
-  if (physics_.failure().empty())
-    judge_->finish(seconds(physics_.time()));
-  else
+  if (physics_.failure())
     judge_->cut_short();
+  else
+    judge_->finish(seconds(physics_.time()));
 }
 
 std::vector<WorldFailure> Judging::take_failures() {

@@ -197,7 +197,7 @@ std::array<double, 3> Scene::position(std::size_t point) {
 
 const mjData& Scene::state() const {
   const mjData& now = physics_.state();
-  if (!physics_.failure().empty()) throw std::runtime_error(physics_.failure());
+  if (physics_.failure()) throw std::runtime_error(physics_.failure()->text);
   return now;
 }
 

@@ -15,8 +15,8 @@ constexpr int most_shadow_pixels = 1024;
 /// Throws the complaint of the engine.
 template <class Call>
 void call_engine(const char* what, Call&& call) {
-  const std::string complaint = complaint_of(std::forward<Call>(call));
-  if (!complaint.empty()) throw std::runtime_error(std::string(what) + ": " + complaint);
+  if (const std::optional<Problem> complaint = complaint_of(std::forward<Call>(call)))
+    throw std::runtime_error(std::string(what) + ": " + complaint->text);
 }
 
 /// Turns the rows of a picture around: OpenGL begins at the bottom.
@@ -60,7 +60,7 @@ void CameraView::make_scene(const mjModel& model, int most_geoms) {
 void CameraView::look(const Physics& physics) {
   // The engine computes the scene from the state, and only reads it.
   auto& state = const_cast<mjData&>(physics.state());
-  if (!physics.failure().empty()) return;
+  if (physics.failure()) return;
   mjvCamera camera;
   mjv_defaultCamera(&camera);
   camera.type = mjCAMERA_FIXED;

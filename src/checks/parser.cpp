@@ -281,7 +281,7 @@ class Parser : private TextReader {
     std::vector<std::string> known;
     for (const Function& function : number_functions) known.emplace_back(function.name);
     for (const Function& function : formula_functions) known.emplace_back(function.name);
-    const std::string meant = did_you_mean(name, known);
+    const Hint meant = did_you_mean(name, known);
     fail(place, "'" + name + "' is neither a number nor a function",
          meant.empty() ? "the functions are " + std::string(functions) : meant);
   }

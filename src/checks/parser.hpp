@@ -6,13 +6,15 @@
 #include <string_view>
 
 #include "checks/expression.hpp"
+#include "tessera/nearest.hpp"
 
 namespace tessera::checks {
 
 /// The mistake in a text, and its position.
 struct Mistake {
   Place place;
-  std::string text, hint;
+  std::string text;
+  Hint hint;
 };
 
 /// The parsed text, or the first mistake.

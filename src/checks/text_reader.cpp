@@ -40,7 +40,7 @@ bool TextReader::take_word(std::string_view wanted) {
   return true;
 }
 
-void TextReader::fail(Place place, std::string text, std::string hint) {
+void TextReader::fail(Place place, std::string text, Hint hint) {
   place.length = std::max<std::size_t>(place.length, 1);
   if (!mistake_) mistake_ = {place, std::move(text), std::move(hint)};
   at_ = text_.size();

@@ -30,7 +30,7 @@ class TextReader {
   bool take_word(std::string_view wanted);
   [[nodiscard]] Place since(std::size_t from) const { return {from, at_ - from}; }
   /// Only the first mistake counts.
-  void fail(Place place, std::string text, std::string hint);
+  void fail(Place place, std::string text, Hint hint);
   [[nodiscard]] Element element();
 
   std::string_view text_;

@@ -19,16 +19,19 @@ std::vector<std::size_t> starts_of_lines(const std::string& text) {
 Diagnostics::Diagnostics(std::string file, std::string text)
     : file_(std::move(file)), text_(std::move(text)), line_starts_(starts_of_lines(text_)) {}
 
-void Diagnostics::error(std::string code, Span span, std::string message, std::string hint) {
-  add({Severity::error, std::move(code), span, std::move(message), std::move(hint)});
+void Diagnostics::error(std::string code, Span span, std::string message, Hint hint) {
+  add({Severity::error, std::move(code), span, std::move(message), std::move(hint.text),
+       std::move(hint.proposal)});
 }
 
-void Diagnostics::warning(std::string code, Span span, std::string message, std::string hint) {
-  add({Severity::warning, std::move(code), span, std::move(message), std::move(hint)});
+void Diagnostics::warning(std::string code, Span span, std::string message, Hint hint) {
+  add({Severity::warning, std::move(code), span, std::move(message), std::move(hint.text),
+       std::move(hint.proposal)});
 }
 
-void Diagnostics::note(std::string code, Span span, std::string message, std::string hint) {
-  add({Severity::note, std::move(code), span, std::move(message), std::move(hint)});
+void Diagnostics::note(std::string code, Span span, std::string message, Hint hint) {
+  add({Severity::note, std::move(code), span, std::move(message), std::move(hint.text),
+       std::move(hint.proposal)});
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {

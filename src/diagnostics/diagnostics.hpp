@@ -2,11 +2,14 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
 #include <tuple>
 #include <vector>
+
+#include "tessera/nearest.hpp"
 
 namespace tessera::diagnostics {
 
@@ -27,8 +30,9 @@ struct Diagnostic {
   Severity severity = Severity::error;
   std::string code;  ///< "E101"; the catalogue is docs/diagnostics.md
   Span span;
-  std::string message;  ///< one line, lower case, no full stop
-  std::string hint;     ///< what to do about it; may be empty
+  std::string message;                    ///< one line, lower case, no full stop
+  std::string hint;                       ///< what to do about it; may be empty
+  std::optional<std::string> proposal{};  ///< the name that the hint proposes to put in place of the span
 };
 
 /// Collects the diagnostics of one source text. A stage that finds a mistake goes on, so that
@@ -41,9 +45,9 @@ class Diagnostics {
   /// file: the name to print; text: the whole source, kept to quote lines from.
   Diagnostics(std::string file, std::string text);
 
-  void error(std::string code, Span span, std::string message, std::string hint = {});
-  void warning(std::string code, Span span, std::string message, std::string hint = {});
-  void note(std::string code, Span span, std::string message, std::string hint = {});
+  void error(std::string code, Span span, std::string message, Hint hint = {});
+  void warning(std::string code, Span span, std::string message, Hint hint = {});
+  void note(std::string code, Span span, std::string message, Hint hint = {});
 
   [[nodiscard]] bool has_errors() const { return errors_ > 0; }
   [[nodiscard]] std::size_t error_count() const { return errors_; }

@@ -11,7 +11,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-Diagnostics failed(const fs::path& path, std::string message, std::string hint = {}) {
+Diagnostics failed(const fs::path& path, std::string message, Hint hint = {}) {
   Diagnostics result(path.string(), {});
   result.error("E001", {}, std::move(message), std::move(hint));
   return result;

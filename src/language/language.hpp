@@ -59,7 +59,7 @@ struct TextEdit {
 
 struct Renaming {
   std::vector<TextEdit> edits;
-  std::string problem;  ///< why the name cannot be changed; empty: it can
+  std::optional<std::string> problem;  ///< why the name cannot be changed; nullopt: it can
 };
 
 /// An offer to correct something.

@@ -123,7 +123,7 @@ json Session::rename(const json& parameters) {
   const language::Renaming renaming =
       language::rename(*about->specification.document, about->source, about->position, about->sources,
                        parameters.at("newName"));
-  if (!renaming.problem.empty()) throw RequestError{request_failed, renaming.problem};
+  if (renaming.problem) throw RequestError{request_failed, *renaming.problem};
   return to_json(renaming.edits, about->specification.uri, edits_);
 }
 

@@ -186,10 +186,10 @@ void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& ou
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       for (const spec::Field& buffer : *buffers) names.push_back(buffer.name);
   }
-  std::string hint = did_you_mean(part.name, names);
+  Hint hint = did_you_mean(part.name, names);
   if (hint.empty()) {
-    hint = "here are ";
-    for (const std::string& name : names) hint += (&name == &names.front() ? "" : ", ") + name;
+    hint.text = "here are ";
+    for (const std::string& name : names) hint.text += (&name == &names.front() ? "" : ", ") + name;
   }
   out.error("E101", part.span,
             std::string("unknown ") + what_is_in(layer) + " " + quoted(part.name) + " in " +

@@ -23,11 +23,12 @@ FiringCounts::FiringCounts(const Net& net)
     places_.emplace(net.places()[index].name, index);
 }
 
-std::string FiringCounts::add(const Recording& recording) {
+std::optional<Problem> FiringCounts::add(const Recording& recording) {
   std::vector<std::uint32_t> numbers;
   for (const Recording::Transition& transition : recording.transitions) {
     const auto found = transitions_.find(transition.name);
-    if (found == transitions_.end()) return fmt::format("the net has no transition '{}'", transition.name);
+    if (found == transitions_.end())
+      return Problem{fmt::format("the net has no transition '{}'", transition.name)};
     numbers.push_back(found->second);
   }
   for (const Recording::Entry& entry : recording.entries) {
@@ -42,15 +43,16 @@ std::string FiringCounts::add(const Recording& recording) {
   }
   ++runs_;
   lacks_events_ = lacks_events_ || recording.truncated || recording.lost > 0 || lacks_beginning(recording);
-  return "";
+  return std::nullopt;
 }
 
-std::string FiringCounts::add(const std::map<std::string, std::uint64_t>& firings, std::uint64_t runs) {
+std::optional<Problem> FiringCounts::add(const std::map<std::string, std::uint64_t>& firings,
+                                         std::uint64_t runs) {
   for (const auto& [name, count] : firings)
-    if (!transitions_.contains(name)) return fmt::format("the net has no transition '{}'", name);
+    if (!transitions_.contains(name)) return Problem{fmt::format("the net has no transition '{}'", name)};
   for (const auto& [name, count] : firings) firings_[transitions_.at(name)] += count;
   runs_ += runs;
-  return "";
+  return std::nullopt;
 }
 
 // ---------------------------------------------------------------------------------------------- the coverage

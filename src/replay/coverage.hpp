@@ -3,11 +3,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "net/net.hpp"
 #include "tessera/recording.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::replay {
 
@@ -16,11 +18,12 @@ class FiringCounts {
  public:
   explicit FiringCounts(const net::Net& net);
 
-  /// Adds a recorded run. Returns why that is not possible: the recording is of another net; empty: it was
+  /// Adds a recorded run. Returns why that is not possible: the recording is of another net; nullopt: it was
   /// added.
-  [[nodiscard]] std::string add(const Recording& recording);
+  [[nodiscard]] std::optional<Problem> add(const Recording& recording);
   /// Adds runs of which only the firings are known, by the names of the transitions.
-  [[nodiscard]] std::string add(const std::map<std::string, std::uint64_t>& firings, std::uint64_t runs);
+  [[nodiscard]] std::optional<Problem> add(const std::map<std::string, std::uint64_t>& firings,
+                                           std::uint64_t runs);
 
   /// The same for a run that is followed event by event, from its beginning on.
   void begin_run() { ++runs_; }

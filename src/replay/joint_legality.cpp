@@ -50,13 +50,13 @@ class JointOrder {
       channels_.emplace(net.parts().channels[index], index);
     for (const Recording* recording : in_order(recordings)) {
       sources_.emplace_back(*recording);
-      if (mismatch_.empty()) mismatch_ = sources_.back().match(transitions);
+      if (!mismatch_) mismatch_ = sources_.back().match(transitions);
     }
     play_.emplace(net_, starts(), one_run_);
   }
 
   JointJudgement judge() {
-    if (!mismatch_.empty()) return illegal(mismatch_);
+    if (mismatch_) return illegal(mismatch_->text);
     JointOutcome outcome = one_run_ ? play_as_written() : play_any_order();
     return outcome ? *outcome : of_the_end();
   }
@@ -93,14 +93,14 @@ class JointOrder {
 
   /// Fires, or changes a peer. nullopt: done. Precondition of a firing: no obstacle.
   JointOutcome perform(std::size_t recording, const Recording::Entry& entry) {
-    std::string wrong = entry.event.kind() == Event::Kind::peer
-                            ? hear(recording, entry)
-                            : play_->fire(firing_of(recording, entry.event));
-    if (wrong.empty()) return {};
-    return illegal(sources_[recording].place_of(entry.event) + wrong);
+    const std::optional<Problem> wrong = entry.event.kind() == Event::Kind::peer
+                                             ? hear(recording, entry)
+                                             : play_->fire(firing_of(recording, entry.event));
+    if (!wrong) return {};
+    return illegal(sources_[recording].place_of(entry.event) + wrong->text);
   }
 
-  std::string hear(std::size_t recording, const Recording::Entry& entry) {
+  std::optional<Problem> hear(std::size_t recording, const Recording::Entry& entry) {
     const std::string_view text = entry.text;
     const std::size_t line = std::min(text.find('\n'), text.size());
     const auto channel = channels_.find(text.substr(0, line));
@@ -109,7 +109,8 @@ class JointOrder {
     const bool is_number = line < text.size() &&
                            std::from_chars(text.data() + line + 1, end, incarnation).ptr == end &&
                            incarnation != 0;
-    if (channel == channels_.end() || !is_number) return fmt::format("'{}' is no peer of a channel", text);
+    if (channel == channels_.end() || !is_number)
+      return Problem{fmt::format("'{}' is no peer of a channel", text)};
     return play_->hear({channel->second}, start_of_lane(recording, entry.event, {channel->second}),
                        incarnation);
   }
@@ -150,8 +151,7 @@ class JointOrder {
   }
 
   JointOutcome play_next(const Recording::Entry& entry) {
-    if (std::string wrong = sources_.front().stranger(entry.event, net_); !wrong.empty())
-      return illegal(wrong);
+    if (const auto wrong = sources_.front().stranger(entry.event, net_)) return illegal(wrong->text);
     if (entry.event.kind() == Event::Kind::firing) {
       const Firing firing = firing_of(0, entry.event);
       if (const Obstruction found = play_->obstacle(firing); found.kind != Obstruction::Kind::no)
@@ -226,7 +226,7 @@ class JointOrder {
       note(sources_[recording].missing(event));
     }
     if (!is_played(event) || lane.gap) return {};
-    if (std::string wrong = sources_[recording].stranger(event, net_); !wrong.empty()) return illegal(wrong);
+    if (const auto wrong = sources_[recording].stranger(event, net_)) return illegal(wrong->text);
     if (lane.left.empty()) ++part.unplayed;
     lane.left.push_back(&entry);
     return {};
@@ -375,7 +375,8 @@ class JointOrder {
   bool one_run_;  // of the whole system, under the simulated clock
   std::unordered_map<std::string_view, std::uint32_t> channels_;
   std::vector<JointSource> sources_;
-  std::string mismatch_, missing_;
+  std::optional<Problem> mismatch_;
+  std::string missing_;
   std::optional<JointPlay> play_;
   std::vector<Part> parts_;  // per recording
   std::vector<JointLane> lanes_;

@@ -239,7 +239,7 @@ std::string JointPlay::complaint(const Firing& firing, const Obstacle& obstacle)
 
 // ------------------------------------------------------------------------------------------------- firing
 
-std::string JointPlay::fire(const Firing& firing) {
+std::optional<Problem> JointPlay::fire(const Firing& firing) {
   const TransitionId id = firing.transition;
   for (const Arc& arc : net_.net().preset(id))
     if (!net_.is_hidden(arc.place)) marking_[arc.place.value] -= arc.weight;
@@ -247,20 +247,20 @@ std::string JointPlay::fire(const Firing& firing) {
     if (net_.is_hidden(arc.place)) continue;
     marking_[arc.place.value] += arc.weight;
     if (marking_[arc.place.value] > 1)
-      return fmt::format("'{}' puts a second token into '{}'", net_.net()[id].name,
-                         net_.net()[arc.place].name);
+      return Problem{
+          fmt::format("'{}' puts a second token into '{}'", net_.net()[id].name, net_.net()[arc.place].name)};
   }
   if (net_[id].step != ChannelStep::none) {
     stop_tracking(firing);
     if (!move_markings(firing))
-      return fmt::format("'{}' fired, but no marking of '{}' allows it", net_.net()[id].name,
-                         net_.net().parts()[net_[id].channel]);
+      return Problem{fmt::format("'{}' fired, but no marking of '{}' allows it", net_.net()[id].name,
+                                 net_.net().parts()[net_[id].channel])};
     count(firing);
   } else if (net_[id].channel.valid()) {
     versions_[net_[id].channel.value] = firing.version;
   }
   ++firings_;
-  return {};
+  return std::nullopt;
 }
 
 /// A firing that needs what is not recorded: the markings after that are not known.
@@ -365,24 +365,25 @@ bool JointPlay::turn(ChannelId channel, StartId start, StartId peer, std::uint64
   return !goes_back;
 }
 
-std::string JointPlay::hear(ChannelId channel, StartId start, std::uint64_t incarnation) {
+std::optional<Problem> JointPlay::hear(ChannelId channel, StartId start, std::uint64_t incarnation) {
   const DeployedNet::Channel& ends = net_[channel];
   const std::string& name = net_.net().parts()[channel];
   const ProcessId process = starts_[start].process;
   if (!ends.networked || (process != ends.sending && process != ends.receiving))
-    return fmt::format("'{}' does not join this process with another", name);
+    return Problem{fmt::format("'{}' does not join this process with another", name)};
   const bool sends = process == ends.sending;
   const ProcessId other = sends ? ends.receiving : ends.sending;
-  if (!other.valid()) return fmt::format("no process is at the other end of '{}'", name);
+  if (!other.valid()) return Problem{fmt::format("no process is at the other end of '{}'", name)};
   const StartId peer = find_start(other, incarnation);
   const bool forwards =
       sends ? turn(sending(channel, start), peer, incarnation) : turn(channel, start, peer, incarnation);
-  if (!forwards) return fmt::format("at '{}' it turns back to an earlier start of the other process", name);
+  if (!forwards)
+    return Problem{fmt::format("at '{}' it turns back to an earlier start of the other process", name)};
   if (peer == unknown) {
     links_[channel.value].tracked = false;
     unknown_peer_ = fmt::format("incarnation {} at the other end of '{}'", incarnation, name);
   }
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace tessera::replay

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -8,6 +9,7 @@
 #include "net/net.hpp"
 #include "net/token_game.hpp"
 #include "replay/deployed_net.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::replay {
 
@@ -62,11 +64,11 @@ class JointPlay {
   [[nodiscard]] Obstacle obstacle(const Firing& firing) const;
   /// "'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
   [[nodiscard]] std::string complaint(const Firing& firing, const Obstacle& obstacle) const;
-  /// Fires. Returns what is wrong afterwards; empty: nothing. Precondition: no obstacle.
-  [[nodiscard]] std::string fire(const Firing& firing);
+  /// Fires. Returns what is wrong afterwards. Precondition: no obstacle.
+  [[nodiscard]] std::optional<Problem> fire(const Firing& firing);
 
   /// From here on a side of a channel hears this incarnation of the other process. Returns what is wrong.
-  [[nodiscard]] std::string hear(net::ChannelId channel, StartId start, std::uint64_t incarnation);
+  [[nodiscard]] std::optional<Problem> hear(net::ChannelId channel, StartId start, std::uint64_t incarnation);
   /// The transition of the system that starts all agents; no process records it.
   void start_system();
   /// The rest of what this start did is not known: whatever others need of it, it has done.

@@ -13,13 +13,14 @@
 
 namespace tessera::replay {
 
-std::string JointSource::match(const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
+std::optional<Problem> JointSource::match(
+    const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
   for (const Recording::Transition& named : recording_.transitions) {
     const auto found = transitions.find(named.name);
-    if (found == transitions.end()) return fmt::format("the net has no transition '{}'", named.name);
+    if (found == transitions.end()) return Problem{fmt::format("the net has no transition '{}'", named.name)};
     transitions_.push_back({found->second});
   }
-  return {};
+  return std::nullopt;
 }
 
 std::string JointSource::path_of(const Event& event) const {
@@ -39,17 +40,17 @@ std::string JointSource::missing(const Event& event) const {
   return fmt::format("{}events of {} are missing", place_of(event), path_of(event));
 }
 
-std::string JointSource::stranger(const Event& event, const DeployedNet& net) const {
-  if (event.kind() != Event::Kind::firing) return {};
+std::optional<Problem> JointSource::stranger(const Event& event, const DeployedNet& net) const {
+  if (event.kind() != Event::Kind::firing) return std::nullopt;
   const net::TransitionId id = transition(event);
   const char* whose = nullptr;
   if (recording_.transitions[event.subject].instance != event.instance())
     whose = "subsystem";
   else if (recording_.process && net[id].process.value != recording_.process->number)
     whose = "process";
-  if (whose == nullptr) return {};
-  return fmt::format("{}'{}' fired, which is no transition of this {}", place_of(event), net.net()[id].name,
-                     whose);
+  if (whose == nullptr) return std::nullopt;
+  return Problem{fmt::format("{}'{}' fired, which is no transition of this {}", place_of(event),
+                             net.net()[id].name, whose)};
 }
 
 std::string names_without(const ProcessMap& processes, const std::vector<bool>& given) {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,7 @@
 #include "net/net.hpp"
 #include "replay/deployed_net.hpp"
 #include "tessera/recording.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::replay {
 
@@ -18,8 +20,9 @@ class JointSource {
  public:
   explicit JointSource(const Recording& recording) : recording_(recording) {}
 
-  /// Why the recording does not belong to this net; empty: it does.
-  [[nodiscard]] std::string match(const std::unordered_map<std::string_view, std::uint32_t>& transitions);
+  /// Why the recording does not belong to this net; nullopt: it does.
+  [[nodiscard]] std::optional<Problem> match(
+      const std::unordered_map<std::string_view, std::uint32_t>& transitions);
   [[nodiscard]] net::TransitionId transition(const Event& event) const { return transitions_[event.subject]; }
   /// The index of the subsystem.
   [[nodiscard]] std::string path_of(const Event& event) const;
@@ -30,8 +33,8 @@ class JointSource {
   /// The mistake in the sequence of its events: one is repeated, or some are missing.
   [[nodiscard]] std::string twice(const Event& event) const;
   [[nodiscard]] std::string missing(const Event& event) const;
-  /// A firing that is recorded as one of another subsystem, or of another process; empty: it is not.
-  [[nodiscard]] std::string stranger(const Event& event, const DeployedNet& net) const;
+  /// A firing that is recorded as one of another subsystem, or of another process; nullopt: it is not.
+  [[nodiscard]] std::optional<Problem> stranger(const Event& event, const DeployedNet& net) const;
 
  private:
   const Recording& recording_;

@@ -146,8 +146,8 @@ class WrittenOrder : Play {
                                  recording_.transitions[event.subject].name));
     if (const Obstacle obstacle = net_.obstacle(event); obstacle.kind != Obstacle::Kind::no)
       return illegal(net_.complaint(event, obstacle));
-    std::string wrong = net_.fire(event);
-    return wrong.empty() ? Outcome() : illegal(std::move(wrong));
+    if (const std::optional<Problem> wrong = net_.fire(event)) return illegal(wrong->text);
+    return {};
   }
 
   std::int64_t last_ns_ = INT64_MIN;
@@ -231,7 +231,7 @@ class AnyOrder : Play {
                     std::deque<std::size_t>& ready) {
     while (!lane.firings.empty() && net_.obstacle(*lane.firings.front()).kind == Obstacle::Kind::no) {
       const Event& event = *lane.firings.front();
-      if (std::string wrong = net_.fire(event); !wrong.empty()) return illegal(std::move(wrong));
+      if (const auto wrong = net_.fire(event)) return illegal(wrong->text);
       lane.firings.pop_front();
       moved = true;
       if (const net::ChannelId channel = net_.channel_of(event); channel.valid()) {
@@ -299,7 +299,7 @@ class AnyOrder : Play {
 Legality check_legal(const Recording& recording, const net::Net& net) {
   NetPlay play(recording, net);
   const auto judge = [&]() -> Judgement {
-    if (!play.mismatch().empty()) return {Verdict::illegal, play.mismatch()};
+    if (play.mismatch()) return {Verdict::illegal, play.mismatch()->text};
     return recording.clock == "simulated" ? WrittenOrder(recording, play).judge()
                                           : AnyOrder(recording, play).judge();
   };

@@ -27,7 +27,7 @@ bool NetPlay::match_transitions() {
   for (const Recording::Transition& recorded : recording_.transitions) {
     const auto found = by_name.find(recorded.name);
     if (found == by_name.end()) {
-      mismatch_ = fmt::format("the net has no transition '{}'", recorded.name);
+      mismatch_ = Problem{fmt::format("the net has no transition '{}'", recorded.name)};
       return false;
     }
     transitions_.push_back({found->second});
@@ -83,7 +83,7 @@ std::string NetPlay::complaint(const Event& firing, const Obstacle& obstacle) co
                      recording_.transitions[firing.subject].name, lacks);
 }
 
-std::string NetPlay::fire(const Event& firing) {
+std::optional<Problem> NetPlay::fire(const Event& firing) {
   const TransitionId id = transitions_[firing.subject];
   if (const net::ChannelId channel = channels_[firing.subject]; channel.valid()) {
     versions_[channel.value].last = firing.version;
@@ -92,10 +92,10 @@ std::string NetPlay::fire(const Event& firing) {
   net::fire(net_, id, marking_);
   for (const Arc& arc : net_.postset(id))
     if (marking_[arc.place.value] > 1)
-      return fmt::format("{}: '{}' puts a second token into '{}'", seconds_text(firing.time_ns),
-                         net_[id].name, net_[arc.place].name);
+      return Problem{fmt::format("{}: '{}' puts a second token into '{}'", seconds_text(firing.time_ns),
+                                 net_[id].name, net_[arc.place].name)};
   ++firings_;
-  return {};
+  return std::nullopt;
 }
 
 std::optional<std::vector<std::uint32_t>> NetPlay::read_marking(const Recording::Entry& entry,

@@ -10,6 +10,7 @@
 #include "net/net.hpp"
 #include "net/token_game.hpp"
 #include "tessera/recording.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::replay {
 
@@ -20,9 +21,9 @@ namespace tessera::replay {
 class NetPlay {
  public:
   NetPlay(const Recording& recording, const net::Net& net);
-  /// Why the recording does not belong to this net; empty: every transition was found. If it is not empty,
+  /// Why the recording does not belong to this net; nullopt: every transition was found. Otherwise
   /// nothing else may be called.
-  [[nodiscard]] const std::string& mismatch() const { return mismatch_; }
+  [[nodiscard]] const std::optional<Problem>& mismatch() const { return mismatch_; }
 
   /// Why a firing cannot be the next.
   struct Obstacle {
@@ -39,9 +40,9 @@ class NetPlay {
   /// "2.500000 s: 'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
   [[nodiscard]] std::string complaint(const Event& firing, const Obstacle& obstacle) const;
 
-  /// Fires. Returns what is wrong afterwards, a second token in a place; empty: nothing.
+  /// Fires. Returns what is wrong afterwards, a second token in a place.
   /// Precondition: no obstacle.
-  [[nodiscard]] std::string fire(const Event& firing);
+  [[nodiscard]] std::optional<Problem> fire(const Event& firing);
 
   /// The tokens where a segment begins; nullopt and `wrong` when the event names a place that is not there.
   [[nodiscard]] std::optional<std::vector<std::uint32_t>> read_marking(const Recording::Entry& entry,
@@ -77,7 +78,7 @@ class NetPlay {
 
   const Recording& recording_;
   const net::Net& net_;
-  std::string mismatch_;
+  std::optional<Problem> mismatch_;
   net::Marking marking_;
   std::uint64_t firings_ = 0;
   std::vector<net::TransitionId> transitions_;  // per transition of the recording

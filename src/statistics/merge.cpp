@@ -15,14 +15,15 @@ using Setting = std::pair<std::string, std::string>;
 
 std::string shown(const std::string& value) { return value.empty() ? "nothing" : "'" + value + "'"; }
 
-/// The difference between two identities; empty: there is none.
-std::string difference(const Identity& one, const Identity& other, bool other_builds) {
+/// The difference between two identities; nullopt: there is none.
+std::optional<std::string> difference(const Identity& one, const Identity& other, bool other_builds) {
   const auto differ = [](const char* what, const std::string& a, const std::string& b) {
-    return a == b ? std::string() : fmt::format("the {} {} and {}", what, shown(a), shown(b));
+    return a == b ? std::nullopt : std::optional(fmt::format("the {} {} and {}", what, shown(a), shown(b)));
   };
-  for (std::string text : {differ("systems", one.system, other.system), differ("nets", one.net, other.net),
-                           differ("specifications", one.specification, other.specification)})
-    if (!text.empty()) return text;
+  for (const std::optional<std::string>& text :
+       {differ("systems", one.system, other.system), differ("nets", one.net, other.net),
+        differ("specifications", one.specification, other.specification)})
+    if (text) return text;
   std::set<std::string> names;
   for (const auto* settings : {&one.settings, &other.settings})
     for (const auto& setting : *settings) names.insert(setting.first);
@@ -33,7 +34,7 @@ std::string difference(const Identity& one, const Identity& other, bool other_bu
   for (const std::string& name : names)
     if (value_in(one, name) != value_in(other, name))
       return fmt::format("`{}`: {} and {}", name, shown(value_in(one, name)), shown(value_in(other, name)));
-  if (other_builds || one.controller == other.controller) return "";
+  if (other_builds || one.controller == other.controller) return std::nullopt;
   return fmt::format("the programs {} and {}; if only their builds differ, pass --other-builds",
                      shown(one.controller), shown(other.controller));
 }
@@ -92,8 +93,8 @@ Result<Results> merge(const std::vector<NamedResults>& all, bool other_builds) {
   for (std::size_t index = 0; index < all.size(); ++index) {
     const auto& [file, results] = all[index];
     const Results& first = all.front().results;
-    if (const std::string what = difference(first.identity, results.identity, other_builds); !what.empty())
-      return Problem{fmt::format("{} and {} are of different runs: {}", all.front().file, file, what)};
+    if (const auto what = difference(first.identity, results.identity, other_builds))
+      return Problem{fmt::format("{} and {} are of different runs: {}", all.front().file, file, *what)};
     Seeds both;
     if (const auto other = file_with_same_seed(all[index], all, index, both))
       return Problem{

@@ -42,7 +42,7 @@ void Api::serve_sources(HttpServer& server) {
     const auto analysis = model_of(text, response);
     if (!analysis) return;
     const Sources::Added added = Sources(parts_.file.folder()).add(*analysis->model, subsystem, function);
-    if (!added.error.empty()) return answer_error(response, 409, added.error);
+    if (added.problem) return answer_error(response, 409, added.problem->text);
     answer(response, text_of(nlohmann::json{{"file", added.file}}));
   });
   server.Post("/api/functions/rename", [this](const Request& request, Response& response) {
@@ -52,7 +52,7 @@ void Api::serve_sources(HttpServer& server) {
     if (!body.good()) return;
     const Sources::Renamed renamed =
         Sources(parts_.file.folder()).rename(text, language_.grammar(), subsystem, from, function);
-    if (!renamed.error.empty()) return answer_error(response, 409, renamed.error);
+    if (renamed.problem) return answer_error(response, 409, renamed.problem->text);
     answer(response, text_of(nlohmann::json{{"files", renamed.files}}));
   });
   server.Post("/api/world", [this, model_of](const Request& request, Response& response) {
@@ -94,7 +94,7 @@ void Api::serve_sources(HttpServer& server) {
     const std::string name = body.text("example");
     if (!body.good()) return;
     const Begun begun = begin_with(options_.share / "examples", name, parts_.file.path());
-    if (!begun.error.empty()) return answer_error(response, 409, begun.error);
+    if (begun.problem) return answer_error(response, 409, begun.problem->text);
     answer(response, text_of(nlohmann::json{{"files", begun.files}, {"kept", begun.kept}}));
   });
 }

@@ -83,7 +83,7 @@ TEST(ParserOfChecks, TellsWhereAMistakeIs) {
     EXPECT_EQ(parsed.mistake.place.offset, wrong.offset) << wrong.text;
     EXPECT_GE(parsed.mistake.place.length, 1U);
   }
-  EXPECT_EQ(checks::parse_formula("distanc(a, b) > 3", metres).mistake.hint, "did you mean 'distance'?");
+  EXPECT_EQ(checks::parse_formula("distanc(a, b) > 3", metres).mistake.hint.text, "did you mean 'distance'?");
 }
 
 TEST(ParserOfChecks, NumbersOfOneComparisonHaveOneUnit) {
@@ -107,7 +107,7 @@ TEST(ParserOfChecks, NumbersOfOneComparisonHaveOneUnit) {
     EXPECT_EQ(parsed.mistake.text, wrong.message) << wrong.text;
     EXPECT_EQ(parsed.mistake.place.offset, wrong.offset) << wrong.text;
   }
-  EXPECT_EQ(checks::parse_formula("height(p) > 3 s", metres).mistake.hint,
+  EXPECT_EQ(checks::parse_formula("height(p) > 3 s", metres).mistake.hint.text,
             "write a number in m, or without a unit");
   EXPECT_FALSE(checks::parse_number("speed(robot) + 1 deg", metres).value);
 }

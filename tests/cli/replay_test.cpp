@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include "../schema/judge.hpp"
 #include "command.hpp"
 #include "tessera/recording.hpp"
 
@@ -10,6 +11,7 @@ using Replay = Command;
 TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   const fs::path project = example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 10s").code, 0);
+  schema_test::judge_summary(nlohmann::json::parse(content_of(project / ".tessera/last/summary.json")));
   const project::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("legal: "), 0U) << checked.text;
@@ -80,6 +82,7 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
       << nothing.text;
 
   const nlohmann::json same = json("simulate 01_line_follower --from run.tsr");
+  schema_test::judge_summary(same);
   EXPECT_EQ(same.at("same"), true);
   EXPECT_EQ(same.at("subsystems").at(0).at("iterations"), 100);
   ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
@@ -89,7 +92,9 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
       tessera("simulate 01_line_follower --from run.tsr --set v=0.1 --json out.json");
   EXPECT_EQ(slower.code, 1) << slower.text;
   EXPECT_NE(slower.text.find("motion.linear: recorded "), std::string::npos) << slower.text;
-  const nlohmann::json first = nlohmann::json::parse(content_of(folder_ / "out.json")).at("first");
+  const nlohmann::json differs = nlohmann::json::parse(content_of(folder_ / "out.json"));
+  schema_test::judge_summary(differs);
+  const nlohmann::json& first = differs.at("first");
   EXPECT_EQ(first.at("subsystem"), "robot.control");
   EXPECT_EQ(first.at("what"), "motion.linear");
 

@@ -16,14 +16,17 @@
 #include <string_view>
 #include <thread>
 #include <utility>
+#include <variant>
 #include <vector>
 
+#include "../schema/judge.hpp"
 #include "command.hpp"
 #include "project/build/controller.hpp"
 #include "project/files/file_names.hpp"
 #include "project/launch.hpp"
 #include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "project/process/listener.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/recording.hpp"
@@ -58,7 +61,7 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
   if (!connection) return;
   std::mt19937_64 draws(seed);
   std::int64_t id = 0;
-  std::string heard;
+  project::ControlReader heard;
   const auto say = [&](const project::ControlCommand& what) {
     return connection->send(project::line_of(what, ++id));
   };
@@ -73,7 +76,8 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
   goes_on = goes_on && say(command::Speed{0}) && say(command::Resume{});
   while (connection->receive(heard) == Received::bytes) {
   }
-  for (std::size_t at = 0; (at = heard.find("\"answer\"", at)) != std::string::npos; ++at) ++answers;
+  while (const std::optional<project::ControlMessage> message = heard.next())
+    if (message->content && std::holds_alternative<project::CommandAnswer>(*message->content)) ++answers;
 }
 
 class SameBytes : public Command {
@@ -106,6 +110,7 @@ class SameBytes : public Command {
     const fs::path summary = folder_ / project::file_names::summary;
     EXPECT_TRUE(fs::exists(summary)) << exit.text;
     Left left{content_of(folder_ / recording_file_name), nlohmann::json::parse(content_of(summary))};
+    schema_test::judge_summary(left.summary);
     fs::remove(summary);
     fs::remove(folder_ / recording_file_name);
     return left;
@@ -147,7 +152,7 @@ class SameBytes : public Command {
 [[nodiscard]] std::vector<std::pair<std::int64_t, std::uint32_t>> firings_in(const std::string& bytes) {
   RecordingReader reader;
   reader.feed(bytes);
-  EXPECT_TRUE(reader.has_ended()) << reader.problem();
+  EXPECT_TRUE(reader.has_ended()) << reader.problem().value_or(Problem{}).text;
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings;
   for (const Recording::Entry& entry : reader.recording().entries)
     if (entry.event.kind() == Event::Kind::firing)

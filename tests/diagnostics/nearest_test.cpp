@@ -29,8 +29,10 @@ TEST(Nearest, CaseBeatsAnotherLetter) { EXPECT_EQ(nearest("pose", {"poses", "Pos
 TEST(Nearest, TheSameCaseBreaksTies) { EXPECT_EQ(nearest("posee", {"Pose", "pose"}), "pose"); }
 
 TEST(DidYouMean, IsAQuestionOrNothing) {
-  EXPECT_EQ(did_you_mean("gripr", {"gripper"}), "did you mean 'gripper'?");
-  EXPECT_EQ(did_you_mean("banana", {"gripper"}), "");
+  EXPECT_EQ(did_you_mean("gripr", {"gripper"}).text, "did you mean 'gripper'?");
+  EXPECT_EQ(did_you_mean("gripr", {"gripper"}).proposal, "gripper");
+  EXPECT_TRUE(did_you_mean("banana", {"gripper"}).empty());
+  EXPECT_FALSE(did_you_mean("banana", {"gripper"}).proposal);
 }
 
 TEST(WithHint, JoinsMessageAndHint) {

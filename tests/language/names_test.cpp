@@ -44,14 +44,14 @@ TEST(Rename, NamesOfEveryExampleCanBeChangedAndChangedBack) {
       const Position at = document.lines().position(symbol.definition.begin);
       if (!renameable(document, nullptr, at)) continue;
       const Renaming there = rename(document, nullptr, at, {}, "quite_another");
-      ASSERT_EQ(there.problem, "") << folder << " " << symbol.path;
+      ASSERT_EQ(there.problem, std::nullopt) << folder << " " << symbol.path;
       const std::string changed = applied(text, there.edits, "");
       EXPECT_EQ(codes(changed), before) << folder << " " << symbol.path << "\n" << changed;
       const Document again(changed, grammar());
       ASSERT_EQ(again.index().symbols().size(), document.index().symbols().size());
       const Renaming back =
           rename(again, nullptr, again.lines().position(again.index()[id].definition.begin), {}, symbol.name);
-      EXPECT_EQ(back.problem, "");
+      EXPECT_EQ(back.problem, std::nullopt);
       EXPECT_EQ(applied(changed, back.edits, ""), text) << folder << " " << symbol.path;
       ++renamed;
     }
@@ -66,7 +66,7 @@ TEST(Rename, ChangesTheCppOfTheProject) {
   const auto changed = [&](const std::string& word, const std::string& name, const std::string& file) {
     const Renaming renaming =
         rename(document, nullptr, document.lines().position(text.find(word)), sources, name);
-    EXPECT_EQ(renaming.problem, "");
+    EXPECT_EQ(renaming.problem, std::nullopt);
     for (const Source& source : sources)
       if (source.path == file) return applied(source.text, renaming.edits, file);
     return std::string();
@@ -101,14 +101,14 @@ TEST(Rename, RefusesNamesThatAreTakenOrNotAllowed) {
   const std::string text = read_text(example("01_line_follower") / "spec.yaml");
   const Document document(text, grammar());
   const Position init = document.lines().position(text.find("init:"));
-  EXPECT_THAT(rename(document, nullptr, init, {}, "follow").problem,
+  EXPECT_THAT(rename(document, nullptr, init, {}, "follow").problem.value(),
               HasSubstr("'follow' is taken by the behaviour on line"));
-  EXPECT_THAT(rename(document, nullptr, init, {}, "two words").problem, HasSubstr("two words"));
-  EXPECT_NE(rename(document, nullptr, init, {}, "end").problem, "");
-  EXPECT_NE(rename(document, nullptr, init, {}, "while").problem, "");
-  EXPECT_NE(rename(document, nullptr, {0, 0}, {}, "x").problem, "");
+  EXPECT_THAT(rename(document, nullptr, init, {}, "two words").problem.value(), HasSubstr("two words"));
+  EXPECT_TRUE(rename(document, nullptr, init, {}, "end").problem);
+  EXPECT_TRUE(rename(document, nullptr, init, {}, "while").problem);
+  EXPECT_TRUE(rename(document, nullptr, {0, 0}, {}, "x").problem);
   const Position control = document.lines().position(text.find("control:"));
-  EXPECT_NE(rename(document, nullptr, control, {}, "brain").problem, "");
+  EXPECT_TRUE(rename(document, nullptr, control, {}, "brain").problem);
 }
 
 TEST(Definition, LeadsFromUseToDefinitionAndFromBehaviourToFunctionAndBack) {

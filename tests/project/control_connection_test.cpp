@@ -47,7 +47,7 @@ TEST_F(Connection, CarriesWhatBothSay) {
   const std::optional<ControlConnection> client = ControlConnection::to(file());
   ASSERT_TRUE(client);
   const int controller = accept(listening_, nullptr, nullptr);
-  std::string heard;
+  ControlReader heard;
   EXPECT_EQ(client->receive_at_once(heard), Received::nothing);
   client->limit_waits(std::chrono::milliseconds(10));
   EXPECT_EQ(client->receive(heard), Received::nothing) << "the wait has a limit";
@@ -57,7 +57,9 @@ TEST_F(Connection, CarriesWhatBothSay) {
   EXPECT_EQ(send(controller, "[]\n", 3, 0), 3);
   client->wait(std::chrono::seconds(10));
   EXPECT_EQ(client->receive_at_once(heard), Received::bytes);
-  EXPECT_EQ(heard, "{}\n[]\n");
+  EXPECT_EQ(heard.next().value().line, "{}");
+  EXPECT_EQ(heard.next().value().line, "[]");
+  EXPECT_FALSE(heard.next());
 
   EXPECT_TRUE(client->send("reset\n"));
   std::array<char, 16> asked{};

@@ -42,7 +42,7 @@ std::string problems_of(const Wanted& wanted, Direction direction) {
                  written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
   EXPECT_EQ(plan.has_value(), problems.empty());
   std::string all;
-  for (const MappingProblem& one : problems) all += one.subject + "|" + one.text + "|" + one.hint + "\n";
+  for (const MappingProblem& one : problems) all += one.subject + "|" + one.text + "|" + one.hint.text + "\n";
   return all;
 }
 

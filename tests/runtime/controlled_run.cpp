@@ -14,6 +14,7 @@
 #include "../eventually.hpp"
 #include "../schema/judge.hpp"
 #include "nets.hpp"
+#include "run/summary_text.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/recording.hpp"
 
@@ -148,6 +149,7 @@ json Controlled::rest(std::uint64_t pauses) {
 void Controlled::finish() {
   EXPECT_EQ(command({{"command", "resume"}}), "");
   running_.join();
+  schema_test::judge_summary(json::parse(summary_json(summary_, options_)));
 }
 
 }  // namespace tessera::testing

@@ -128,7 +128,7 @@ TEST(MonitorProtocol, AProcessOfADeploymentTellsItsLinksAndWhoWaits) {
 }
 
 TEST(MonitorProtocol, WritesAnswersAndPieces) {
-  EXPECT_EQ(answer_line(3, "no"), "{\"answer\":3,\"error\":\"no\"}\n");
+  EXPECT_EQ(answer_line(3, Problem{"no"}), "{\"answer\":3,\"error\":\"no\"}\n");
   EXPECT_EQ(piece_line(5, true, false), "{\"begins\":true,\"more\":false,\"recording_bytes\":5}\n");
   EXPECT_EQ(ended_line(), "{\"ended\":true}\n");
 }

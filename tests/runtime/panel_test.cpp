@@ -56,10 +56,10 @@ class PanelOfTest : public ::testing::Test {
   }
   using Values = std::vector<std::pair<std::string, PanelInput::Value>>;
   std::string feed(const Values& values, const std::string& who = "a") {
-    return panel_->feed({"robot.console.drive", who, values}, panel_now);
+    return panel_->feed({"robot.console.drive", who, values}, panel_now).value_or(Problem{}).text;
   }
   std::string let_go(const std::string& who = "a") {
-    return panel_->feed({"robot.console.drive", who, std::nullopt}, panel_now);
+    return panel_->feed({"robot.console.drive", who, std::nullopt}, panel_now).value_or(Problem{}).text;
   }
   bool read() { return receptor_->read({reinterpret_cast<std::byte*>(&drive_), sizeof drive_}); }
 

@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -44,8 +45,8 @@ class Judge {
   Judge(const Judge&) = delete;
   Judge& operator=(const Judge&) = delete;
 
-  /// The mistake in the message; empty: there is none.
-  [[nodiscard]] std::string ask(const json& message) {
+  /// The mistake in the message; nullopt: there is none.
+  [[nodiscard]] std::optional<std::string> ask(const json& message) {
     const std::lock_guard lock(mutex_);
     const std::string line = message.dump(-1, ' ', false, json::error_handler_t::replace) + '\n';
     for (std::size_t sent = 0; sent < line.size();) {
@@ -54,7 +55,9 @@ class Judge {
       if (count <= 0) return gone;
       sent += static_cast<std::size_t>(count);
     }
-    return next_line();
+    std::string wrong = next_line();
+    if (wrong.empty()) return std::nullopt;
+    return wrong;
   }
 
  private:
@@ -85,8 +88,8 @@ void judge(const json& message, const std::string& what) {
   if (std::string_view(TESSERA_NODE).empty()) return;
   static Judge the_judge;
   constexpr std::size_t most_shown = 2000;
-  if (const std::string wrong = the_judge.ask(message); !wrong.empty())
-    ADD_FAILURE() << what << " does not fit its schema: " << wrong << '\n'
+  if (const std::optional<std::string> wrong = the_judge.ask(message))
+    ADD_FAILURE() << what << " does not fit its schema: " << *wrong << '\n'
                   << message.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, most_shown);
 }
 
@@ -114,5 +117,7 @@ void judge_line(const json& data) {
 void judge_command(const json& data) {
   judge({{"kind", "command"}, {"data", data}}, "a command of the control socket");
 }
+
+void judge_summary(const json& data) { judge({{"kind", "summary"}, {"data", data}}, "a summary"); }
 
 }  // namespace tessera::schema_test

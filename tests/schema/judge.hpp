@@ -18,5 +18,7 @@ void judge_event(const std::string& name, const nlohmann::json& data);
 void judge_line(const nlohmann::json& data);
 /// A command to a controller, which it has taken.
 void judge_command(const nlohmann::json& data);
+/// The summary of a run, as its controller writes it.
+void judge_summary(const nlohmann::json& data);
 
 }  // namespace tessera::schema_test

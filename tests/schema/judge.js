@@ -7,7 +7,7 @@ import Ajv2020 from 'ajv/dist/2020.js';
 
 const folder = new URL('../../share/tessera/', import.meta.url);
 export const schemas = Object.fromEntries(
-  ['net', 'control_socket', 'studio'].map((name) => [
+  ['net', 'control_socket', 'studio', 'summary'].map((name) => [
     name,
     JSON.parse(readFileSync(new URL(`${name}.schema.json`, folder), 'utf8')),
   ]),
@@ -65,6 +65,7 @@ const judges = {
   event: ({ name, data }) => wrongWith(data, 'studio', '$defs', 'Events', 'properties', name),
   line: ({ data }) => wrongWith(data, 'control_socket', '$defs', 'Line'),
   command: ({ data }) => wrongWith(data, 'control_socket', '$defs', 'Command'),
+  summary: ({ data }) => wrongWith(data, 'summary', '$defs', 'Summary'),
 };
 
 if (process.argv[1] === fileURLToPath(import.meta.url))

@@ -32,7 +32,7 @@ struct Bits {
     EXPECT_TRUE(physics->robot());
     static_cast<void>(physics->site_position(eye));
   }
-  EXPECT_EQ(physics->failure(), "");
+  EXPECT_FALSE(physics->failure());
   const Pose pose = *physics->robot();
   return {std::bit_cast<std::uint64_t>(pose.at.x_m), std::bit_cast<std::uint64_t>(pose.at.y_m),
           std::bit_cast<std::uint64_t>(pose.heading_rad)};

@@ -51,7 +51,9 @@ sim::ComposedWorld loaded(const std::vector<sim::Placement>& placements, const s
 std::string problem_of(const std::vector<sim::Placement>& placements, const std::string& world) {
   const auto composition = sim::compose(world, placements);
   if (!composition) return composition.problem();
-  return sim::load(*composition).problem();
+  const auto composed = sim::load(*composition);
+  if (composed) throw std::runtime_error("the placements have no problem");
+  return composed.problem();
 }
 
 }  // namespace tessera::testing

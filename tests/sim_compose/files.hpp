@@ -19,7 +19,7 @@ namespace tessera::testing {
 /// Composed and compiled. A problem fails the test, and ends it.
 [[nodiscard]] sim::ComposedWorld loaded(const std::vector<sim::Placement>& placements,
                                         const std::string& world = model("world.xml"));
-/// The problem of composing and compiling; empty: there is none.
+/// The problem of composing and compiling. If there is none, the test fails, and ends.
 [[nodiscard]] std::string problem_of(const std::vector<sim::Placement>& placements,
                                      const std::string& world = model("world.xml"));
 

@@ -75,7 +75,7 @@ void compare_with_the_net(const Recording& recording, const test::Generated& mad
   out << "legal: " << static_cast<int>(legality.verdict) << ' ' << legality.firings << ' ' << legality.why
       << '\n';
   replay::FiringCounts counts(made.net);
-  out << counts.add(recording)
+  out << counts.add(recording).value_or(Problem{}).text
       << replay::coverage_text(coverage_of(made.pages, made.net, counts), "spec.yaml");
 }
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/result.hpp"
 #include "tessera/time.hpp"
 #include "tessera/transition_role.hpp"
 
@@ -230,8 +231,8 @@ class RecordingReader {
   void feed(std::string_view bytes);
   /// Whether the header has been read. Before that, `recording` is empty.
   [[nodiscard]] bool has_header() const { return has_header_; }
-  /// Why no more entries will come: "is no recording of Tessera", "is damaged"; empty: more may come.
-  [[nodiscard]] const std::string& problem() const { return problem_; }
+  /// Why no more entries will come: "is no recording of Tessera", "is damaged"; nullopt: more may come.
+  [[nodiscard]] const std::optional<Problem>& problem() const { return problem_; }
   /// Whether the last event of the file has been read.
   [[nodiscard]] bool has_ended() const { return has_ended_; }
   /// Bytes of an entry, or of the header, that is not complete yet.
@@ -246,7 +247,8 @@ class RecordingReader {
   void give_up(std::string problem);
   State state_ = State::header;
   bool has_header_ = false, has_ended_ = false;
-  std::string pending_, problem_;
+  std::string pending_;
+  std::optional<Problem> problem_;
   Recording recording_;
 };
 

@@ -228,8 +228,9 @@ class Assembler {
     if (assembly_.world == nullptr && assembly_.options.world) return false;
     DeviceFinder finder(system_, assembly_.options, assembly_.world.get());
     for (SubsystemParts& parts : parts_) find_devices(finder, parts);
-    error_ = finder.complaints();
-    return error_.empty();
+    const std::optional<Problem> wrong = finder.complaints();
+    if (wrong) error_ = wrong->text;
+    return !wrong;
   }
 
   void find_devices(DeviceFinder& finder, SubsystemParts& parts) {

@@ -32,7 +32,7 @@ bool RestartingAssembler::make_subsystems(std::uint32_t process) {
     bind(parts_[index], index);
     find_devices(finder, parts_[index]);
     if (parts_[index].drivers.size() != assembly_.executors[index]->operations().parts().drivers.size())
-      return fail(finder.complaints());
+      return fail(finder.complaints().value_or(Problem{}).text);
   }
   return true;
 }

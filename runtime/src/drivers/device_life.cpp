@@ -14,22 +14,23 @@ DeviceLife::DeviceLife(std::vector<DriverInUse> drivers) : drivers_(std::move(dr
       beating_.push_back({&driver, period});
 }
 
-/// Opens the driver. Empty: it is open; otherwise the reason why not.
-std::string DeviceLife::opened(const DriverInUse& driver) {
+/// Opens the driver. Returns the reason why that is not possible.
+std::optional<Problem> DeviceLife::open_driver(const DriverInUse& driver) {
   try {
-    return driver.device->open() ? "" : "it refuses";
+    if (driver.device->open()) return std::nullopt;
+    return Problem{"it refuses"};
   } catch (const std::exception& exception) {
-    return exception.what();
+    return Problem{exception.what()};
   } catch (...) {
-    return "it threw an exception that is no std::exception";
+    return Problem{"it threw an exception that is no std::exception"};
   }
 }
 
 bool DeviceLife::open(const std::function<bool(const DriverInUse&)>& secure, std::string& error) {
   for (; open_ < drivers_.size(); ++open_) {
     const DriverInUse& driver = drivers_[open_];
-    if (const std::string why = opened(driver); !why.empty()) {
-      error = fmt::format("the device of {} cannot be opened: {}", driver.path, why);
+    if (const std::optional<Problem> why = open_driver(driver)) {
+      error = fmt::format("the device of {} cannot be opened: {}", driver.path, why->text);
       return false;
     }
     if (secure(driver)) continue;

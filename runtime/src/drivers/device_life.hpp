@@ -1,10 +1,12 @@
 #pragma once
 
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/devices.hpp"
+#include "tessera/result.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {
@@ -37,7 +39,7 @@ class DeviceLife {
     Duration period;
     Time next{};
   };
-  [[nodiscard]] static std::string opened(const DriverInUse& driver);
+  [[nodiscard]] static std::optional<Problem> open_driver(const DriverInUse& driver);
 
   std::vector<DriverInUse> drivers_;
   std::vector<Beating> beating_;

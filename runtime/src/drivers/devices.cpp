@@ -183,7 +183,7 @@ SubsystemDevices DeviceFinder::find(const std::string& subsystem, const Bindings
   return devices;
 }
 
-std::string DeviceFinder::complaints() const {
+std::optional<Problem> DeviceFinder::complaints() const {
   std::string text;
   const auto say = [&](const std::string& sentence) { text += (text.empty() ? "" : "\n") + sentence; };
   for (const std::string& complaint : complaints_) say(complaint);
@@ -196,7 +196,8 @@ std::string DeviceFinder::complaints() const {
           "hardware is asked for at '{}', which is neither a real buffer with a driver of its own nor "
           "a subsystem with real buffers",
           name));
-  return text;
+  if (text.empty()) return std::nullopt;
+  return Problem{std::move(text)};
 }
 
 }  // namespace tessera

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -8,6 +9,7 @@
 #include <vector>
 
 #include "tessera/controller.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera {
 
@@ -46,8 +48,8 @@ class DeviceFinder {
 
   /// subsystem: its path. A driver that is not found, or cannot be made, is nullptr; `complaints` says why.
   [[nodiscard]] SubsystemDevices find(const std::string& subsystem, const Bindings& bindings);
-  /// One sentence per buffer without a device, and per unknown name; empty: there are no complaints.
-  [[nodiscard]] std::string complaints() const;
+  /// One sentence per buffer without a device, and per unknown name.
+  [[nodiscard]] std::optional<Problem> complaints() const;
 
  private:
   [[nodiscard]] bool is_hardware(const std::string& path);

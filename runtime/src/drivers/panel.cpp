@@ -91,52 +91,54 @@ Panel::Panel(std::string path, std::vector<Control> controls, std::size_t size, 
   input_.bytes = neutral_;
 }
 
-std::string Panel::put(const std::string& field, const PanelInput::Value& value,
-                       std::vector<std::byte>& bytes) const {
+std::optional<Problem> Panel::put(const std::string& field, const PanelInput::Value& value,
+                                  std::vector<std::byte>& bytes) const {
   const auto found = std::ranges::find(controls_, field, &Control::field);
   if (found == controls_.end()) {
     std::vector<std::string> fields;
     for (const Control& one : controls_) fields.push_back(one.field);
-    return with_hint(
+    return Problem{with_hint(
         fmt::format("the panel {} has no control '{}'; it has {}", path_, field, fmt::join(fields, ", ")),
-        did_you_mean(field, fields));
+        did_you_mean(field, fields))};
   }
   std::byte* const at = bytes.data() + found->offset;
   if (found->type == "bool") {
     const bool* const flag = std::get_if<bool>(&value);
-    if (flag == nullptr) return fmt::format("'{}' of the panel {} is true or false", field, path_);
+    if (flag == nullptr) return Problem{fmt::format("'{}' of the panel {} is true or false", field, path_)};
     *at = static_cast<std::byte>(*flag ? 1 : 0);
-    return "";
+    return std::nullopt;
   }
   const double* const number = std::get_if<double>(&value);
-  if (number == nullptr) return fmt::format("'{}' of the panel {} is a number", field, path_);
-  if (!std::isfinite(*number)) return fmt::format("'{}' of the panel {} is not finite", field, path_);
+  if (number == nullptr) return Problem{fmt::format("'{}' of the panel {} is a number", field, path_)};
+  if (!std::isfinite(*number))
+    return Problem{fmt::format("'{}' of the panel {} is not finite", field, path_)};
   if (!found->type.starts_with("float") && *number != std::floor(*number))
-    return fmt::format("'{}' of the panel {} is a whole number, not {}", field, path_, *number);
+    return Problem{fmt::format("'{}' of the panel {} is a whole number, not {}", field, path_, *number)};
   if (*number < found->minimum || *number > found->maximum)
-    return fmt::format("'{}' of the panel {} goes from {} to {}, and {} is out of this range", field, path_,
-                       found->minimum, found->maximum, *number);
+    return Problem{fmt::format("'{}' of the panel {} goes from {} to {}, and {} is out of this range", field,
+                               path_, found->minimum, found->maximum, *number)};
   put_number(found->type, *number, at);
-  return "";
+  return std::nullopt;
 }
 
-std::string Panel::feed(const PanelInput& input, std::int64_t now_ns) {
-  if (input.who.size() > longest_operator) return "the name of the operator is too long";
+std::optional<Problem> Panel::feed(const PanelInput& input, std::int64_t now_ns) {
+  if (input.who.size() > longest_operator) return Problem{"the name of the operator is too long"};
   std::vector<std::byte> bytes = neutral_;
   if (input.values)
     for (const auto& [field, value] : *input.values)
-      if (std::string wrong = put(field, value, bytes); !wrong.empty()) return wrong;
+      if (std::optional<Problem> wrong = put(field, value, bytes)) return wrong;
   const std::lock_guard lock(mutex_);
   const bool is_other = input.who != who_;
   if (!input.values) {  // only the operator who holds it can let go
     if (!is_other) input_.given_ns.reset();
-    return "";
+    return std::nullopt;
   }
-  if (is_other && counts(input_, now_ns)) return fmt::format("another operator has the panel {}", path_);
+  if (is_other && counts(input_, now_ns))
+    return Problem{fmt::format("another operator has the panel {}", path_)};
   who_ = input.who;
   input_.bytes.swap(bytes);
   input_.given_ns = now_ns;
-  return "";
+  return std::nullopt;
 }
 
 void Panel::latest(Input& input) {
@@ -193,7 +195,7 @@ bool Panels::knows(const std::string& path) const {
   return panels_.contains(path);
 }
 
-std::string Panels::feed(const PanelInput& input) const {
+std::optional<Problem> Panels::feed(const PanelInput& input) const {
   std::shared_ptr<Panel> panel;
   {
     const std::lock_guard lock(mutex_);
@@ -201,7 +203,7 @@ std::string Panels::feed(const PanelInput& input) const {
   }
   if (panel != nullptr) return panel->feed(input, monotonic_ns());
   const std::vector<std::string> all = paths();
-  return with_hint("there is no panel '" + input.path + "'", did_you_mean(input.path, all));
+  return Problem{with_hint("there is no panel '" + input.path + "'", did_you_mean(input.path, all))};
 }
 
 }  // namespace tessera

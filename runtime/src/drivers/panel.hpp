@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "tessera/device.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera {
 
@@ -47,8 +48,8 @@ class Panel {
   [[nodiscard]] Duration stale() const { return stale_; }
   [[nodiscard]] const std::vector<std::byte>& neutral() const { return neutral_; }
 
-  /// Returns the mistake in the input; empty: it counts from now on. now_ns: of monotonic_ns().
-  [[nodiscard]] std::string feed(const PanelInput& input, std::int64_t now_ns);
+  /// Returns the mistake in the input; nullopt: it counts from now on. now_ns: of monotonic_ns().
+  [[nodiscard]] std::optional<Problem> feed(const PanelInput& input, std::int64_t now_ns);
 
   struct Input {
     std::vector<std::byte> bytes;          ///< the encoded value
@@ -61,8 +62,8 @@ class Panel {
   }
 
  private:
-  [[nodiscard]] std::string put(const std::string& field, const PanelInput::Value& value,
-                                std::vector<std::byte>& bytes) const;
+  [[nodiscard]] std::optional<Problem> put(const std::string& field, const PanelInput::Value& value,
+                                           std::vector<std::byte>& bytes) const;
   const std::string path_;
   const std::vector<Control> controls_;
   const Duration stale_;
@@ -98,7 +99,7 @@ class Panels {
   [[nodiscard]] std::vector<std::string> paths() const;
   [[nodiscard]] bool knows(const std::string& path) const;
   /// As Panel::feed; also for a path that names no panel.
-  [[nodiscard]] std::string feed(const PanelInput& input) const;
+  [[nodiscard]] std::optional<Problem> feed(const PanelInput& input) const;
 
  private:
   mutable std::mutex mutex_;

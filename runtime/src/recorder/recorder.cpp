@@ -242,7 +242,7 @@ Recorder::Result Recorder::close() {
   for (const auto& lane : lanes_) lost += lane->lost();
   file_.put_end(lost);
   file_.close();
-  if (!file_.failure().empty()) {  // also an error of closing
+  if (file_.failure()) {  // also an error of closing
     lost = file_.lost();
     for (const auto& lane : lanes_) lost += lane->lost();
   }

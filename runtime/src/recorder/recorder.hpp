@@ -17,6 +17,7 @@
 #include "recorder/run_tally.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/recording.hpp"
+#include "tessera/result.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {
@@ -56,11 +57,11 @@ class RecordingFile {
   void flush();
   void close();
   /// Stops writing.
-  void fail(std::string_view why) { failure_ = why; }
+  void fail(std::string_view why) { failure_ = Problem{std::string(why)}; }
   /// The run has ended: waits at most two more seconds for a pipe that is not read. Threads: any.
   void hurry() { hurry_.store(true, std::memory_order_relaxed); }
-  [[nodiscard]] const std::string& failure() const { return failure_; }  ///< empty: all went well
-  [[nodiscard]] std::uint64_t lost() const { return lost_; }             ///< events
+  [[nodiscard]] const std::optional<Problem>& failure() const { return failure_; }
+  [[nodiscard]] std::uint64_t lost() const { return lost_; }  ///< events
   /// The time from which on events are left, if the limit has dropped the first ones.
   [[nodiscard]] std::optional<std::int64_t> kept_from_ns() const {
     return track_ == nullptr || segment_ < limit_.segments ? std::nullopt : std::optional(began_ns_.front());
@@ -88,7 +89,7 @@ class RecordingFile {
   std::array<Event, 2048> buffer_{};
   std::size_t filled_ = 0;
   std::uint64_t lost_ = 0;
-  std::string failure_;
+  std::optional<Problem> failure_;
   std::atomic<bool> hurry_{false};
 };
 
@@ -166,7 +167,7 @@ class Recorder {
 
   struct Result {
     std::uint64_t lost = 0;
-    std::string failure;
+    std::optional<Problem> failure;
     std::optional<std::int64_t> kept_from_ns;  ///< as in RecordingFile
   };
   /// Writes the remaining events. Only after the producers have ended.

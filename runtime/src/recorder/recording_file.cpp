@@ -107,7 +107,7 @@ bool RecordingFile::open_segment() {
 RecordingFile::~RecordingFile() { close(); }
 
 void RecordingFile::append(const Event& event) {
-  if (!failure_.empty()) {
+  if (failure_) {
     ++lost_;
     return;
   }
@@ -139,24 +139,25 @@ void RecordingFile::put_end(std::uint64_t lost, bool goes_on) {
 }
 
 void RecordingFile::put_end(std::uint64_t lost) {
-  if (failure_.empty()) put_end(lost, /*goes_on=*/false);
+  if (!failure_) put_end(lost, /*goes_on=*/false);
 }
 
 /// Gives the last segment its number, and removes the oldest one if there are too many.
 void RecordingFile::begin_segment(std::int64_t time_ns) {
   put_end(0, /*goes_on=*/true);
   flush();
-  if (!failure_.empty()) return;
+  if (failure_) return;
   ::close(descriptor_);
   descriptor_ = -1;
-  if (std::rename(path_.c_str(), segment_path(path_, segment_).c_str()) != 0) failure_ = std::strerror(errno);
+  if (std::rename(path_.c_str(), segment_path(path_, segment_).c_str()) != 0)
+    failure_ = Problem{std::strerror(errno)};
   ++segment_;
   began_ns_.push_back(time_ns);
   if (segment_ >= limit_.segments) {
     ::unlink(segment_path(path_, segment_ - limit_.segments).c_str());
     began_ns_.pop_front();
   }
-  if (failure_.empty() && !open_segment()) failure_ = std::strerror(errno);
+  if (!failure_ && !open_segment()) failure_ = Problem{std::strerror(errno)};
   const std::string marked = track_->known() ? track_->marked() : std::string();
   put({.time_ns = time_ns,
        .subject = static_cast<std::uint32_t>(marked.size()),
@@ -172,20 +173,20 @@ void RecordingFile::begin_segment(std::int64_t time_ns) {
 void RecordingFile::flush() {
   if (filled_ == 0) return;
   write_all(reinterpret_cast<const char*>(buffer_.data()), filled_ * sizeof(Event));
-  if (!failure_.empty()) lost_ += filled_;
+  if (failure_) lost_ += filled_;
   filled_ = 0;
 }
 
 void RecordingFile::close() {
   if (descriptor_ < 0) return;
   flush();
-  if (::close(descriptor_) != 0 && failure_.empty()) failure_ = std::strerror(errno);
+  if (::close(descriptor_) != 0 && !failure_) failure_ = Problem{std::strerror(errno)};
   descriptor_ = -1;
 }
 
 void RecordingFile::write_all(const char* bytes, std::size_t count) {
   std::int64_t stuck_ns = 0;
-  while (count > 0 && failure_.empty()) {
+  while (count > 0 && !failure_) {
     const ssize_t written = write(descriptor_, bytes, count);
     if (written < 0 && errno == EINTR) continue;
     if (written < 0 && errno == EAGAIN) {
@@ -194,7 +195,7 @@ void RecordingFile::write_all(const char* bytes, std::size_t count) {
     }
     stuck_ns = 0;
     if (written < 0) {
-      failure_ = std::strerror(errno);
+      failure_ = Problem{std::strerror(errno)};
     } else {
       bytes += written;
       count -= static_cast<std::size_t>(written);
@@ -210,7 +211,7 @@ void RecordingFile::await_room(std::int64_t& stuck_ns) {
   if (!hurry_.load(std::memory_order_relaxed) && StopSignals::pending() == 0) return;
   const std::int64_t now_ns = monotonic_ns();
   if (stuck_ns == 0) stuck_ns = now_ns;
-  if (now_ns - stuck_ns > pipe_patience_ns) failure_ = "its reader is blocked";
+  if (now_ns - stuck_ns > pipe_patience_ns) failure_ = Problem{"its reader is blocked"};
 }
 
 }  // namespace tessera

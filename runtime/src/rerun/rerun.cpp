@@ -9,6 +9,7 @@
 
 #include "assembly/assembly.hpp"
 #include "rerun/rerun_subsystem.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera {
 namespace {
@@ -24,12 +25,15 @@ class Play {
         assembly_(system, options_) {}
 
   [[nodiscard]] std::optional<RerunReport> report(std::string& error) {
-    error = complaint();
+    const auto refuse = [&](const Problem& problem) {
+      error = problem.text;
+      return std::nullopt;
+    };
+    if (const std::optional<Problem> wrong = complaint()) return refuse(*wrong);
     LooseParts parts;
-    if (!error.empty() || !take_apart(assembly_, clock_, parts, error)) return std::nullopt;
-    error = complaint_of_buffers(parts);
-    if (error.empty()) error = complaint_of_events(parts);
-    if (!error.empty()) return std::nullopt;
+    if (!take_apart(assembly_, clock_, parts, error)) return std::nullopt;
+    if (const std::optional<Problem> wrong = complaint_of_buffers(parts)) return refuse(*wrong);
+    if (const std::optional<Problem> wrong = complaint_of_events(parts)) return refuse(*wrong);
     std::uint32_t first_buffer = 0;
     for (LoosePart& part : parts.parts) {
       const std::uint32_t count = count_buffers(part.parts.bindings);
@@ -51,71 +55,72 @@ class Play {
     return options;
   }
 
-  /// The reason why this recording cannot be run again; empty: it can.
-  [[nodiscard]] std::string complaint() const {
+  /// The reason why this recording cannot be run again.
+  [[nodiscard]] std::optional<Problem> complaint() const {
     const System& system = assembly_.system;
     if (recording_.net_hash != system.net_hash)
-      return fmt::format(
-          "it is a recording of another net ({}, this controller's is {}): its specification has "
-          "changed since",
-          recording_.net_hash, system.net_hash);
+      return Problem{
+          fmt::format("it is a recording of another net ({}, this controller's is {}): its specification has "
+                      "changed since",
+                      recording_.net_hash, system.net_hash)};
     if (recording_.buffers.empty())
-      return "it holds no values of buffers: record the run with --record-values small or all";
+      return Problem{"it holds no values of buffers: record the run with --record-values small or all"};
     if (lacks_beginning(recording_))
-      return note_on_beginning(recording_) + "\nwithout the beginning nobody knows what the code remembered";
+      return Problem{note_on_beginning(recording_) +
+                     "\nwithout the beginning nobody knows what the code remembered"};
     if (std::ranges::any_of(recording_.entries,
                             [](const Entry& entry) { return entry.event.kind() == Event::Kind::process; }))
-      return "a process dies in it, and forgets what its code would remember here";
+      return Problem{"a process dies in it, and forgets what its code would remember here"};
     std::vector<std::uint32_t> next(recording_.instances.size());
     for (const Entry& entry : recording_.entries) {
       if (entry.event.instance() >= next.size()) continue;
       std::uint32_t& due = next[entry.event.instance()];
       const std::string& path = recording_.instances[entry.event.instance()];
       if (entry.event.sequence != due++)
-        return fmt::format("events of {} are missing at {:.6f} s", path,
-                           seconds(Duration(entry.event.time_ns)));
+        return Problem{fmt::format("events of {} are missing at {:.6f} s", path,
+                                   seconds(Duration(entry.event.time_ns)))};
       if (entry.event.kind() != Event::Kind::value) continue;
       const ValueEvent value = value_of(entry);
       const Recording::Buffer& buffer = recording_.buffers[value.buffer];
       const bool in = buffer.direction == Recording::Direction::input ||
                       buffer.direction == Recording::Direction::real_input;
       if (in && value.has(ValueFlags::hashed))
-        return fmt::format("the values of {} are too large and not in it: record with --record-values all",
-                           buffer.path);
+        return Problem{fmt::format(
+            "the values of {} are too large and not in it: record with --record-values all", buffer.path)};
     }
-    return "";
+    return std::nullopt;
   }
 
   /// Checks that the controller's buffers are those of the recording.
-  [[nodiscard]] std::string complaint_of_buffers(const LooseParts& parts) const {
+  [[nodiscard]] std::optional<Problem> complaint_of_buffers(const LooseParts& parts) const {
     std::size_t number = 0;
-    std::string wrong;
+    std::optional<Problem> wrong;
     for (const LoosePart& part : parts.parts)
       for_buffers(part.parts.bindings, [&](Recording::Direction direction, const auto& buffer) {
         const std::string path = fmt::format("{}.{}", part.parts.path, buffer.name);
         const std::string type = buffer.encoding == nullptr ? "" : buffer.encoding->type();
         const std::size_t index = number++;
-        if (!wrong.empty()) return;
+        if (wrong) return;
         if (index >= recording_.buffers.size() || recording_.buffers[index].path != path ||
             recording_.buffers[index].direction != direction)
-          wrong = fmt::format("it knows no buffer {}", path);
+          wrong = Problem{fmt::format("it knows no buffer {}", path)};
         else if (recording_.buffers[index].type != type)
-          wrong = fmt::format("in it {} is {}, and in this controller {}", path,
-                              recording_.buffers[index].type, type);
+          wrong = Problem{fmt::format("in it {} is {}, and in this controller {}", path,
+                                      recording_.buffers[index].type, type)};
         else if (type.empty())
-          wrong = fmt::format("values of {} cannot be recorded: its type has no fixed extent", path);
+          wrong = Problem{fmt::format("values of {} cannot be recorded: its type has no fixed extent", path)};
       });
     // The memory, which is listed last, follows from the inputs.
     const bool knows_all = number >= recording_.buffers.size() ||
                            recording_.buffers[number].direction == Recording::Direction::memory;
-    if (wrong.empty() && !knows_all)
-      wrong = fmt::format("this controller has no buffer {}", recording_.buffers[number].path);
+    if (!wrong && !knows_all)
+      wrong = Problem{fmt::format("this controller has no buffer {}", recording_.buffers[number].path)};
     return wrong;
   }
 
   /// The header belongs to a recording of this net, but the events of a damaged file may be arbitrary.
-  [[nodiscard]] std::string complaint_of_events(const LooseParts& parts) const {
-    if (recording_.instances.size() != parts.parts.size()) return "it is damaged";
+  [[nodiscard]] std::optional<Problem> complaint_of_events(const LooseParts& parts) const {
+    if (recording_.instances.size() != parts.parts.size()) return Problem{"it is damaged"};
     for (const Entry& entry : recording_.entries) {
       const Event& event = entry.event;
       if (event.instance() >= parts.parts.size()) continue;
@@ -126,9 +131,9 @@ class Play {
                         : event.kind() == Event::Kind::call
                             ? event.subject < part.parts.instance->net->behaviours.size()
                             : true;
-      if (!fits) return "it is damaged";
+      if (!fits) return Problem{"it is damaged"};
     }
-    return "";
+    return std::nullopt;
   }
 
   [[nodiscard]] std::vector<RecordedMoment> moments() const {
@@ -213,8 +218,10 @@ std::optional<RerunReport> rerun(const System& system, RunOptions options, const
   const std::optional<Recording> recording = read_recording(file, error);
   if (!recording) return std::nullopt;
   std::optional<RerunReport> report = Play(system, std::move(options), *recording).report(error);
-  if (report) report->recording = file;
-  if (!error.empty()) error = fmt::format("cannot run again from '{}': {}", file, error);
+  if (report)
+    report->recording = file;
+  else
+    error = fmt::format("cannot run again from '{}': {}", file, error);
   return report;
 }
 

@@ -122,26 +122,27 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
                       "(default: delay=1ms)");
 }
 
-/// Returns the mistake in the words; empty: there is none, and the options are filled.
-[[nodiscard]] std::string interpret(const Words& words, RunOptions& options) {
+/// Returns the mistake in the words; nullopt: there is none, and the options are filled.
+[[nodiscard]] std::optional<Problem> interpret(const Words& words, RunOptions& options) {
   if (!words.duration.empty()) {
     options.duration = parse_duration(words.duration);
     if (!options.duration)
-      return fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration);
+      return Problem{fmt::format("--for {}: expected a time such as 60s, 2min or 500ms", words.duration)};
   }
   if (!words.skip_to.empty()) {
-    if (!words.controlled) return "--skip-to needs --controlled";
+    if (!words.controlled) return Problem{"--skip-to needs --controlled"};
     options.skip_to = parse_duration(words.skip_to);
     if (!options.skip_to)
-      return fmt::format("--skip-to {}: expected a time such as 60s, 2min or 500ms", words.skip_to);
+      return Problem{fmt::format("--skip-to {}: expected a time such as 60s, 2min or 500ms", words.skip_to)};
     if (options.duration && *options.skip_to >= *options.duration)
-      return fmt::format("--skip-to {}: the run ends after {} already (--for)", words.skip_to,
-                         words.duration);
+      return Problem{
+          fmt::format("--skip-to {}: the run ends after {} already (--for)", words.skip_to, words.duration)};
   }
   if (!words.record_limit.empty()) {
     const auto limit = parse_record_limit(words.record_limit);
     if (!limit)
-      return fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5", words.record_limit);
+      return Problem{
+          fmt::format("--record-limit {}: expected a size such as 500MB or 100MBx5", words.record_limit)};
     options.record_limit = *limit;
   }
   if (words.domain >= 0) options.network.domain = words.domain;
@@ -149,22 +150,22 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
   for (const std::string& assignment : words.parameters) {
     const std::size_t equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0)
-      return fmt::format("--set {}: expected PATH=VALUE", assignment);
+      return Problem{fmt::format("--set {}: expected PATH=VALUE", assignment)};
     options.parameters.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
   }
   for (const std::string& driver : words.drivers) {
     std::string error;
     const std::optional<DriverRequest> request = parse_driver(driver, error);
-    if (!request) return fmt::format("--driver {}: {}", driver, error);
+    if (!request) return Problem{fmt::format("--driver {}: {}", driver, error)};
     options.drivers.push_back(*request);
   }
   WorldOptions world = words.world;
   if (!words.simulation.empty()) {
     std::string error;
-    if (!read_simulation_file(words.simulation, options.drivers, world, error)) return error;
+    if (!read_simulation_file(words.simulation, options.drivers, world, error)) return Problem{error};
   }
   if (!world.world.empty()) world.server.reset();  // a world file on the command line comes first
-  if (world.world.empty() && !world.server) return "";
+  if (world.world.empty() && !world.server) return std::nullopt;
   options.world = world;
   options.world->seed = options.seed;
   if (words.start.size() == 3) {
@@ -172,7 +173,7 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
     options.world->start_y_m = words.start[1];
     options.world->start_heading_rad = words.start[2] * std::numbers::pi / 180;
   }
-  return "";
+  return std::nullopt;
 }
 
 /// The net and the verdicts from which the controller was made.
@@ -296,15 +297,15 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   }
   line.options.monitor = run->parsed() ? !words.unwatched : words.controlled;
   line.options.clock = run->parsed() ? RunOptions::Clock::steady : RunOptions::Clock::simulated;
-  std::string wrong;
+  std::string unread;
   if (!words.parameter_file.empty() &&
-      !read_parameter_file(words.parameter_file, line.options.parameters, wrong)) {
-    fmt::print(stderr, "error: {}\n", wrong);
+      !read_parameter_file(words.parameter_file, line.options.parameters, unread)) {
+    fmt::print(stderr, "error: {}\n", unread);
     return 1;
   }
-  wrong = interpret(words, line.options);
-  if (wrong.empty()) return line;
-  fmt::print(stderr, "error: {}\n", wrong);
+  const std::optional<Problem> wrong = interpret(words, line.options);
+  if (!wrong) return line;
+  fmt::print(stderr, "error: {}\n", wrong->text);
   return 2;
 }
 

@@ -48,8 +48,9 @@ void close_recording(Assembly& assembly, RunSummary& summary) {
                               "(--record-limit none keeps everything)",
                               seconds(*summary.recorded_from)));
   }
-  if (!result.failure.empty())
-    warn(summary, fmt::format("the recording '{}' is cut: {}", assembly.options.recording, result.failure));
+  if (result.failure)
+    warn(summary,
+         fmt::format("the recording '{}' is cut: {}", assembly.options.recording, result.failure->text));
   else if (result.lost > 0)
     warn(summary, fmt::format("{} events are missing in the recording: the disk was too slow", result.lost));
 }
@@ -161,8 +162,8 @@ template <class Run>
   else
     devices.close_what_can_be_closed(ending.left_behind);
 
-  if (const std::string failed_checks = finish_checks(assembly, ending.at); !failed_checks.empty()) {
-    ending.text += failed_checks;
+  if (const std::optional<std::string> failed_checks = finish_checks(assembly, ending.at)) {
+    ending.text += *failed_checks;
     ending.failed = true;
   }
   std::string stuck;

@@ -74,7 +74,7 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
     // Makes releases as exact as the timer allows. By default, the kernel may add 50 us to save a wake-up.
     prctl(PR_SET_TIMERSLACK, 1UL);
     const Instance& its = *executor.operations().parts().instance;
-    if (const std::string denied = schedule_this_thread(its.policies.realtime); !denied.empty()) deny(denied);
+    if (const auto denied = schedule_this_thread(its.policies.realtime)) deny(*denied);
     step_until_end(executor, wake_words_[instance], control);
   });
   leaving.orderly = true;
@@ -103,12 +103,12 @@ void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_
 }
 
 /// One warning per run, because a thousand threads may be denied the same.
-void SteadyRun::deny(const std::string& what) {
+void SteadyRun::deny(const Problem& what) {
   if (denied_.exchange(true, std::memory_order_relaxed)) return;
   console::print(LogLevel::warning, clock_.now(), "tessera",
                  fmt::format("not in real time, as the specification asks ({}); give the permission with "
                              "CAP_SYS_NICE and CAP_IPC_LOCK, or limits rtprio and memlock",
-                             what));
+                             what.text));
 }
 
 /// A world that is slower than real time falls behind. It moves in short steps, so that no thread waits
@@ -150,7 +150,7 @@ void SteadyRun::say_world_is_slow() {
 
 Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals& /*signals*/) {
   if (wants_realtime(assembly.system.instances))
-    if (const std::string denied = lock_memory(); !denied.empty()) deny(denied);
+    if (const std::optional<Problem> denied = lock_memory()) deny(*denied);
   clock_.restart();
   if (assembly.links != nullptr) assembly.links->set_origin(clock_.absolute_ns(Time{}));
   assembly.control.set_emergency_event(news_);
@@ -160,7 +160,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   for (const auto& executor : assembly.executors) executor->enter();
   {
     const RealTimePriority priority(supervisor_priority(assembly.system.instances));
-    if (!priority.denied().empty()) deny(priority.denied());
+    if (priority.denied()) deny(*priority.denied());
     Securing& securing =
         securing_.emplace(assembly.executors, priority.priority(), [this] { tell_supervisor(); });
     survives_in_thread(assembly.control, "no thread for every subsystem", [&] { start_threads(assembly); });

@@ -47,7 +47,7 @@ class SteadyRun final : public Waker {
   void say_world_is_slow();
   void start_threads(Assembly& assembly);
   void tell_supervisor() const;
-  void deny(const std::string& what);
+  void deny(const Problem& what);
   void supervise(Assembly& assembly, UpperLayers& upper, Securing& securing);
   void follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
                         RecordingLane* lane) const;

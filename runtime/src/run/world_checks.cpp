@@ -31,13 +31,13 @@ void record_failed_checks(Assembly& assembly, Time now) {
   }
 }
 
-std::string finish_checks(Assembly& assembly, Time now) {
-  if (assembly.world == nullptr) return {};
+std::optional<std::string> finish_checks(Assembly& assembly, Time now) {
+  if (assembly.world == nullptr) return std::nullopt;
   assembly.judgement = assembly.world->results();
   notice_failed_checks(assembly);
   record_failed_checks(assembly, now);
   const std::vector<WorldFailure>& failed = assembly.failed_checks;
-  if (failed.empty()) return {};
+  if (failed.empty()) return std::nullopt;
   std::string text =
       failed.size() == 1 ? "; a check failed: " : fmt::format("; {} checks failed: ", failed.size());
   for (const WorldFailure& failure : failed)

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <optional>
+#include <string>
+
 #include "assembly/assembly.hpp"
 #include "tessera/controller.hpp"
 
@@ -15,7 +18,7 @@ void notice_failed_checks(Assembly& assembly);
 void record_failed_checks(Assembly& assembly, Time now);
 
 /// At the end of the run: judges the final conditions, and records everything. Returns the text that it adds
-/// to the ending of the run: "; 2 checks failed: nobody touches, apart"; empty: none failed.
-[[nodiscard]] std::string finish_checks(Assembly& assembly, Time now);
+/// to the ending of the run: "; 2 checks failed: nobody touches, apart"; nullopt: none failed.
+[[nodiscard]] std::optional<std::string> finish_checks(Assembly& assembly, Time now);
 
 }  // namespace tessera

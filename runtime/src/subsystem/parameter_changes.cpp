@@ -4,9 +4,9 @@
 
 namespace tessera {
 
-std::string ParameterChanges::ask(const std::string& path, const std::string& value) {
+std::optional<Problem> ParameterChanges::ask(const std::string& path, const std::string& value) {
   std::vector<CheckedValue> checked;
-  if (std::string wrong = check_parameter(owners_, path, value, checked); !wrong.empty()) return wrong;
+  if (std::optional<Problem> wrong = check_parameter(owners_, path, value, checked)) return wrong;
   for (CheckedValue& one : checked) {
     Waiting& waiting = waiting_[one.owner];
     std::string text = fmt::format("{}.{}={}", owners_[one.owner].path, one.parameter.name, value);
@@ -14,7 +14,7 @@ std::string ParameterChanges::ask(const std::string& path, const std::string& va
     waiting.changes.push_back({std::move(one), std::move(text)});
     waiting.any.store(true, std::memory_order_release);
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace tessera

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -23,9 +24,9 @@ class ParameterChanges {
   explicit ParameterChanges(std::vector<ParameterOwner> owners)
       : owners_(std::move(owners)), waiting_(std::make_unique<Waiting[]>(owners_.size())) {}
 
-  /// Returns the mistake in the request; empty: the change will take place. path: as in set_parameters.
+  /// Returns the mistake in the request; nullopt: the change will take place. path: as in set_parameters.
   /// Threads: any.
-  [[nodiscard]] std::string ask(const std::string& path, const std::string& value);
+  [[nodiscard]] std::optional<Problem> ask(const std::string& path, const std::string& value);
   /// Whether a subsystem here has a parameter that `path` names. Threads: any.
   [[nodiscard]] bool knows(const std::string& path) const { return has_parameter(owners_, path); }
 

@@ -48,40 +48,42 @@ using Parameter = Bindings::Parameter;
   return names;
 }
 
-// Each `store` returns the mistake in the text; empty: there is none.
+// Each `store` returns the mistake in the text.
 
 template <class Number>
-[[nodiscard]] std::string store_number(const Parameter& parameter, std::string_view text) {
+[[nodiscard]] std::optional<Problem> store_number(const Parameter& parameter, std::string_view text) {
   Number value{};
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
-  if (problem == std::errc::result_out_of_range) return "does not fit its type";
+  if (problem == std::errc::result_out_of_range) return Problem{"does not fit its type"};
   if (problem != std::errc{} || end != text.data() + text.size())
-    return std::is_integral_v<Number> ? "is no whole number" : "is no number (write it without a unit)";
+    return Problem{std::is_integral_v<Number> ? "is no whole number"
+                                              : "is no number (write it without a unit)"};
   const auto real = static_cast<double>(value);
-  if (!std::isfinite(real)) return "is not finite";
+  if (!std::isfinite(real)) return Problem{"is not finite"};
   if (real < parameter.minimum || real > parameter.maximum)
-    return fmt::format("is out of range {} to {}", parameter.minimum, parameter.maximum);
+    return Problem{fmt::format("is out of range {} to {}", parameter.minimum, parameter.maximum)};
   std::memcpy(parameter.value, &value, sizeof value);
-  return "";
+  return std::nullopt;
 }
 
-[[nodiscard]] std::string store_bool(const Parameter& parameter, std::string_view text) {
+[[nodiscard]] std::optional<Problem> store_bool(const Parameter& parameter, std::string_view text) {
   const bool value = text == "true" || text == "1";
-  if (!value && text != "false" && text != "0") return "is neither true nor false";
+  if (!value && text != "false" && text != "0") return Problem{"is neither true nor false"};
   std::memcpy(parameter.value, &value, sizeof value);
-  return "";
+  return std::nullopt;
 }
 
-[[nodiscard]] std::string store_string(const Parameter& parameter, std::string_view text) {
-  if (text.size() > parameter.capacity) return fmt::format("is longer than {} bytes", parameter.capacity);
+[[nodiscard]] std::optional<Problem> store_string(const Parameter& parameter, std::string_view text) {
+  if (text.size() > parameter.capacity)
+    return Problem{fmt::format("is longer than {} bytes", parameter.capacity)};
   // The layout of BoundedString: its size, then its bytes.
   const auto size = static_cast<std::uint32_t>(text.size());
   auto* bytes = static_cast<std::byte*>(parameter.value);
   std::memset(bytes, 0, parameter.size);
   std::memcpy(bytes, &size, sizeof size);
   std::memcpy(bytes + sizeof size, text.data(), text.size());
-  return "";
+  return std::nullopt;
 }
 
 [[nodiscard]] std::string trimmed(std::string_view text) {
@@ -90,9 +92,9 @@ template <class Number>
   return std::string(text.substr(first, text.find_last_not_of(" \t\r") - first + 1));
 }
 
-[[nodiscard]] std::string store_array(const Parameter& parameter, std::string_view text);
+[[nodiscard]] std::optional<Problem> store_array(const Parameter& parameter, std::string_view text);
 
-[[nodiscard]] std::string store(const Parameter& parameter, std::string_view text) {
+[[nodiscard]] std::optional<Problem> store(const Parameter& parameter, std::string_view text) {
   if (parameter.elements > 0) return store_array(parameter, text);
   switch (parameter.kind) {
     case ValueKind::boolean:
@@ -120,13 +122,13 @@ template <class Number>
     case ValueKind::string:
       return store_string(parameter, text);
     case ValueKind::other:
-      return "cannot be given: the parameter is a structure";
+      return Problem{"cannot be given: the parameter is a structure"};
   }
-  return "";
+  return std::nullopt;
 }
 
 /// "[1, 2, 3]"; the brackets may be left out.
-[[nodiscard]] std::string store_array(const Parameter& parameter, std::string_view text) {
+[[nodiscard]] std::optional<Problem> store_array(const Parameter& parameter, std::string_view text) {
   const std::string whole = trimmed(text);
   std::string_view rest = whole;
   if (rest.starts_with('[') && rest.ends_with(']')) rest = rest.substr(1, rest.size() - 2);
@@ -137,17 +139,17 @@ template <class Number>
     if (end != std::string_view::npos) rest.remove_prefix(end + 1);
   }
   if (parts.size() != parameter.elements)
-    return fmt::format("has {} element{}, and the parameter has {}: write [1, 2, 3]", parts.size(),
-                       parts.size() == 1 ? "" : "s", parameter.elements);
+    return Problem{fmt::format("has {} element{}, and the parameter has {}: write [1, 2, 3]", parts.size(),
+                               parts.size() == 1 ? "" : "s", parameter.elements)};
   Parameter element = parameter;
   element.elements = 0;
   element.size = parameter.size / parameter.elements;
   for (std::size_t at = 0; at < parts.size(); ++at) {
     element.value = static_cast<std::byte*>(parameter.value) + at * element.size;
-    if (const std::string wrong = store(element, parts[at]); !wrong.empty())
-      return fmt::format("is wrong: element {} ({}) {}", at, parts[at], wrong);
+    if (const std::optional<Problem> wrong = store(element, parts[at]))
+      return Problem{fmt::format("is wrong: element {} ({}) {}", at, parts[at], wrong->text)};
   }
-  return "";
+  return std::nullopt;
 }
 
 }  // namespace
@@ -162,8 +164,8 @@ bool has_parameter(std::span<const ParameterOwner> owners, const std::string& pa
   });
 }
 
-std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
-                            const std::string& value, std::vector<CheckedValue>& checked) {
+std::optional<Problem> check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
+                                       const std::string& value, std::vector<CheckedValue>& checked) {
   const std::size_t dot = path.rfind('.');
   const std::string_view name =
       dot == std::string::npos ? std::string_view(path) : std::string_view(path).substr(dot + 1);
@@ -176,15 +178,16 @@ std::string check_parameter(std::span<const ParameterOwner> owners, const std::s
       CheckedValue one{index, parameter, std::vector<std::byte>(parameter.size)};
       Parameter scratch = parameter;
       scratch.value = one.bytes.data();
-      if (const std::string wrong = store(scratch, value); !wrong.empty())
-        return fmt::format("parameter {} = {}: {} {}", path, value, value.empty() ? "nothing" : value, wrong);
+      if (const std::optional<Problem> wrong = store(scratch, value))
+        return Problem{fmt::format("parameter {} = {}: {} {}", path, value, value.empty() ? "nothing" : value,
+                                   wrong->text)};
       found.push_back(std::move(one));
     }
   }
   if (found.empty())
-    return with_hint("unknown parameter '" + path + "'", did_you_mean(path, names_of(owners)));
+    return Problem{with_hint("unknown parameter '" + path + "'", did_you_mean(path, names_of(owners)))};
   std::ranges::move(found, std::back_inserter(checked));
-  return "";
+  return std::nullopt;
 }
 
 bool set_parameters(std::span<const ParameterOwner> owners,
@@ -192,8 +195,8 @@ bool set_parameters(std::span<const ParameterOwner> owners,
   error.clear();
   std::vector<CheckedValue> checked;
   for (const auto& [path, value] : values)
-    if (const std::string wrong = check_parameter(owners, path, value, checked); !wrong.empty())
-      error += (error.empty() ? "" : "\n") + wrong;
+    if (const std::optional<Problem> wrong = check_parameter(owners, path, value, checked))
+      error += (error.empty() ? "" : "\n") + wrong->text;
   for (const CheckedValue& one : checked) one.give();
   return error.empty();
 }

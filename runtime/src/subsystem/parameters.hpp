@@ -3,12 +3,14 @@
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "tessera/given_values.hpp"
+#include "tessera/result.hpp"
 #include "tessera/subsystem.hpp"
 
 namespace tessera {
@@ -22,10 +24,11 @@ struct CheckedValue {
   void give() const { std::memcpy(parameter.value, bytes.data(), bytes.size()); }
 };
 
-/// Returns why that value does not fit the parameters that `path` names (see set_parameters). Empty: it
+/// Returns why that value does not fit the parameters that `path` names (see set_parameters). nullopt: it
 /// fits, and `checked` has one more entry for each of them.
-[[nodiscard]] std::string check_parameter(std::span<const ParameterOwner> owners, const std::string& path,
-                                          const std::string& value, std::vector<CheckedValue>& checked);
+[[nodiscard]] std::optional<Problem> check_parameter(std::span<const ParameterOwner> owners,
+                                                     const std::string& path, const std::string& value,
+                                                     std::vector<CheckedValue>& checked);
 
 /// Whether `path` names a parameter of one of the owners (see set_parameters).
 [[nodiscard]] bool has_parameter(std::span<const ParameterOwner> owners, const std::string& path);

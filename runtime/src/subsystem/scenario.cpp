@@ -8,6 +8,7 @@
 #include <unordered_map>
 
 #include "tessera/recording.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera {
 namespace {
@@ -27,21 +28,21 @@ class Reading {
       known_.emplace(net.transitions[index].name, index);
   }
 
-  /// Returns the mistake; "": there is none.
-  [[nodiscard]] std::string read(const nlohmann::json& json, Scenario& scenario) const {
-    if (json.value("scenario", 0) != 1) return "is no scenario of this version of Tessera";
+  /// Returns the mistake.
+  [[nodiscard]] std::optional<Problem> read(const nlohmann::json& json, Scenario& scenario) const {
+    if (json.value("scenario", 0) != 1) return Problem{"is no scenario of this version of Tessera"};
     const std::string hash = json.at("net_hash").get<std::string>();
     if (hash != system_.net_hash)
-      return fmt::format("is a scenario of another net ({}, this controller's is {}): verify again", hash,
-                         system_.net_hash);
+      return Problem{fmt::format("is a scenario of another net ({}, this controller's is {}): verify again",
+                                 hash, system_.net_hash)};
     for (const nlohmann::json& firing : json.at("firings")) {
       const auto name = (firing.is_object() ? firing.at("name") : firing).get<std::string>();
       const bool known = firing.is_object()
                              ? add_outcome(name, firing.at("none_holds").get<std::string>(), scenario)
                              : add(name, scenario);
-      if (!known) return fmt::format("names '{}', which is no transition of this net", name);
+      if (!known) return Problem{fmt::format("names '{}', which is no transition of this net", name)};
     }
-    return "";
+    return std::nullopt;
   }
 
  private:
@@ -83,13 +84,14 @@ std::optional<Scenario> read_scenario(const std::string& file, const System& sys
     return std::nullopt;
   }
   Scenario scenario;
+  std::optional<Problem> wrong;
   try {
-    error = Reading(system, net).read(nlohmann::json::parse(stream), scenario);
+    wrong = Reading(system, net).read(nlohmann::json::parse(stream), scenario);
   } catch (const nlohmann::json::exception&) {
-    error = "is no scenario: write one with `tessera verify --scenario FILE`";
+    wrong = Problem{"is no scenario: write one with `tessera verify --scenario FILE`"};
   }
-  if (error.empty()) return scenario;
-  error = fmt::format("'{}' {}", file, error);
+  if (!wrong) return scenario;
+  error = fmt::format("'{}' {}", file, wrong->text);
   return std::nullopt;
 }
 

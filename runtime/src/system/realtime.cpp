@@ -9,6 +9,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -33,7 +34,7 @@ bool wants_realtime(std::span<const Instance> instances) {
                      [](const Instance& instance) { return wants(instance.policies.realtime); });
 }
 
-std::string schedule_this_thread(const RealTime& wanted) {
+std::optional<Problem> schedule_this_thread(const RealTime& wanted) {
   std::string denied;
   const auto note = [&](int problem, const std::string& what) {
     if (problem == 0) return;
@@ -54,7 +55,8 @@ std::string schedule_this_thread(const RealTime& wanted) {
          fmt::format("{} priority {}", fifo ? "fifo" : "round_robin", wanted.priority));
   }
   if (wants(wanted)) prefault_stack();
-  return denied;
+  if (denied.empty()) return std::nullopt;
+  return Problem{std::move(denied)};
 }
 
 int supervisor_priority(std::span<const Instance> instances) {
@@ -76,7 +78,7 @@ RealTimePriority::RealTimePriority(int priority) {
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &parameters) == 0)
     priority_ = priority;
   else
-    denied_ = fmt::format("supervisor, fifo priority {}: {}", priority, std::strerror(errno));
+    denied_ = Problem{fmt::format("supervisor, fifo priority {}: {}", priority, std::strerror(errno))};
 }
 
 RealTimePriority::~RealTimePriority() {
@@ -88,11 +90,12 @@ RealTimePriority::~RealTimePriority() {
     sched_setscheduler(0, policy_before_ | SCHED_RESET_ON_FORK, &parameters);
 }
 
-std::string lock_memory() {
+std::optional<Problem> lock_memory() {
   // Memory that exists now is loaded. Later memory stays in RAM once it has been used; otherwise the stacks
   // of all threads would be loaded as a whole.
-  if (mlockall(MCL_CURRENT) == 0 && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0) return "";
-  return fmt::format("locked memory: {}", std::strerror(errno));
+  if (mlockall(MCL_CURRENT) == 0 && mlockall(MCL_CURRENT | MCL_FUTURE | MCL_ONFAULT) == 0)
+    return std::nullopt;
+  return Problem{fmt::format("locked memory: {}", std::strerror(errno))};
 }
 
 }  // namespace tessera

@@ -1,15 +1,16 @@
 #pragma once
 
+#include <optional>
 #include <span>
-#include <string>
 
+#include "tessera/result.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera {
 
 /// Gives the calling thread the scheduling that its subsystem asks for, and touches its stack, so that no
-/// page fault comes later. Empty, or what was not permitted.
-[[nodiscard]] std::string schedule_this_thread(const RealTime& wanted);
+/// page fault comes later. Returns what was not permitted.
+[[nodiscard]] std::optional<Problem> schedule_this_thread(const RealTime& wanted);
 
 /// A priority above that of every subsystem. The threads that watch over subsystems must run even if a
 /// subsystem never releases its processor. 0: no subsystem asks for real time.
@@ -26,18 +27,18 @@ class RealTimePriority {
   RealTimePriority(const RealTimePriority&) = delete;
   RealTimePriority& operator=(const RealTimePriority&) = delete;
   ~RealTimePriority();
-  /// Empty, or what was not permitted.
-  [[nodiscard]] const std::string& denied() const { return denied_; }
+  /// The priority that was not permitted, and why.
+  [[nodiscard]] const std::optional<Problem>& denied() const { return denied_; }
   /// The priority that the thread got; 0: the one that it had before.
   [[nodiscard]] int priority() const { return priority_; }
 
  private:
   int priority_ = 0, policy_before_ = 0, priority_before_ = 0;
-  std::string denied_;
+  std::optional<Problem> denied_;
 };
 
-/// Keeps the memory of the process in RAM from now on. Empty, or why that was not permitted.
-[[nodiscard]] std::string lock_memory();
+/// Keeps the memory of the process in RAM from now on. Returns why that was not permitted.
+[[nodiscard]] std::optional<Problem> lock_memory();
 
 [[nodiscard]] bool wants_realtime(std::span<const Instance> instances);
 

@@ -57,7 +57,7 @@ Monitor::Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote)
   try {
     thread_ = std::thread([this] { serve(); });
   } catch (const std::system_error& error) {
-    failure_ = error.what();
+    failure_ = Problem{error.what()};
   }
 }
 
@@ -78,10 +78,10 @@ Monitor::~Monitor() {
 }
 
 void Monitor::warn_of_failure(Time now) const {
-  if (!failure_.empty())
+  if (failure_)
     console::print(
         LogLevel::warning, now, "tessera",
-        fmt::format("`tessera top`, `set` and `emergency-stop` cannot reach this run: {}", failure_));
+        fmt::format("`tessera top`, `set` and `emergency-stop` cannot reach this run: {}", failure_->text));
 }
 
 // -------------------------------------------------------------------------------------------- the thread
@@ -222,9 +222,10 @@ void Monitor::execute_commands(MonitorClient& client) {
 void Monitor::execute_request(MonitorClient& client, const Request& request) {
   if (std::holds_alternative<commands::Own>(request.command)) return client.own_run();
   if (const auto* const command = std::get_if<AnsweredCommand>(&request.command)) {
-    const std::string wrong = std::visit([this](const auto& one) { return this->execute(one); }, *command);
+    const std::optional<Problem> wrong =
+        std::visit([this](const auto& one) { return this->execute(one); }, *command);
     if (client.gone()) return;
-    client.add(answer_line(request.id, wrong, !wrong.empty() && is_elsewhere(*command)));
+    client.add(answer_line(request.id, wrong, wrong && is_elsewhere(*command)));
   } else {
     if (client.gone()) return;
     // Without this, a client that always has a piece on the way would never get a snapshot.
@@ -237,17 +238,20 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
   client.send();
 }
 
-std::string Monitor::execute(const commands::Malformed& /*command*/) { return "this is no command"; }
-
-std::string Monitor::execute(const SimulationCommand& command) {
-  return remote_ == nullptr ? "a controller in real time cannot be paused" : remote_->execute(command);
+std::optional<Problem> Monitor::execute(const commands::Malformed& /*command*/) {
+  return Problem{"this is no command"};
 }
 
-std::string Monitor::execute(const commands::SetParameter& command) {
+std::optional<Problem> Monitor::execute(const SimulationCommand& command) {
+  if (remote_ == nullptr) return Problem{"a controller in real time cannot be paused"};
+  return remote_->execute(command);
+}
+
+std::optional<Problem> Monitor::execute(const commands::SetParameter& command) {
   return assembly_.changes->ask(command.path, command.value);
 }
 
-std::string Monitor::execute(const commands::FeedPanel& command) {
+std::optional<Problem> Monitor::execute(const commands::FeedPanel& command) {
   return assembly_.panels.feed(command.input);
 }
 
@@ -259,13 +263,14 @@ bool Monitor::is_elsewhere(const AnsweredCommand& command) const {
   return panel != nullptr && !assembly_.panels.knows(panel->input.path);
 }
 
-std::string Monitor::execute(const commands::EmergencyStop& command) {
+std::optional<Problem> Monitor::execute(const commands::EmergencyStop& command) {
   assembly_.control.begin_emergency(command.why);
-  return "";
+  return std::nullopt;
 }
 
-std::string Monitor::execute(const commands::Reset& /*command*/) {
-  return assembly_.control.end_emergency(clock_.now() + Duration(1)) ? "" : "there is no emergency stop";
+std::optional<Problem> Monitor::execute(const commands::Reset& /*command*/) {
+  if (assembly_.control.end_emergency(clock_.now() + Duration(1))) return std::nullopt;
+  return Problem{"there is no emergency stop"};
 }
 
 }  // namespace tessera

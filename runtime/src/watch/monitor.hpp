@@ -1,11 +1,13 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "tessera/result.hpp"
 #include "watch/monitor_client.hpp"
 #include "watch/monitor_protocol.hpp"
 #include "watch/monitor_socket.hpp"
@@ -43,18 +45,19 @@ class Monitor {
 
   void execute_commands(MonitorClient& client);
   void execute_request(MonitorClient& client, const Request& request);
-  // Returns the mistake in the command; empty: it was executed.
-  [[nodiscard]] static std::string execute(const commands::Malformed& command);
-  [[nodiscard]] std::string execute(const SimulationCommand& command);
-  [[nodiscard]] std::string execute(const commands::SetParameter& command);
-  [[nodiscard]] std::string execute(const commands::FeedPanel& command);
+  // Returns the mistake in the command; nullopt: it was executed.
+  [[nodiscard]] static std::optional<Problem> execute(const commands::Malformed& command);
+  [[nodiscard]] std::optional<Problem> execute(const SimulationCommand& command);
+  [[nodiscard]] std::optional<Problem> execute(const commands::SetParameter& command);
+  [[nodiscard]] std::optional<Problem> execute(const commands::FeedPanel& command);
   [[nodiscard]] bool is_elsewhere(const AnsweredCommand& command) const;
-  [[nodiscard]] std::string execute(const commands::EmergencyStop& command);
-  [[nodiscard]] std::string execute(const commands::Reset& command);
+  [[nodiscard]] std::optional<Problem> execute(const commands::EmergencyStop& command);
+  [[nodiscard]] std::optional<Problem> execute(const commands::Reset& command);
 
   Assembly& assembly_;
   const Clock& clock_;
-  std::string recording_path_, failure_;
+  std::string recording_path_;
+  std::optional<Problem> failure_;
   MonitorSocket listening_;
   int ending_ = -1;
   bool cannot_accept_ = false;  // no descriptor is left: try again after the next line

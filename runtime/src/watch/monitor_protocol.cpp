@@ -167,8 +167,8 @@ std::string to_line(const Snapshot& snapshot) {
   return line_of(all);
 }
 
-std::string answer_line(std::int64_t id, const std::string& error, bool is_elsewhere) {
-  json answer{{"answer", id}, {"error", error}};
+std::string answer_line(std::int64_t id, const std::optional<Problem>& wrong, bool is_elsewhere) {
+  json answer{{"answer", id}, {"error", wrong ? wrong->text : ""}};
   if (is_elsewhere) answer["elsewhere"] = true;
   return line_of(answer);
 }

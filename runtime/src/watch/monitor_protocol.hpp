@@ -9,6 +9,7 @@
 
 #include "drivers/panel.hpp"
 #include "subsystem/memory_gauge.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera {
 
@@ -90,8 +91,9 @@ struct Snapshot {
 
 /// One line, with its line end. Text that is not UTF-8 is replaced (a path may hold any bytes).
 [[nodiscard]] std::string to_line(const Snapshot& snapshot);
-/// is_elsewhere: the only error is that no part of this process has that name.
-[[nodiscard]] std::string answer_line(std::int64_t id, const std::string& error, bool is_elsewhere = false);
+/// wrong: the mistake in the command. is_elsewhere: it is only that no part of this process has that name.
+[[nodiscard]] std::string answer_line(std::int64_t id, const std::optional<Problem>& wrong,
+                                      bool is_elsewhere = false);
 /// The line before a piece of the recording.
 [[nodiscard]] std::string piece_line(std::size_t bytes, bool begins, bool more);
 /// The line before a piece of the scene. total: bytes of the whole.

@@ -22,15 +22,15 @@ namespace tessera {
 namespace {
 
 /// The folder, which must belong to us alone: that of another user could be a trap.
-[[nodiscard]] bool own_folder(const std::string& folder, std::string& failure) {
+[[nodiscard]] std::optional<Problem> make_own_folder(const std::string& folder) {
   struct stat status {};
   if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    failure = fmt::format("cannot make '{}': {}", folder, std::strerror(errno));
-  else if (lstat(folder.c_str(), &status) != 0)
-    failure = fmt::format("cannot look at '{}': {}", folder, std::strerror(errno));
-  else if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 077U) != 0)
-    failure = fmt::format("'{}' is not a folder that only its owner may enter", folder);
-  return failure.empty();
+    return Problem{fmt::format("cannot make '{}': {}", folder, std::strerror(errno))};
+  if (lstat(folder.c_str(), &status) != 0)
+    return Problem{fmt::format("cannot look at '{}': {}", folder, std::strerror(errno))};
+  if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 077U) != 0)
+    return Problem{fmt::format("'{}' is not a folder that only its owner may enter", folder)};
+  return std::nullopt;
 }
 
 [[nodiscard]] bool is_owner(int client) {
@@ -113,7 +113,8 @@ MonitorSocket::~MonitorSocket() {
 
 void MonitorSocket::listen(std::string_view name) {
   const std::string folder = monitor_folder();
-  if (!own_folder(folder, failure_)) return;
+  failure_ = make_own_folder(folder);
+  if (failure_) return;
   remove_left_behind(folder);
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
@@ -123,7 +124,7 @@ void MonitorSocket::listen(std::string_view name) {
   const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const auto* own = reinterpret_cast<const sockaddr*>(&address);
   if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 || ::listen(descriptor, 4) != 0) {
-    failure_ = fmt::format("cannot listen at '{}': {}", file, std::strerror(errno));
+    failure_ = Problem{fmt::format("cannot listen at '{}': {}", file, std::strerror(errno))};
     if (descriptor >= 0) close(descriptor);
     return;
   }

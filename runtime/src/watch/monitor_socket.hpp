@@ -1,7 +1,10 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <string_view>
+
+#include "tessera/result.hpp"
 
 namespace tessera {
 
@@ -17,7 +20,7 @@ class MonitorSocket {
 
   /// -1: the socket does not listen; `failure` says why.
   [[nodiscard]] int descriptor() const { return descriptor_; }
-  [[nodiscard]] const std::string& failure() const { return failure_; }
+  [[nodiscard]] const std::optional<Problem>& failure() const { return failure_; }
 
   /// A connection of the owner of this process, or of root.
   struct Accepted {
@@ -29,7 +32,8 @@ class MonitorSocket {
  private:
   void listen(std::string_view name);
 
-  std::string file_, failure_;
+  std::string file_;
+  std::optional<Problem> failure_;
   int descriptor_ = -1;
 };
 

@@ -30,26 +30,28 @@ RemoteControl::~RemoteControl() { close(news_); }
 
 // -------------------------------------------------------------------------------------------- the watcher's
 
-std::string RemoteControl::execute(const SimulationCommand& command) {
+std::optional<Problem> RemoteControl::execute(const SimulationCommand& command) {
   const std::lock_guard lock(mutex_);
-  std::string wrong = std::visit([this](const auto& one) { return this->apply(one); }, command);
-  if (!wrong.empty()) return wrong;
+  std::optional<Problem> wrong = std::visit([this](const auto& one) { return this->apply(one); }, command);
+  if (wrong) return wrong;
   update();
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(news_, &one, sizeof one);
-  return {};
+  return std::nullopt;
 }
 
-std::string RemoteControl::apply(const commands::Unknown& /*command*/) { return "there is no such command"; }
+std::optional<Problem> RemoteControl::apply(const commands::Unknown& /*command*/) {
+  return Problem{"there is no such command"};
+}
 
-std::string RemoteControl::apply(const commands::Pause& /*command*/) {
+std::optional<Problem> RemoteControl::apply(const commands::Pause& /*command*/) {
   set_paused(true);
-  return {};
+  return std::nullopt;
 }
 
-std::string RemoteControl::apply(const commands::Resume& /*command*/) {
+std::optional<Problem> RemoteControl::apply(const commands::Resume& /*command*/) {
   set_paused(false);
-  return {};
+  return std::nullopt;
 }
 
 void RemoteControl::set_paused(bool paused) {
@@ -59,50 +61,50 @@ void RemoteControl::set_paused(bool paused) {
   broke_at_.clear();
 }
 
-std::string RemoteControl::apply(const commands::StepFiring& /*command*/) {
+std::optional<Problem> RemoteControl::apply(const commands::StepFiring& /*command*/) {
   paused_ = true;
   ++firings_left_;
-  return {};
+  return std::nullopt;
 }
 
-std::string RemoteControl::apply(const commands::StepIteration& command) {
+std::optional<Problem> RemoteControl::apply(const commands::StepIteration& command) {
   InstanceId found;
   for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance)
     if (assembly_.executors[instance]->path() == command.subsystem) found = {instance};
   if (!command.subsystem.empty() && !found.valid())
-    return "there is no subsystem '" + command.subsystem + "'";
+    return Problem{"there is no subsystem '" + command.subsystem + "'"};
   paused_ = true;
   to_iteration_ = true;
   iterating_ = found;
   iterations_.clear();
-  return {};
+  return std::nullopt;
 }
 
-std::string RemoteControl::apply(const commands::SetSpeed& command) {
+std::optional<Problem> RemoteControl::apply(const commands::SetSpeed& command) {
   const double speed = command.value.value_or(-1);
   if (!std::isfinite(speed) || speed < 0 || speed > fastest)
-    return "a speed is a number from 0 (as fast as possible) to 1000";
+    return Problem{"a speed is a number from 0 (as fast as possible) to 1000"};
   speed_ = speed;
-  return {};
+  return std::nullopt;
 }
 
-std::string RemoteControl::apply(const commands::SetBreakpoints& command) {
+std::optional<Problem> RemoteControl::apply(const commands::SetBreakpoints& command) {
   using When = Breakpoint::When;
   std::vector<Breakpoint> wanted;
   if (assembly_.recorder == nullptr && !command.transitions.empty())
-    return "a breakpoint on a transition needs a run that is recorded";
+    return Problem{"a breakpoint on a transition needs a run that is recorded"};
   for (const auto& [names, when] :
        {std::pair{&command.places, When::marked}, std::pair{&command.transitions, When::fires},
         std::pair{&command.conditions, When::enabled}})
     for (const std::string& name : *names) {
       Breakpoint one{.when = when, .name = name};
       if (!find(one))
-        return std::string("no subsystem or channel of the controller has the ") +
-               (when == When::marked ? "place '" : "transition '") + one.name + "'";
+        return Problem{std::string("no subsystem or channel of the controller has the ") +
+                       (when == When::marked ? "place '" : "transition '") + one.name + "'"};
       wanted.push_back(std::move(one));
     }
   breakpoints_ = std::move(wanted);
-  return {};
+  return std::nullopt;
 }
 
 bool RemoteControl::find(Breakpoint& breakpoint) const {

@@ -3,6 +3,7 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "assembly/assembly.hpp"
 #include "system/stop_signals.hpp"
 #include "tessera/ids.hpp"
+#include "tessera/result.hpp"
 #include "watch/monitor_protocol.hpp"
 
 namespace tessera {
@@ -28,8 +30,8 @@ class RemoteControl {
   RemoteControl& operator=(const RemoteControl&) = delete;
 
   // ---- the watcher's
-  /// Executes the command. Returns its mistake; empty: there is none.
-  [[nodiscard]] std::string execute(const SimulationCommand& command);
+  /// Executes the command. Returns its mistake.
+  [[nodiscard]] std::optional<Problem> execute(const SimulationCommand& command);
   [[nodiscard]] Snapshot::Simulation shown() const;
   /// Requests that recorded events reach the file soon.
   void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
@@ -67,13 +69,13 @@ class RemoteControl {
   void look_at(Breakpoint& breakpoint, std::uint32_t fired);
   void set_paused(bool paused);
   // The part of `execute` that needs its lock.
-  [[nodiscard]] static std::string apply(const commands::Unknown& command);
-  [[nodiscard]] std::string apply(const commands::Pause& command);
-  [[nodiscard]] std::string apply(const commands::Resume& command);
-  [[nodiscard]] std::string apply(const commands::StepFiring& command);
-  [[nodiscard]] std::string apply(const commands::StepIteration& command);
-  [[nodiscard]] std::string apply(const commands::SetSpeed& command);
-  [[nodiscard]] std::string apply(const commands::SetBreakpoints& command);
+  [[nodiscard]] static std::optional<Problem> apply(const commands::Unknown& command);
+  [[nodiscard]] std::optional<Problem> apply(const commands::Pause& command);
+  [[nodiscard]] std::optional<Problem> apply(const commands::Resume& command);
+  [[nodiscard]] std::optional<Problem> apply(const commands::StepFiring& command);
+  [[nodiscard]] std::optional<Problem> apply(const commands::StepIteration& command);
+  [[nodiscard]] std::optional<Problem> apply(const commands::SetSpeed& command);
+  [[nodiscard]] std::optional<Problem> apply(const commands::SetBreakpoints& command);
   void update();
   void take_news() const;
 

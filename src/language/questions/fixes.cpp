@@ -8,15 +8,6 @@
 namespace tessera::language {
 namespace {
 
-/// The name in "did you mean 'X'?"; empty: the hint proposes none.
-std::string proposed(const std::string& hint) {
-  constexpr std::string_view words = "did you mean '";
-  const std::size_t begin = hint.find(words);
-  if (begin == std::string::npos) return {};
-  const std::size_t end = hint.find("'?", begin + words.size());
-  return end == std::string::npos ? "" : hint.substr(begin + words.size(), end - begin - words.size());
-}
-
 bool overlap(const Range& a, const Range& b) { return a.start <= b.end && b.start <= a.end; }
 
 /// Offers for one document and range.
@@ -49,8 +40,7 @@ class Fixer {
   }
 
   void for_diagnostic(const diagnostics::Diagnostic& one) {
-    if (const std::string name = proposed(one.hint); !name.empty())
-      add(fmt::format("Replace by '{}'", name), at_, name);
+    if (one.proposal) add(fmt::format("Replace by '{}'", *one.proposal), at_, *one.proposal);
     const UnitNames* unit = unit_here(document_.lines().offset(at_.start));
     if (one.code == "W324" && unit != nullptr) {
       add_entry(unit->way, "stale", "500 ms", "Give the safe command after 500 ms without a new value");

@@ -82,15 +82,15 @@ std::string edited(const Document& document, const std::vector<TextEdit>& edits)
   return text + document.text().substr(at);
 }
 
-/// Why a specification with `edits` would be worse; empty: it is not.
-std::string new_error(const Document& document, const std::vector<TextEdit>& edits) {
+/// Why a specification with `edits` would be worse; nullopt: it is not.
+std::optional<std::string> new_error(const Document& document, const std::vector<TextEdit>& edits) {
   const std::multiset<std::string> before = errors_of(document.text());
   std::vector<diagnostics::Diagnostic> found;
   const std::multiset<std::string> after = errors_of(edited(document, edits), &found);
   for (const diagnostics::Diagnostic& one : found)
     if (after.count(one.code) > before.count(one.code))
       return fmt::format("then line {} would be wrong: {} ({})", one.span.line, one.message, one.code);
-  return {};
+  return std::nullopt;
 }
 
 }  // namespace
@@ -174,7 +174,7 @@ Renaming rename(const Document& document, const Source* in, Position position,
   for (const Use& use : index.uses())
     if (use.symbol == here->symbol)
       renaming.edits.push_back({"", document.lines().range(use.extent), name, true});
-  if (std::string problem = new_error(document, renaming.edits); !problem.empty())
+  if (std::optional<std::string> problem = new_error(document, renaming.edits))
     return {{}, std::move(problem)};
   for (const Source& source : sources) {
     const Lines lines(source.text);

@@ -148,7 +148,7 @@ Explained explain(const CMakeError& error) {
     return {error.message, "name the target `project`: target_link_libraries(project INTERFACE ...)"};
   if (const std::string command = between(error.message, "Unknown CMake command \"", "\"");
       !command.empty()) {
-    const std::string near = did_you_mean(command, usual_commands);
+    const std::string near = did_you_mean(command, usual_commands).text;
     return {fmt::format("CMake has no command {}", command),
             near.empty() ? "the file or package that defines it has to be included before this line" : near};
   }
@@ -200,7 +200,7 @@ Refused refused_in(std::string_view line) {
       const std::string near = word_behind(line, "did you mean ");
       return {{option},
               {fmt::format("the compiler has no option {}", option),
-               near.empty() ? "correct it, or remove it" : fmt::format("did you mean '{}'?", near)}};
+               near.empty() ? "correct it, or remove it" : proposing(near).text}};
     }
   if (const std::string value = word_behind(line, "error: bad value "); !value.empty()) {
     const std::string option = word_behind(line, " for ");

@@ -42,7 +42,7 @@ void erase_all(std::string& text, std::string_view part) {
 }
 
 std::string guess(std::string_view word, const std::vector<std::string>& names) {
-  const std::string near = did_you_mean(word, names);
+  const std::string near = did_you_mean(word, names).text;
   if (!near.empty() || names.empty()) return near;
   std::string all;
   for (std::size_t i = 0; i < names.size() && i < 10; ++i) all += (i == 0 ? "" : ", ") + names[i];
@@ -192,7 +192,7 @@ class Meaning {
     } else {
       return std::nullopt;
     }
-    const std::string near = did_you_mean(name, names);
+    const std::string near = did_you_mean(name, names).text;
     return CppMistake{"E501", fmt::format("{} has no {} '{}'", path, what, name), near.empty() ? none : near};
   }
 
@@ -242,7 +242,7 @@ class Meaning {
       return fmt::format("write std::{}, and at the top of the file: #include {}", name, header);
     std::vector<std::string> names{"context", "in", "memory", "out"};
     add_names(names, model_.structures);
-    const std::string near = did_you_mean(name, names);
+    const std::string near = did_you_mean(name, names).text;
     return near.empty() ? "declare it, or include the header that does" : near;
   }
 

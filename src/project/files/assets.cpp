@@ -31,7 +31,7 @@ std::string what_is_there(const fs::path& name, const fs::path& project, const f
   add_alike(project, name, found);
   add_alike(shipped, name, found);
   const std::vector<std::string> names(found.begin(), found.end());
-  if (std::string near = did_you_mean(name.string(), names); !near.empty()) return near;
+  if (std::string near = did_you_mean(name.string(), names).text; !near.empty()) return near;
   constexpr std::size_t shown = 6;
   std::string list;
   for (std::size_t at = 0; at < std::min(shown, names.size()); ++at)

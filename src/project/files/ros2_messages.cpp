@@ -56,7 +56,7 @@ class MessageFinder {
       const std::string file =
           mistake.line == 0 ? mistake.file : mistake.file + ":" + std::to_string(mistake.line);
       complain("E320", place_in(driver, "type"), (file.empty() ? "" : file + ": ") + mistake.text,
-               mistake.hint);
+               mistake.file.empty() ? mistake.hint : mistake.hint.text);
     }
     if (message == nullptr) return false;
     driver.options["definition"] = spec::DriverOption{ros2::bundle_of(*message), ""};
@@ -74,8 +74,7 @@ class MessageFinder {
   }
   static bool is_client(const spec::Driver& driver) { return text_option(driver, "role") == "client"; }
 
-  void complain(const char* code, const diagnostics::Span& place, const std::string& text,
-                const std::string& hint) {
+  void complain(const char* code, const diagnostics::Span& place, const std::string& text, const Hint& hint) {
     if (said_.insert({place, text}).second) out_.error(code, place, text, hint);
   }
 

@@ -234,35 +234,35 @@ void warn_of_loopback(const spec::Model& model, Listener& listener) {
                               fmt::join(names, ", ")));
 }
 
-std::optional<std::string> wrong_with_version(const std::string& version) {
+std::optional<Problem> wrong_with_version(const std::string& version) {
   const bool fits =
       !version.empty() && std::isdigit(static_cast<unsigned char>(version.front())) != 0 &&
       std::ranges::all_of(version, [](char one) {
         return std::isalnum(static_cast<unsigned char>(one)) != 0 || one == '.' || one == '+' || one == '~';
       });
   if (fits) return std::nullopt;
-  return fmt::format("'{}' is no version: it begins with a digit and has letters, digits, '.', '+' and '~'",
-                     version);
+  return Problem{fmt::format(
+      "'{}' is no version: it begins with a digit and has letters, digits, '.', '+' and '~'", version)};
 }
 
 }  // namespace
 
-std::string wrong_with(const PackageOptions& options, const spec::Model& model) {
-  if (const auto wrong = wrong_with_version(options.version)) return *wrong;
+std::optional<Problem> wrong_with(const PackageOptions& options, const spec::Model& model) {
+  if (auto wrong = wrong_with_version(options.version)) return wrong;
   for (const std::string& group : options.groups)
     if (group.empty() || !std::ranges::all_of(group, [](char one) {
           return std::isalnum(static_cast<unsigned char>(one)) != 0 || one == '-' || one == '_';
         }))
-      return fmt::format("'{}' is no name of a group", group);
-  if (options.host.empty()) return "";
+      return Problem{fmt::format("'{}' is no name of a group", group)};
+  if (options.host.empty()) return std::nullopt;
   std::vector<std::string> hosts;
   for (const HostPlan& plan : plans_of(model))
     if (!plan.host.empty()) hosts.push_back(plan.host);
-  if (std::ranges::find(hosts, options.host) != hosts.end()) return "";
-  if (hosts.empty()) return "--host: `deploy` of the specification names no host";
-  return with_hint(
+  if (std::ranges::find(hosts, options.host) != hosts.end()) return std::nullopt;
+  if (hosts.empty()) return Problem{"--host: `deploy` of the specification names no host"};
+  return Problem{with_hint(
       fmt::format("no process has the host '{}'; there are {}", options.host, fmt::join(hosts, ", ")),
-      did_you_mean(options.host, hosts));
+      did_you_mean(options.host, hosts))};
 }
 
 std::vector<Package> make_packages(const Controller& controller, const PackageOptions& options,

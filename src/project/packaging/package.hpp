@@ -2,11 +2,13 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "project/build/controller.hpp"
 #include "project/process/listener.hpp"
+#include "tessera/result.hpp"
 
 /// A file with all that a robot needs to run its processes: a package of Debian, or an archive.
 namespace tessera::project {
@@ -29,8 +31,8 @@ struct Package {
   std::vector<std::string> needs;      ///< packages of Debian: "libfmt9 (>= 9.1.0)"
 };
 
-/// The mistake in a version or a host, found before anything is built; empty: there is none.
-[[nodiscard]] std::string wrong_with(const PackageOptions& options, const spec::Model& model);
+/// The mistake in a version or a host, found before anything is built.
+[[nodiscard]] std::optional<Problem> wrong_with(const PackageOptions& options, const spec::Model& model);
 
 /// Writes a package per host of the deployment, or one. It has the controller, the libraries of Tessera that
 /// the

@@ -65,18 +65,18 @@ bool ControlConnection::is_process(std::int64_t id) const {
   return getsockopt(*descriptor_, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 && peer.pid == id;
 }
 
-ControlConnection::Received ControlConnection::receive_at_once(std::string& to) const {
+ControlConnection::Received ControlConnection::receive_at_once(ControlReader& to) const {
   return receive(to, MSG_DONTWAIT);
 }
 
-ControlConnection::Received ControlConnection::receive(std::string& to, int flags) const {
+ControlConnection::Received ControlConnection::receive(ControlReader& to, int flags) const {
   std::array<char, 65536> bytes{};
   ssize_t count = -1;
   do count = recv(*descriptor_, bytes.data(), bytes.size(), flags);
   while (count < 0 && errno == EINTR);
   if (count < 0 && errno == EAGAIN) return Received::nothing;
   if (count <= 0) return Received::over;
-  to.append(bytes.data(), static_cast<std::size_t>(count));
+  to.add({bytes.data(), static_cast<std::size_t>(count)});
   return Received::bytes;
 }
 

@@ -9,10 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "project/process/control_reader.hpp"
+
 namespace tessera::project {
 
 /// The client's end of the control socket of a running controller (tessera/monitor.hpp). The messages are
-/// those of control_messages.hpp.
+/// those of control_messages.hpp; a ControlReader finds them in what comes.
 ///
 /// Threads: `send` and `is_process` any, one at a time; the rest one.
 class ControlConnection {
@@ -42,9 +44,9 @@ class ControlConnection {
     nothing,  ///< yet, or within the limit
     over      ///< the other end has closed, or the connection is lost
   };
-  /// Appends what has come. Waits for it with `receive`, but not with `receive_at_once`.
-  [[nodiscard]] Received receive(std::string& to) const { return receive(to, 0); }
-  [[nodiscard]] Received receive_at_once(std::string& to) const;
+  /// Adds what has come. Waits for it with `receive`, but not with `receive_at_once`.
+  [[nodiscard]] Received receive(ControlReader& to) const { return receive(to, 0); }
+  [[nodiscard]] Received receive_at_once(ControlReader& to) const;
   /// Returns once something has come, or the time is over.
   void wait(std::chrono::milliseconds time) const { wait_for_any({this}, time); }
   /// The same for several.
@@ -53,7 +55,7 @@ class ControlConnection {
 
  private:
   explicit ControlConnection(int descriptor) : descriptor_(descriptor) {}
-  [[nodiscard]] Received receive(std::string& to, int flags) const;
+  [[nodiscard]] Received receive(ControlReader& to, int flags) const;
   std::optional<int> descriptor_;
 };
 

@@ -1,6 +1,7 @@
 #include "project/process/control_messages.hpp"
 
 #include <nlohmann/json.hpp>
+#include <utility>
 
 namespace tessera::project {
 
@@ -161,7 +162,8 @@ SceneHead read_scene_head(const json& object) {
 CommandAnswer read_answer(const json& object) {
   CommandAnswer answer;
   read_member(object, "answer", answer.id);
-  read_member(object, "error", answer.error);
+  if (std::string error = object.value("error", std::string()); !error.empty())
+    answer.problem = Problem{std::move(error)};
   read_member(object, "elsewhere", answer.elsewhere);
   return answer;
 }

@@ -9,6 +9,8 @@
 #include <variant>
 #include <vector>
 
+#include "tessera/result.hpp"
+
 /// The messages of the control socket of a running controller (tessera/monitor.hpp), as its clients see them.
 /// share/tessera/control_socket.schema.json defines them.
 namespace tessera::project {
@@ -85,8 +87,8 @@ struct Snapshot {
 /// The result of a command.
 struct CommandAnswer {
   std::int64_t id = 0;
-  std::string error;       ///< empty: done
-  bool elsewhere = false;  ///< no subsystem of this process has such a parameter or panel
+  std::optional<Problem> problem;  ///< nullopt: done
+  bool elsewhere = false;          ///< no subsystem of this process has such a parameter or panel
 };
 
 /// Precedes bytes of the recording.

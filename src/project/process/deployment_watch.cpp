@@ -17,7 +17,6 @@ namespace {
 constexpr std::chrono::milliseconds look_period{500};
 /// The time until a socket without a listener is tried again: a stopped process may delay the connection.
 constexpr std::chrono::seconds pause_after_refusal{5};
-constexpr std::size_t longest_control_line = std::size_t{16} << 20U;
 
 /// Digits by their value, the rest letter by letter.
 bool comes_before(std::string_view one, std::string_view other) {
@@ -185,18 +184,15 @@ void DeploymentWatch::note_found(const std::string& socket, Connected& one,
 bool DeploymentWatch::read(const std::string& socket, Connected& one, const EachLine& each_line) {
   using Received = ControlConnection::Received;
   Received received = Received::bytes;
-  while (received == Received::bytes && one.text.size() < longest_control_line)
-    received = one.connection->receive_at_once(one.text);
+  while (received == Received::bytes && !one.heard.exceeds_limits())
+    received = one.connection->receive_at_once(one.heard);
   bool changed = false;
-  std::size_t taken = 0;
-  for (std::size_t end = 0; (end = one.text.find('\n', taken)) != std::string::npos; taken = end + 1) {
-    const std::string_view line = std::string_view(one.text).substr(taken, end - taken);
+  while (std::optional<ControlMessage> message = one.heard.next()) {
     if (one.ignored) continue;
-    changed = take(socket, one, line) || changed;
-    if (each_line && one.process && !one.ignored) each_line(line);
+    changed = take(socket, one, std::move(message->content)) || changed;
+    if (each_line && one.process && !one.ignored) each_line(message->line);
   }
-  one.text.erase(0, taken);
-  if (received != Received::over && one.text.size() < longest_control_line && !one.ignored) return changed;
+  if (received != Received::over && !one.heard.exceeds_limits() && !one.ignored) return changed;
   one.connection.reset();
   if (!one.process || one.process->state == WatchedProcess::State::ended) return changed;
   one.process->state = WatchedProcess::State::gone;
@@ -204,17 +200,16 @@ bool DeploymentWatch::read(const std::string& socket, Connected& one, const Each
   return true;
 }
 
-bool DeploymentWatch::take(const std::string& socket, Connected& one, std::string_view line) {
-  std::optional<ControlLine> read = read_control_line(line);
-  if (!read) return false;
+bool DeploymentWatch::take(const std::string& socket, Connected& one, std::optional<ControlLine> line) {
+  if (!line) return false;
   const Clock::time_point now = Clock::now();
-  if (std::holds_alternative<ControllerHasEnded>(*read)) {
+  if (std::holds_alternative<ControllerHasEnded>(*line)) {
     if (!one.process) return false;
     one.process->state = WatchedProcess::State::ended;
     one.process->since = now;
     return true;
   }
-  auto* snapshot = std::get_if<Snapshot>(&*read);
+  auto* snapshot = std::get_if<Snapshot>(&*line);
   if (snapshot == nullptr) return false;
   const bool of_another_net = !net_hash_.empty() && snapshot->net_hash != net_hash_;
   if (snapshot->system != system_ || !snapshot->name || of_another_net) {

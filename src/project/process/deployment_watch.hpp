@@ -13,6 +13,7 @@
 
 #include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "project/process/network_processes.hpp"
 #include "project/process/watched_process.hpp"
 
@@ -58,14 +59,14 @@ class DeploymentWatch {
   struct Connected {
     std::optional<ControlConnection> connection;
     Clock::time_point made;
-    std::string text;  ///< received, up to an end of line that has not come
+    ControlReader heard;
     std::optional<WatchedProcess> process;
     bool ignored = false;  ///< it is none of the deployment
   };
   void look_for_sockets();
   void note_found(const std::string& socket, Connected& one, WatchedProcess::State state) const;
   bool read(const std::string& socket, Connected& one, const EachLine& each_line);
-  bool take(const std::string& socket, Connected& one, std::string_view line);
+  bool take(const std::string& socket, Connected& one, std::optional<ControlLine> line);
   void replace_older(const std::string& socket);
   bool notice_silence();
   void learn(const Snapshot::Deployment& deployment, bool is_local);

@@ -120,7 +120,7 @@ class ModelSideReader {
   bool read_when(const Entry& when) {
     const Node* text = text_of(*when.value, when.span, "'when'", out_, "write when: elapsed");
     if (text == nullptr || text->text == "elapsed") return true;
-    std::string hint = did_you_mean(text->text, {"elapsed"});
+    Hint hint = did_you_mean(text->text, {"elapsed"});
     if (hint.empty()) hint = "elapsed: the timeout of the channel has passed";
     out_.error("E104", text->span, "'when' must be elapsed, not " + quoted(text->text), hint);
     return true;

@@ -125,7 +125,7 @@ CommunicationModelId CommunicationModels::find(const Node& name, Diagnostics& ou
   one_is_unknown_ = true;
   std::vector<std::string> names;
   for (const Known& one : known_) names.push_back(one.name);
-  const std::string hint = did_you_mean(name.text, names);
+  const Hint hint = did_you_mean(name.text, names);
   out.error("E101", name.span, "unknown model " + quoted(name.text),
             hint.empty()
                 ? "models of your own stand under 'models'; the others are chosen by send and receive"

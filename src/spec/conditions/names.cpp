@@ -34,8 +34,8 @@ std::string existing(const std::vector<std::string>& names) {
          (names.size() > 10 ? " ..." : "");
 }
 
-std::string guess_or_existing(std::string_view word, const std::vector<std::string>& names) {
-  const std::string guess = did_you_mean(word, names);
+Hint guess_or_existing(std::string_view word, const std::vector<std::string>& names) {
+  const Hint guess = did_you_mean(word, names);
   return guess.empty() && !names.empty() ? existing(names) : guess;
 }
 
@@ -157,7 +157,7 @@ bool ConditionNames::is_template(std::size_t at) const {
   return false;
 }
 
-std::string ConditionNames::hint_for_word(std::string_view word) const {
+Hint ConditionNames::hint_for_word(std::string_view word) const {
   if (std::ranges::find(others_, word) != others_.end())
     return "a named condition stands alone in 'when'; inside of an expression, repeat what it says";
   if (word == "context" || word == "now" || word == "iteration")
@@ -182,7 +182,7 @@ std::string ConditionNames::hint_for_word(std::string_view word) const {
   const std::string near = nearest(word, candidates);
   if (near.empty()) return "a condition has in, out, memory, parameters, elapsed and index";
   const std::string home = other_home(near);
-  return "did you mean " + quoted(home.empty() ? near : home) + "?";
+  return proposing(home.empty() ? near : home);
 }
 
 /// "memory.count" for "count"; "" if nothing has that name.
@@ -243,7 +243,7 @@ void ConditionNames::read_root(std::size_t at) {
 }
 
 void ConditionNames::unknown_name(const Token& name, const Root& root) {
-  std::string hint = guess_or_existing(name.text, root.names);
+  Hint hint = guess_or_existing(name.text, root.names);
   const std::string home = other_home(name.text);
   if (!home.empty()) hint = "write " + home;
   if (hint.empty()) hint = "this subsystem has no " + root.what + (root.what == "memory" ? "" : "s");
@@ -331,7 +331,7 @@ void ConditionNames::unknown_member(const Token& member, const Value& value, con
   if (value.kind == Is::structure) names = names_of(scope_.types.structures()[value.type.structure].fields);
   if (statuses != nullptr)
     for (const Status& one : *statuses) names.emplace_back(one.first);
-  std::string hint = guess_or_existing(member.text, names);
+  Hint hint = guess_or_existing(member.text, names);
   if (value.kind == Is::duration) hint = "compare it with a duration such as 500 ms";
   if ((value.kind == Is::array || value.kind == Is::text) &&
       (member.text == "size" || member.text == "empty"))

@@ -43,7 +43,7 @@ class ConditionNames {
   [[nodiscard]] bool member_follows(std::size_t at) const;
   [[nodiscard]] bool is_behind_operand(std::size_t at) const;
   [[nodiscard]] bool is_template(std::size_t at) const;
-  [[nodiscard]] std::string hint_for_word(std::string_view word) const;
+  [[nodiscard]] Hint hint_for_word(std::string_view word) const;
 
   /// The members behind a buffer, memory cell or parameter of that type, from token `at`.
   Chain read_members(std::size_t begin, std::size_t at, Value value, std::string path,

@@ -132,7 +132,7 @@ class DriverReader {
       return;
     }
     const std::vector<std::string> names = kind_names();
-    const std::string guess = did_you_mean(stranger->key, names);
+    const Hint guess = did_you_mean(stranger->key, names);
     std::string list = "there are ";
     for (const std::string& name : names) list += (&name == &names.front() ? "" : ", ") + name;
     out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),

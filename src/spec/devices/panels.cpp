@@ -126,10 +126,10 @@ class PanelReader {
     if (found != operable_.end()) return read_control(*entry.value, entry.span, *found);
     std::vector<std::string> names;
     for (const Operable& one : operable_) names.push_back(one.field);
-    std::string hint = did_you_mean(entry.key, names);
+    Hint hint = did_you_mean(entry.key, names);
     if (hint.empty()) {
-      hint = "there are ";
-      for (const std::string& name : names) hint += (&name == &names.front() ? "" : ", ") + name;
+      hint.text = "there are ";
+      for (const std::string& name : names) hint.text += (&name == &names.front() ? "" : ", ") + name;
     }
     out_.error("E101", entry.span, "the real buffer has no number or bool " + quoted(entry.key), hint);
   }
@@ -161,7 +161,7 @@ class PanelReader {
       if (name == text) return kind;
       names.emplace_back(name);
     }
-    const std::string guess = did_you_mean(text, names);
+    const Hint guess = did_you_mean(text, names);
     out_.error("E101", at, "unknown control " + quoted(text),
                guess.empty() ? "there are button, switch, slider, stick_x and stick_y" : guess);
     return std::nullopt;

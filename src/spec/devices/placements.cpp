@@ -128,7 +128,7 @@ class PlacementReader {
       std::vector<std::string> names;
       for (const auto& [name, group] : lookup_.groups()) names.push_back(name);
       std::ranges::sort(names);
-      const std::string near = did_you_mean(members.name, names);
+      const Hint near = did_you_mean(members.name, names);
       out_.error("E101", entry.span, "there are no agents " + quoted(members.name),
                  near.empty() ? "things that are no agents are named " + members.name + "[*], with a `count`"
                               : near);

@@ -60,7 +60,7 @@ Section::Section(const Node& node, Span at, std::string what, std::initializer_l
     const std::vector<std::string> known(keys.begin(), keys.end());
     unknown_keys_ = true;
     guesses_.push_back(nearest(entry.key, known));
-    std::string hint = did_you_mean(entry.key, known);
+    Hint hint = did_you_mean(entry.key, known);
     if (entry.key == "<<") hint = "merge keys are not read; use a template of agents or an alias";
     if (hint.empty()) hint = what_ + " has " + list_of(known);
     out.error("E102", entry.span, "unknown key " + quoted(entry.key), hint);

@@ -54,10 +54,10 @@ Begun begin_with(const fs::path& examples, const std::string& name, const fs::pa
   Begun begun;
   const auto found = by_name(examples);
   const auto example = found.find(name);
-  if (example == found.end()) return {{}, {}, "there is no example " + name};
+  if (example == found.end()) return {{}, {}, Problem{"there is no example " + name}};
   std::error_code problem;
   if (const auto size = fs::file_size(specification, problem); !problem && size > 0)
-    return {{}, {}, specification.filename().string() + " is not empty"};
+    return {{}, {}, Problem{specification.filename().string() + " is not empty"}};
   // The specification comes last: without it, the project has not begun.
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(example->second))
@@ -73,13 +73,13 @@ Begun begin_with(const fs::path& examples, const std::string& name, const fs::pa
       continue;
     }
     if (fs::is_symlink(fs::symlink_status(to, problem))) {
-      begun.error = to.string() + " is a symbolic link, which is not followed";
+      begun.problem = Problem{to.string() + " is a symbolic link, which is not followed"};
       return begun;
     }
     fs::create_directories(to.parent_path(), problem);
     if (problem ||
         !fs::copy_file(example->second / file, to, fs::copy_options::overwrite_existing, problem)) {
-      begun.error = to.string() + ": " + problem.message();
+      begun.problem = Problem{to.string() + ": " + problem.message()};
       return begun;
     }
     begun.files.push_back(file.generic_string());

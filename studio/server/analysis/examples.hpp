@@ -2,8 +2,11 @@
 
 #include <filesystem>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "tessera/result.hpp"
 
 namespace tessera::server {
 
@@ -14,7 +17,7 @@ namespace tessera::server {
 struct Begun {
   std::vector<std::string> files;  ///< that were copied
   std::vector<std::string> kept;   ///< existing files of the same name, which were kept
-  std::string error;               ///< empty: it was copied
+  std::optional<Problem> problem;  ///< nullopt: it was copied
 };
 
 /// Copies an example into a project that has no specification, or an empty one. Replaces no file.

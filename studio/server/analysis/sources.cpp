@@ -52,10 +52,11 @@ Sources::Added Sources::add(const spec::Model& model, const std::string& subsyst
   const auto stub = std::ranges::find_if(known.wanted(), [&](const codegen::Stub& one) {
     return one.subsystem == subsystem && one.function == function;
   });
-  if (stub == known.wanted().end()) return {{}, "there is no behaviour " + subsystem + "." + function};
+  if (stub == known.wanted().end())
+    return {{}, Problem{"there is no behaviour " + subsystem + "." + function}};
   const std::string file = known.file_for(*stub).generic_string();
   if (known.presence(*stub) != TransitionFunctions::Presence::missing) return {file, {}};
-  if (!path_of(file)) return {file, file + " is not in src/, or a symbolic link leads there"};
+  if (!path_of(file)) return {file, Problem{file + " is not in src/, or a symbolic link leads there"}};
   static_cast<void>(known.add(codegen::Stub(*stub)));
   return {file, {}};
 }
@@ -105,15 +106,15 @@ Sources::Renamed Sources::rename(const std::string& text, const language::Gramma
   // behaviour.
   const language::Document now(text, grammar);
   const auto here = name_of_behaviour(now, subsystem, function);
-  if (!here) return {{}, "there is no behaviour " + subsystem + "." + function};
+  if (!here) return {{}, Problem{"there is no behaviour " + subsystem + "." + function}};
   const language::Renaming back = language::rename(now, nullptr, *here, {}, from);
-  if (!back.problem.empty()) return {{}, back.problem};
+  if (back.problem) return {{}, Problem{*back.problem}};
   const language::Document before(edited(text, back.edits, ""), grammar);
   const auto there = name_of_behaviour(before, subsystem, from);
-  if (!there) return {{}, "there is no function " + from};
+  if (!there) return {{}, Problem{"there is no function " + from}};
   const std::vector<language::Source> sources = code_of(project_);
   const language::Renaming renaming = language::rename(before, nullptr, *there, sources, function);
-  if (!renaming.problem.empty()) return {{}, renaming.problem};
+  if (renaming.problem) return {{}, Problem{*renaming.problem}};
   Renamed renamed;
   for (const language::Source& source : sources) {
     const std::string changed = edited(source.text, renaming.edits, source.path);
@@ -121,10 +122,10 @@ Sources::Renamed Sources::rename(const std::string& text, const language::Gramma
     SpecFile file(project_ / source.path);
     const SpecFile::Content known = file.read();
     if (known.text != source.text || file.write(changed, known.revision).written != SpecFile::Written::yes)
-      return {renamed.files, source.path + " cannot be written, or another program changes it"};
+      return {renamed.files, Problem{source.path + " cannot be written, or another program changes it"}};
     renamed.files.push_back(source.path);
   }
-  if (renamed.files.empty()) return {{}, "there is no function " + from};
+  if (renamed.files.empty()) return {{}, Problem{"there is no function " + from}};
   return renamed;
 }
 

@@ -10,6 +10,7 @@
 #include "language/schema/grammar.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/spec_file.hpp"
+#include "tessera/result.hpp"
 
 namespace tessera::server {
 
@@ -27,8 +28,8 @@ class Sources {
   [[nodiscard]] nlohmann::json functions(const spec::Model& model) const;
 
   struct Added {
-    std::string file;   ///< relative to the project
-    std::string error;  ///< empty: it was added, or was there already
+    std::string file;                ///< relative to the project
+    std::optional<Problem> problem;  ///< nullopt: it was added, or was there already
   };
   /// Adds the function of a behaviour to its file, in its namespace, if it is missing.
   [[nodiscard]] Added add(const spec::Model& model, const std::string& subsystem,
@@ -36,7 +37,7 @@ class Sources {
 
   struct Renamed {
     std::vector<std::string> files;  ///< that were changed, relative to the project
-    std::string error;               ///< empty: all of them were written
+    std::optional<Problem> problem;  ///< nullopt: all of them were written
   };
   /// Renames the function `from` to the present name of its behaviour, wherever src/ and test/ use it. text:
   /// the specification. The rest of each file stays as it is.

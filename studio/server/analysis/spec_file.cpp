@@ -41,11 +41,11 @@ SpecFile::Content unreadable(std::string why) { return {{}, {}, std::move(why)};
 
 SpecFile::Content missing() { return {{}, revision_of({}), std::strerror(ENOENT)}; }
 
-/// Why it must not be replaced by a text that is told as JSON: there, the bytes look different. Empty: it may.
-std::string not_shown(const SpecFile::Content& content) {
+/// Why it must not be replaced by a text that is told as JSON: there, the bytes look different. nullopt: it may.
+std::optional<std::string> not_shown(const SpecFile::Content& content) {
   if (content.revision.empty()) return content.error;
   const std::optional<std::size_t> byte = diagnostics::first_invalid_byte(content.text);
-  if (!byte) return {};
+  if (!byte) return std::nullopt;
   const auto line =
       1 + std::count(content.text.begin(), content.text.begin() + static_cast<std::ptrdiff_t>(*byte), '\n');
   return fmt::format("a byte in line {} is not UTF-8, and would be lost; save it in the encoding UTF-8 first",
@@ -88,8 +88,8 @@ SpecFile::Content SpecFile::read() const {
 }
 
 SpecFile::Outcome SpecFile::write_shown(std::string_view text, std::string_view revision) {
-  std::string why = not_shown(read());
-  if (!why.empty()) return {Written::failed, unreadable(std::move(why))};
+  if (std::optional<std::string> why = not_shown(read()))
+    return {Written::failed, unreadable(std::move(*why))};
   return write(text, revision);
 }
 

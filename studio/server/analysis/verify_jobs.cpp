@@ -54,7 +54,7 @@ VerifyJobs::Started VerifyJobs::start(Request request) {
   for (const net::Property& property : analysis->properties) names.push_back(property.name);
   for (const std::string& name : request.properties)
     if (std::ranges::find(names, name) == names.end())
-      return {0, 422, "there is no property '" + name + "'", did_you_mean(name, names)};
+      return {0, 422, "there is no property '" + name + "'", did_you_mean(name, names).text};
   const std::lock_guard lock(mutex_);
   if (std::ranges::count_if(jobs_, [](const auto& job) { return !job.second->done; }) >=
       static_cast<std::ptrdiff_t>(most_running))

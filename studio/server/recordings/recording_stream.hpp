@@ -36,7 +36,7 @@ class RecordingStream {
 
  private:
   [[nodiscard]] static bool is_cut(const RecordingReader& reader) {
-    return !reader.problem().empty() || !reader.has_ended() || reader.pending() > 0;
+    return reader.problem() || !reader.has_ended() || reader.pending() > 0;
   }
   Source source_;
   std::shared_ptr<RecordingReader> reader_;

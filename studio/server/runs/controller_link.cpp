@@ -46,12 +46,11 @@ bool ControllerLink::is_process(std::int64_t id) const { return connection_ && c
 
 /// Reads the data that has arrived so far.
 void ControllerLink::hear() {
-  constexpr std::size_t most = std::size_t{64} << 20U;  // more than any controller sends
   using Received = project::ControlConnection::Received;
   Received received = Received::bytes;
   while (connection_ && received == Received::bytes) {
     received = connection_->receive_at_once(heard_);
-    if (heard_.size() > most) return close();
+    if (heard_.exceeds_limits()) return close();
   }
   if (received == Received::over) close();
   understand();
@@ -59,37 +58,27 @@ void ControllerLink::hear() {
 
 /// Handles the messages up to a piece of the recording that waits to be taken; later messages are newer.
 void ControllerLink::understand() {
-  std::size_t taken = 0;
-  for (std::size_t end = 0; !piece_ && (end = heard_.find('\n', taken)) != std::string::npos;) {
-    std::optional<project::ControlLine> line =
-        project::read_control_line(std::string_view(heard_).substr(taken, end - taken));
-    std::size_t bytes = 0;
-    if (!line) {  // from another version, or malformed
-    } else if (auto* snapshot = std::get_if<project::Snapshot>(&*line)) {
+  while (!piece_) {
+    std::optional<project::ControlMessage> message = heard_.next();
+    if (!message) break;
+    if (!message->content) continue;  // from another version, or malformed
+    if (auto* snapshot = std::get_if<project::Snapshot>(&*message->content))
       snapshot_ = std::move(*snapshot);
-    } else if (auto* answer = std::get_if<project::CommandAnswer>(&*line)) {
+    else if (auto* answer = std::get_if<project::CommandAnswer>(&*message->content))
       take(std::move(*answer));
-    } else if (const auto* head = std::get_if<project::PieceHead>(&*line)) {
-      bytes = head->bytes;
-      if (bytes > longest_piece) return close();  // not what a controller sends
-      if (bytes > heard_.size() - end - 1) break;
-      piece_ = {heard_.substr(end + 1, bytes), head->begins, head->more};
-    } else if (const auto* scene = std::get_if<project::SceneHead>(&*line)) {
-      bytes = scene->bytes;
-      if (bytes > longest_piece) return close();  // not what a controller sends
-      if (bytes > heard_.size() - end - 1) break;
-      take(*scene, std::string_view(heard_).substr(end + 1, bytes));
-    } else {
+    else if (const auto* head = std::get_if<project::PieceHead>(&*message->content))
+      piece_ = {std::move(message->bytes), head->begins, head->more};
+    else if (const auto* scene = std::get_if<project::SceneHead>(&*message->content))
+      take(*scene, message->bytes);
+    else
       ended_ = true;
-    }
-    taken = end + 1 + bytes;
   }
-  heard_.erase(0, taken);
+  if (heard_.exceeds_limits()) close();  // not what a controller sends
 }
 
 void ControllerLink::take(project::CommandAnswer answer) {
   const std::lock_guard lock(mutex_);
-  answers_[answer.id] = std::move(answer.error);
+  answers_[answer.id] = std::move(answer.problem);
   answered_.notify_all();
 }
 
@@ -145,9 +134,7 @@ std::optional<Problem> ControllerLink::command(const project::ControlCommand& co
     return Problem{"the controller does not answer"};
   const auto answer = answers_.find(id);
   if (answer == answers_.end()) return Problem{"the controller has ended"};
-  std::string problem = answers_.extract(answer).mapped();
-  if (problem.empty()) return std::nullopt;
-  return Problem{std::move(problem)};
+  return std::move(answers_.extract(answer).mapped());
 }
 
 void ControllerLink::close() {

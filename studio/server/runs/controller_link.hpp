@@ -12,6 +12,7 @@
 
 #include "project/process/control_connection.hpp"
 #include "project/process/control_messages.hpp"
+#include "project/process/control_reader.hpp"
 #include "tessera/growing_recording.hpp"
 #include "tessera/result.hpp"
 
@@ -59,7 +60,7 @@ class ControllerLink {
   void take(project::CommandAnswer answer);
   void take(const project::SceneHead& head, std::string_view bytes);
   std::optional<project::ControlConnection> connection_;
-  std::string heard_;
+  project::ControlReader heard_;
   std::optional<project::Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
   std::optional<GrowingRecording::Piece> piece_;  ///< later messages wait until it is taken
@@ -68,7 +69,7 @@ class ControllerLink {
   /// guards the members below, and writing to and closing the connection
   std::mutex mutex_;
   std::condition_variable answered_;
-  std::map<std::int64_t, std::string> answers_;
+  std::map<std::int64_t, std::optional<Problem>> answers_;
   std::int64_t last_ = 0;
   bool open_ = false, over_ = false;
 };

@@ -21,7 +21,8 @@ export function problemAt(yaml: YamlText, complaints: readonly Complaint[], at: 
   const messages = counted
     .filter(({ line, column }) => {
       const offset = yaml.offset(line, column);
-      const within = ([from = 0, to = 0]: readonly number[]) => offset >= from && offset < to;
+      // A text that ends too early has its complaint behind it.
+      const within = ([from = 0, to = 0]: readonly number[]) => offset >= from && offset <= to;
       return within(range) && !inside.some(within);
     })
     .map(({ message }) => message);

@@ -103,13 +103,24 @@ const takes = (schema: Schema, root: Schema, value: unknown) => {
   return isMap(value) && (additionalProperties !== false || Object.keys(value).every((key) => key in properties));
 };
 
+const isOpen = ({ additionalProperties }: Schema) => additionalProperties !== false;
+
+/** The schemas of which a value meets one, also those inside of each other. */
+const alternativesOf = ({ anyOf = [] }: Schema, root: Schema, value: unknown): Schema[] =>
+  anyOf.flatMap((each) => {
+    const one = schemaFor(each, root, value);
+    return one.anyOf ? alternativesOf(one, root, value) : [one];
+  });
+
 export function shapeOf(schema: Schema, root: Schema, value: unknown): ValueShape {
   const now = schemaFor(schema, root, value);
   const cases = casesOf(now, root);
   if (cases) return { kind: "cases", cases };
-  const alternatives = (now.anyOf ?? []).map((one) => schemaFor(one, root, value)).filter(isObject);
+  const alternatives = alternativesOf(now, root, value).filter(isObject);
   if (alternatives.length > 0) {
-    const chosen = alternatives.find((one) => takes(one, root, value));
+    const fitting = alternatives.filter((one) => takes(one, root, value));
+    // An empty map is one with names of its own, if the schema has that.
+    const chosen = (isMap(value) && Object.keys(value).length > 0 ? null : fitting.find(isOpen)) ?? fitting[0];
     return chosen ? mapShape(chosen, root, value) : { kind: "line", more: { key: ownKey(alternatives.at(-1)!) } };
   }
   if (isObject(now)) return mapShape(now, root, value);

@@ -1,5 +1,6 @@
 import { useStudio } from "../../hooks/use";
 import { driverKinds, type DriverKind, type FieldShape } from "../../model/text/schema_fields";
+import { listAsTyped, listAsWritten } from "../../model/text/list_text";
 import { fieldsFor } from "../../model/text/value_shape";
 import type { Structure } from "../../model/structure/structure";
 import { withoutIndex } from "../../model/structure/structure";
@@ -7,7 +8,6 @@ import { apply, type YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { MapForm } from "./map_form";
 import { ObjectFields } from "./object_fields";
-import { listAsTyped, listAsWritten } from "./one_field";
 import { driverHelp } from "./form_help";
 import { schema } from "./schema";
 import { OwnProblem, useProblems } from "./use_problems";

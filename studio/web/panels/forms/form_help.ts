@@ -28,9 +28,20 @@ export const modelHelp: HelpByKey = {
     folds: true,
     renamed: (text, from, to) => renameUsed(text, "models", from, to),
   },
-  shared: { one: "shared place", fresh: { name: "place", value: "0" } },
-  places: { fresh: { name: "place", value: "{}" } },
-  transitions: { compact: true, fresh: { name: "step", value: "{ from: [in], to: [out] }" } },
+  shared: {
+    one: "shared place",
+    hint: "The places that both sides see, with their tokens at the start",
+    fresh: { name: "place", value: "0" },
+  },
+  places: {
+    hint: "A side begins in 'in' and ends in 'out'. Between, a place may write or read a slot",
+    fresh: { name: "place", value: "{}" },
+  },
+  transitions: {
+    hint: "Each takes a token from some places and gives one to others",
+    compact: true,
+    fresh: { name: "step", value: "{ from: [in], to: [out] }" },
+  },
 };
 
 export const safeHelp = ({ buffers }: Subsystem): HelpByKey => ({
@@ -53,6 +64,7 @@ export function limitsHelp(structure: Structure, subsystem: Subsystem): HelpByKe
     ...limitHelp,
     limits: {
       title: "Limits of real outputs",
+      hint: "Of a real buffer, or of a number inside it",
       compact: true,
       one: "limits",
       names,
@@ -110,7 +122,11 @@ export function deployHelp({ yaml }: Structure): HelpByKey {
   const agents = yaml.keys(["agents"]).map((name) => (yaml.pair(["agents", name, "count"]) ? `${name}[*]` : name));
   return {
     deploy: { title: "Deployment", hint: "The processes of the system, and the agents in each" },
-    processes: { choices: agents, fresh: { name: "process", value: agents[0] ?? "robot" } },
+    processes: {
+      hint: "A process NAME[*] stands for one per member of a fleet",
+      choices: agents,
+      fresh: { name: "process", value: agents[0] ?? "robot" },
+    },
     agents: { choices: agents },
   };
 }
@@ -121,5 +137,9 @@ export const driverHelp: HelpByKey = {
     choices: ["button", "switch", "slider", "stick_x", "stick_y"],
     fresh: { name: "field", value: "slider" },
   },
-  fields: { title: "Fields", one: "field", fresh: { name: "data", value: "field" } },
+  fields: {
+    hint: "A field of the message, and the field of the buffer; equal names need no entry",
+    one: "field",
+    fresh: { name: "data", value: "field" },
+  },
 };

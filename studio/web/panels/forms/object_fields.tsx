@@ -81,6 +81,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
     ...(open ? there : []).filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
   ];
   const left = known.filter((one) => !shown.includes(one));
+  const label = ({ key, title }: FieldShape) => help[key]?.title ?? title ?? titleOf(key);
   const set = (key: string, text: string, as = scalarText) => {
     const last = onEmpty && text.trim() === "" && there.length === 1 && there[0] === key;
     if (last) onEmpty();
@@ -99,7 +100,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
               structure={structure}
               at={where}
               shape={shape}
-              title={help[field.key]?.title ?? field.title ?? titleOf(field.key)}
+              title={label(field)}
               hint={help[field.key]?.hint ?? field.description}
               help={help}
               onEmpty={() => want([...wanted, field.key])}
@@ -109,7 +110,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
           <div key={field.key}>
             <OneField
               shape={field}
-              label={help[field.key]?.title ?? field.title ?? titleOf(field.key)}
+              label={label(field)}
               mono={help[field.key]?.mono ?? false}
               value={value}
               choices={help[field.key]?.choices ?? []}
@@ -125,7 +126,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
         <Choice
           label="Also give"
           value=""
-          choices={[{ value: "", title: "…" }, ...left.map(({ key }) => ({ value: key, title: titleOf(key) }))]}
+          choices={[{ value: "", title: "…" }, ...left.map((one) => ({ value: one.key, title: label(one) }))]}
           onChange={(key) => want([...wanted, key])}
         />
       )}

@@ -1,5 +1,5 @@
 import type { FieldShape } from "../../model/text/schema_fields";
-import { scalarText } from "../../model/text/yaml_text";
+import { listAsTyped, listAsWritten } from "../../model/text/list_text";
 import { Choice, Field } from "./field";
 
 /** "per_second" as a label: "Per second". */
@@ -17,17 +17,6 @@ interface OneFieldProps {
   onChange: (text: string, as?: (text: string) => string) => void;
 }
 
-/** "[a, b]" in the form for typing: "a, b". */
-export const listAsTyped = (text: string) => text.replace(/^\[\s*([^[\]]*?)\s*\]$/s, "$1");
-/** "a, b" in the form of the file; a single name is no list. */
-export const listAsWritten = (text: string) =>
-  /^[^[{"']*,[^[{"']*$/.test(text)
-    ? `[${text
-        .split(",")
-        .map((one) => scalarText(one))
-        .join(", ")}]`
-    : scalarText(text);
-
 /** A value of one line, as its schema says: a choice, a list, parts with a field each, or a text. */
 export function OneField({ shape, value, choices, parts, label = titleOf(shape.key), mono, problem, onChange }: OneFieldProps) {
   const { description, wrong } = shape;
@@ -37,9 +26,9 @@ export function OneField({ shape, value, choices, parts, label = titleOf(shape.k
       <Choice
         label={label}
         value={value}
-        choices={[...(shape.required ? [] : [""]), ...shape.choices, ...(known ? [] : [value])].map((one) => ({
+        choices={[...(shape.required && value ? [] : [""]), ...shape.choices, ...(known ? [] : [value])].map((one) => ({
           value: one,
-          title: one || "default",
+          title: one || (shape.required ? "…" : "default"),
         }))}
         {...(description ? { hint: description } : {})}
         problem={problem}

@@ -64,7 +64,7 @@ export function WorldForm({ structure, targets }: { structure: Structure; target
         at={["simulation"]}
         shapes={shapes}
         without={elsewhere}
-        always={yaml.pair(["simulation", "coppelia"]) ? [] : ["models", "checks", "measures"]}
+        always={world ? ["models", "checks", "measures"] : []}
         help={worldHelp(structure, targets)}
       />
     </>

@@ -3,6 +3,7 @@ import schemaText from "../../../../share/tessera/spec.schema.json";
 import { limitNames, titled } from "../../model/structure/inside_types";
 import { findThing, readStructure } from "../../model/structure/structure";
 import { removeBuffer, renameBuffer, renameUsed, setModel } from "../../model/text/edits";
+import { listAsTyped, listAsWritten } from "../../model/text/list_text";
 import { problemAt } from "../../model/text/problem_at";
 import type { Schema } from "../../model/text/schema_fields";
 import { fieldsFor, freshValue, shapeOf, type ValueShape } from "../../model/text/value_shape";
@@ -81,6 +82,21 @@ it("a new entry has what the schema needs", () => {
   expect(flowText(freshValue(at("$defs/world_check"), schema))).toBe("{ never: name }");
   expect(flowText(freshValue(at("$defs/rate"), schema))).toBe("20 Hz");
   expect(flowText(["1", { a: ["x"] }])).toBe("[1, { a: [x] }]");
+});
+
+it("a list is typed with commas, and is in the file what it was before", () => {
+  for (const text of ["[a, b]", '["robot[0].a", "robot[1].b"]', "[[0, 1], [2, 3]]", "[0.5, -90 deg]"])
+    expect(listAsWritten(listAsTyped(text))).toBe(text);
+  expect(listAsWritten("robot[0].a, b")).toBe('["robot[0].a", b]');
+  expect(listAsWritten("any(f(a, b)) => c")).toBe('"any(f(a, b)) => c"');
+  expect(listAsWritten("one")).toBe("one");
+});
+
+it("the kind of a map decides among alternatives inside of each other", () => {
+  const panel = (value: unknown) => shape("$defs/panel_device/properties/panel", value);
+  expect(panel(true).kind).toBe("line");
+  expect(keysOf(panel({ slider: [] }))).toEqual(["slider", "stick_x", "stick_y"]);
+  expect([panel({ turn: {} }).kind, panel({}).kind]).toEqual(["names", "names"]);
 });
 
 const text = `simulation: # the world

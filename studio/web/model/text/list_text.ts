@@ -1,4 +1,4 @@
-import { scalarText } from "./yaml_text";
+import { scalarText, type YamlPath, type YamlText } from "./yaml_text";
 
 /** "[a, b]" in the form for typing: "a, b". A list of lists keeps its brackets. */
 export const listAsTyped = (text: string) => text.replace(/^\[\s*(?!\[)(.*?)\s*\]$/s, "$1");
@@ -23,4 +23,11 @@ export function listAsWritten(text: string): string {
   const parts = partsOf(text);
   if (parts.length < 2) return scalarText(text);
   return `[${parts.map((part) => (/^(["']).*\1$/s.test(part) ? part : scalarText(part))).join(", ")}]`;
+}
+
+/** The value at a path as text for one field: a list in lines of its own as one line. */
+export function lineText(yaml: YamlText, at: YamlPath): string {
+  const list = yaml.seq(at);
+  if (!list || list.flow) return yaml.valueText(at) ?? "";
+  return `[${list.items.map((_, index) => scalarText(lineText(yaml, [...at, index]))).join(", ")}]`;
 }

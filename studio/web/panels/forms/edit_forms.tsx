@@ -40,7 +40,8 @@ export function EditForm({ structure, thing }: { structure: Structure; thing: Th
   }
 }
 
-const otherOptions = ["overrun", "watchdog", "non_finite", "recovery", "realtime"];
+/** Keys of a subsystem that have fields of their own. Every other one is shown as the schema describes it. */
+const shownAlone = "rate start stale inputs outputs real behaviours memory parameters safe limits".split(" ");
 
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
@@ -211,11 +212,10 @@ function LimitsForm({ structure, subsystem, buffer }: { structure: Structure; su
   );
 }
 
-/** Keys of a subsystem that have no form of their own above. */
 const optionsOf = Object.fromEntries(
   (["control", "receptor", "effector"] as const).map((kind) => [
     kind,
-    fieldsOf({ $ref: `#/$defs/${kind}` }, schema).filter(({ key }) => otherOptions.includes(key)),
+    fieldsOf({ $ref: `#/$defs/${kind}` }, schema).filter(({ key }) => !shownAlone.includes(key)),
   ]),
 ) as Record<Subsystem["kind"], FieldShape[]>;
 

@@ -1,6 +1,8 @@
 import { useState } from "react";
+import { useStudio } from "../../hooks/use";
 import { fieldOf, type FieldShape, type Schema } from "../../model/text/schema_fields";
 import { freshValue, shapeOf, type Case, type ValueShape } from "../../model/text/value_shape";
+import { lineText } from "../../model/text/list_text";
 import type { Structure } from "../../model/structure/structure";
 import { apply, flowText, scalarText, type Value, type YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
@@ -67,6 +69,7 @@ const anyText = (key: string): FieldShape => ({
 /** The keys of a map, each as a field of its kind in the schema. An empty field leaves its key out. */
 export function ObjectFields(props: ObjectFieldsProps) {
   const { structure, at, shapes, without = [], always = [], open, help = {}, onEmpty } = props;
+  const studio = useStudio();
   const edit = useEdit();
   const problem = useProblems(structure);
   const [wanted, want] = useState<readonly string[]>([]);
@@ -92,7 +95,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
       {shown.map((field) => {
         const where = [...at, field.key];
         const shape = shapeOf(field.schema, root, yaml.data(where));
-        const value = yaml.valueText(where) ?? "";
+        const value = lineText(yaml, where);
         if (shape.kind !== "line")
           return (
             <ValueForm
@@ -105,6 +108,14 @@ export function ObjectFields(props: ObjectFieldsProps) {
               help={help}
               onEmpty={() => want([...wanted, field.key])}
             />
+          );
+        if (value.includes("\n"))
+          return (
+            <p key={field.key}>
+              <button className="link" onClick={() => studio.showLine(yaml.line(where))}>
+                {label(field)}: in the text, line {yaml.line(where)}
+              </button>
+            </p>
           );
         return (
           <div key={field.key}>
@@ -253,7 +264,7 @@ function OneEntry({ structure, at, name, schema, own }: OneEntryProps) {
       <OneField
         shape={{ ...field, description: "" }}
         label={name}
-        value={yaml.valueText(where) ?? ""}
+        value={lineText(yaml, where)}
         choices={own.choices ?? []}
         parts={[]}
         problem={problem(where)}

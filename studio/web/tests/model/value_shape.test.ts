@@ -3,7 +3,7 @@ import schemaText from "../../../../share/tessera/spec.schema.json";
 import { limitNames, titled } from "../../model/structure/inside_types";
 import { findThing, readStructure } from "../../model/structure/structure";
 import { removeBuffer, renameBuffer, renameUsed, setModel } from "../../model/text/edits";
-import { listAsTyped, listAsWritten } from "../../model/text/list_text";
+import { lineText, listAsTyped, listAsWritten } from "../../model/text/list_text";
 import { problemAt } from "../../model/text/problem_at";
 import type { Schema } from "../../model/text/schema_fields";
 import { fieldsFor, freshValue, shapeOf, type ValueShape } from "../../model/text/value_shape";
@@ -90,6 +90,9 @@ it("a list is typed with commas, and is in the file what it was before", () => {
   expect(listAsWritten("robot[0].a, b")).toBe('["robot[0].a", b]');
   expect(listAsWritten("any(f(a, b)) => c")).toBe('"any(f(a, b)) => c"');
   expect(listAsWritten("one")).toBe("one");
+  const lines = new YamlText("from: # them\n  - a # first\n  - robot[0].b\nto: x\n");
+  expect(lineText(lines, ["from"])).toBe('[a, "robot[0].b"]');
+  expect(apply(lines.text, lines.set([], "from", "c, d", listAsWritten))).toBe("from: # them\n  [c, d]\nto: x\n");
 });
 
 it("the kind of a map decides among alternatives inside of each other", () => {

@@ -129,6 +129,7 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
             shapes={optionsOf(is, yaml.data(at))}
             without={is.kind === "panel" ? [] : [is.kind]}
             open={is.open}
+            strays
             help={driverHelp}
           />
         </>

@@ -8,6 +8,7 @@ import {
   type Thing,
 } from "../../model/structure/structure";
 import { fieldOf, fieldsOf, type FieldShape } from "../../model/text/schema_fields";
+import { makeTemplate } from "../../model/text/template_edits";
 import { limitNames, titled } from "../../model/structure/inside_types";
 import { BehaviourForm } from "./behaviour_form";
 import { ChannelForm } from "./channel_form";
@@ -45,6 +46,7 @@ const shownAlone = "rate start stale inputs outputs real behaviours memory param
 
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
+  const template = makeTemplate(structure, agent);
   return (
     <>
       <Field
@@ -60,7 +62,7 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
         label="How many"
         value={agent.count}
         placeholder="one"
-        hint="A fleet of equal agents"
+        hint={agent.template ? "A fleet of equal agents" : "A fleet of equal agents needs a template"}
         onChange={(text) => edit(edits.setField(structure, agent.yaml, "count", text))}
       />
       <Field
@@ -85,6 +87,7 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
       {agent.template && <TemplateLink name={agent.template} />}
       <div className="buttons">
         <AddSubsystem structure={structure} agent={agent} />
+        {template !== null && <button onClick={() => edit(template, agent.name)}>Make it a template</button>}
         <Remove
           what="agent"
           structure={structure}

@@ -12,7 +12,7 @@ interface FieldProps {
   mono?: boolean;
   /** The reason why a text is not accepted; undefined: it is. */
   wrong?: (text: string) => string | undefined;
-  /** What the check of the specification says about the value. */
+  /** The complaint of the check about the value. */
   problem?: string | undefined;
   onChange: (text: string) => void;
 }

@@ -1,10 +1,11 @@
 import { limitNames } from "../../model/structure/inside_types";
 import type { Structure, Subsystem } from "../../model/structure/structure";
 import { renameUsed } from "../../model/text/edits";
+import { scalarText } from "../../model/text/yaml_text";
 import type { HelpByKey } from "./object_fields";
 import type { Targets } from "./targets";
 
-/** What the forms know beyond the schema: words, new entries and proposals. */
+/** The forms know this beyond the schema: words, new entries and proposals. */
 
 /** A channel that holds one value: the sender waits until it is empty, the receiver until it is full. */
 const oneValue = {
@@ -46,7 +47,7 @@ export const modelHelp: HelpByKey = {
 
 export const safeHelp = ({ buffers }: Subsystem): HelpByKey => ({
   ...Object.fromEntries(buffers.map(({ name }) => [name, { compact: true }])),
-  safe: { title: "Safe command", hint: "What the devices get when the subsystem stops or fails; zero by default" },
+  safe: { title: "Safe command", hint: "The devices get it when the subsystem stops or fails. It is zero by default" },
 });
 
 export const limitHelp: HelpByKey = {
@@ -64,7 +65,7 @@ export function limitsHelp(structure: Structure, subsystem: Subsystem): HelpByKe
     ...limitHelp,
     limits: {
       title: "Limits of real outputs",
-      hint: "Of a real buffer, or of a number inside it",
+      hint: "Each entry is a real buffer, or a number inside it",
       compact: true,
       one: "limits",
       names,
@@ -125,7 +126,7 @@ export function deployHelp({ yaml }: Structure): HelpByKey {
     processes: {
       hint: "A process NAME[*] stands for one per member of a fleet",
       choices: agents,
-      fresh: { name: "process", value: agents[0] ?? "robot" },
+      fresh: { name: "process", value: scalarText(agents[0] ?? "robot") },
     },
     agents: { choices: agents },
   };

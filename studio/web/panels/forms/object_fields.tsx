@@ -13,7 +13,7 @@ import { OneField, titleOf } from "./one_field";
 import { schema as root } from "./schema";
 import { OwnProblem, useProblems } from "./use_problems";
 
-/** What the schema does not say about the value of a key. */
+/** The facts about the value of a key that the schema does not say. */
 export interface Help {
   /** The word for one entry: "check". */
   one?: string;
@@ -48,8 +48,10 @@ interface ObjectFieldsProps {
   without?: readonly string[];
   /** Keys that have fields although they are not there: all, or those named. */
   always?: "all" | readonly string[];
-  /** Keys may have any name; otherwise keys unknown to the shapes are shown elsewhere. */
+  /** Keys may have any name. */
   open?: boolean;
+  /** Keys that the shapes do not have are shown, so that they can be removed; otherwise they are shown elsewhere. */
+  strays?: boolean;
   help?: HelpByKey;
   /** The map is left out with its last key; called when that happens. */
   onEmpty?: () => void;
@@ -68,7 +70,7 @@ const anyText = (key: string): FieldShape => ({
 
 /** The keys of a map, each as a field of its kind in the schema. An empty field leaves its key out. */
 export function ObjectFields(props: ObjectFieldsProps) {
-  const { structure, at, shapes, without = [], always = [], open, help = {}, onEmpty } = props;
+  const { structure, at, shapes, without = [], always = [], open, strays = open, help = {}, onEmpty } = props;
   const studio = useStudio();
   const edit = useEdit();
   const problem = useProblems(structure);
@@ -81,7 +83,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
     ...known.filter(
       ({ key, required }) => required || there.includes(key) || wanted.includes(key) || always === "all" || always.includes(key),
     ),
-    ...(open ? there : []).filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
+    ...(strays ? there : []).filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
   ];
   const left = known.filter((one) => !shown.includes(one));
   const label = ({ key, title }: FieldShape) => help[key]?.title ?? title ?? titleOf(key);
@@ -160,8 +162,7 @@ function MoreOf({ structure, at, schema }: { structure: Structure; at: YamlPath;
   const { yaml } = structure;
   const shape = shapeOf(schema, root, yaml.data(at));
   if (shape.kind !== "line" || !shape.more) return null;
-  const node = yaml.node(at);
-  const now = node?.range ? yaml.text.slice(node.range[0], node.range[1]).trim() : "";
+  const now = scalarText(lineText(yaml, at));
   const text = shape.more.key && now ? `{ ${shape.more.key}: ${now} }` : "{}";
   return (
     <button
@@ -313,13 +314,15 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
     const gone = is.fields.filter((one) => one.key !== is.key && !next.fields.some((other) => other.key === one.key));
     edit(apply(yaml.text, [...yaml.renameKey([...at, is.key], key), ...gone.flatMap((one) => yaml.remove([...at, one.key]))]));
   };
-  // What every case has before it, such as the name, stays in its place.
+  // The fields of every case, such as the name, stay in their place.
   const first = is ? fields.findIndex(({ key }) => key === is.key) : 0;
-  const part = (shapes: readonly FieldShape[]) => (
+  const part = (shapes: readonly FieldShape[], without: readonly FieldShape[] = []) => (
     <ObjectFields
       structure={structure}
       at={at}
       shapes={shapes}
+      without={without.map(({ key }) => key)}
+      strays={shapes.at(-1) === fields.at(-1)}
       always={fields.length <= fewFields ? "all" : []}
       help={help}
       {...(onEmpty ? { onEmpty } : {})}
@@ -328,7 +331,7 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
   return (
     <>
       <OwnProblem structure={structure} at={at} />
-      {part(fields.slice(0, first))}
+      {first > 0 && part(fields.slice(0, first))}
       {cases.length > 0 && (
         <Choice
           label="Kind"
@@ -340,7 +343,7 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
           onChange={choose}
         />
       )}
-      {part(fields.slice(first))}
+      {part(fields.slice(first), fields.slice(0, first))}
     </>
   );
 }

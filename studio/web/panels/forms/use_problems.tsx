@@ -5,7 +5,7 @@ import type { YamlPath } from "../../model/text/yaml_text";
 
 const none: never[] = [];
 
-/** What the check says about the value at a path; `own`: without what it says about the values inside. */
+/** The complaints of the check about the value at a path; `own`: without those about the values inside. */
 export function useProblems(structure: Structure): (at: YamlPath, own?: "own") => string | undefined {
   const studio = useStudio();
   // Positions of the text before are wrong.
@@ -13,7 +13,7 @@ export function useProblems(structure: Structure): (at: YamlPath, own?: "own") =
   return (at, own) => problemAt(structure.yaml, found, at, own !== undefined);
 }
 
-/** What the check says about a map or a list as a whole. */
+/** The complaints of the check about a map or a list as a whole. */
 export function OwnProblem({ structure, at }: { structure: Structure; at: YamlPath }) {
   const problem = useProblems(structure)(at, "own");
   return problem ? <p className="problem-hint">{problem}</p> : null;

@@ -7,6 +7,7 @@ import { lineText, listAsTyped, listAsWritten } from "../../model/text/list_text
 import { problemAt } from "../../model/text/problem_at";
 import type { Schema } from "../../model/text/schema_fields";
 import { fieldsFor, freshValue, shapeOf, type ValueShape } from "../../model/text/value_shape";
+import { makeTemplate } from "../../model/text/template_edits";
 import { apply, flowText, YamlText, type TextEdit, type YamlPath } from "../../model/text/yaml_text";
 
 const schema = schemaText as unknown as Schema;
@@ -190,6 +191,23 @@ it("limits and safe commands follow the type and the name of their buffer", () =
     "        safe:   { light: true }",
     "        limits: {}",
   ]);
+});
+
+it("an agent becomes a template of the same name, with its comments, unless its layout forbids it", () => {
+  const made = (text: string) => makeTemplate(readStructure(text), readStructure(text).agents[0]!);
+  const agent = "  a: # one\n    control: # it\n      rate: 5 Hz\n      behaviours: { run: {} } # last\n";
+  const body = "  a: { use: a }\n  b: { use: c }\n";
+  const others = "  b: { use: c }\n";
+  expect(made(`system: s\nagents:\n${agent}${others}\nchannels: []\n`)).toBe(
+    `system: s\nagents:\n${body}\nchannels: []\ntemplates:\n${agent}`,
+  );
+  expect(made(`templates:\n  c:\n    control: {}\n\nagents:\n${agent}${others}`)).toBe(
+    `templates:\n  c:\n    control: {}\n${agent}\nagents:\n${body}`,
+  );
+  expect(made(`agents:\n  a:\n    control: &x {}\n`)).toBeNull();
+  expect(made(`agents:\n    a:\n      control: {}\n`)).toBeNull();
+  expect(made(`agents:\n  a: { control: {} }\n`)).toBeNull();
+  expect(made(`agents:\n  a:\n    control: { when: "a && *b" } # &c\n`)).toMatch(/use: a/);
 });
 
 it("templates and communication models are renamed wherever they are used", () => {

@@ -63,7 +63,7 @@ export function InspectPanel() {
             Show its net
           </button>
         )}
-        {view === "net" && thing && (
+        {view === "net" && thing && !selected.startsWith("template:") && (
           <button className="link" onClick={() => studio.view.set({ view: "structure" })}>
             Show it in the structure
           </button>
@@ -75,7 +75,7 @@ export function InspectPanel() {
 
 /** The subsystem of the selected element, in the names of its memory: "robot[3].control". */
 function ownerOf(thing: Thing | undefined, selected: string): string {
-  if (thing?.kind === "agent" || thing?.kind === "channel") return "";
+  if (thing?.kind === "agent" || thing?.kind === "template" || thing?.kind === "channel") return "";
   return selected.split(".").slice(0, 2).join(".");
 }
 
@@ -109,6 +109,7 @@ function BreakpointButton({ at, text }: { at: Breakpoint; text: string }) {
 
 const kinds: Record<Thing["kind"], string> = {
   agent: "Agent",
+  template: "Template",
   subsystem: "Subsystem",
   behaviour: "Behaviour",
   buffer: "Buffer",
@@ -117,7 +118,11 @@ const kinds: Record<Thing["kind"], string> = {
 
 function title(thing: Thing | undefined, selected: string): string {
   if (thing?.kind === "channel") return "Channel";
-  const name = selected.split(".").at(-1) || "system";
+  const name =
+    selected
+      .replace(/^template:/, "")
+      .split(".")
+      .at(-1) || "system";
   return thing ? `${kinds[thing.kind]} ${name}` : name;
 }
 

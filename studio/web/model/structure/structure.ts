@@ -75,6 +75,7 @@ export interface Structure {
 }
 export type Thing =
   | { kind: "agent"; of: Agent }
+  | { kind: "template"; of: Agent }
   | { kind: "subsystem"; of: Subsystem; agent: Agent }
   | { kind: "behaviour"; of: Behaviour; subsystem: Subsystem }
   | { kind: "buffer"; of: Buffer; subsystem: Subsystem }
@@ -82,6 +83,9 @@ export type Thing =
 
 /** The path in the drawing: `robot[3].control` is drawn as `robot.control`. */
 export const withoutIndex = (path: string) => path.replace(/\[[^\]]*\]/g, "");
+
+/** A template is selected and shown like an agent of this name. */
+export const templatePath = (name: string) => `template:${name}`;
 
 export const channelPath = (index: number) => `channel:${index}`;
 
@@ -91,13 +95,22 @@ export function readStructure(text: string): Structure {
     yaml,
     system: yaml.valueText(["system"]) ?? "",
     types: yaml.keys(["types"]),
-    agents: yaml.keys(["agents"]).map((name) => readAgent(yaml, name)),
+    agents: yaml.keys(["agents"]).map((name) => readAgent(yaml, ["agents", name], name)),
     channels: (yaml.seq(["channels"])?.items ?? []).map((_, index) => readChannel(yaml, index)),
   };
 }
 
-function readAgent(yaml: YamlText, name: string): Agent {
-  const at = ["agents", name];
+/** The template of a name, with its subsystems; undefined: there is none. */
+export function readTemplate({ yaml }: Structure, name: string): Agent | undefined {
+  const at = ["templates", name];
+  return yaml.pair(at) && readAgent(yaml, at, templatePath(name));
+}
+
+/** The agents whose subsystems are at the same part of the file. */
+export const sharersOf = (structure: Structure, { body }: Agent) =>
+  structure.agents.filter((one) => one.body.join("/") === body.join("/"));
+
+function readAgent(yaml: YamlText, at: YamlPath, name: string): Agent {
   const template = yaml.valueText([...at, "use"]) ?? "";
   const body = bodyOf(yaml, at);
   const subsystems = [
@@ -207,7 +220,7 @@ function readChannel(yaml: YamlText, index: number): Channel {
 
 /**
  * The element that a path names: `robot`, `robot.control`, `robot.control.follow`,
- * `robot.control.line`, `channel:2`.
+ * `robot.control.line`, `channel:2`, `template:rover.control`.
  */
 export function findThing(structure: Structure, path: string): Thing | undefined {
   if (path.startsWith("channel:")) {
@@ -215,9 +228,11 @@ export function findThing(structure: Structure, path: string): Thing | undefined
     return of && { kind: "channel", of };
   }
   const [agentName, ...rest] = withoutIndex(path).split(".");
-  const agent = structure.agents.find((one) => one.name === agentName);
+  const template = /^template:(.*)$/.exec(agentName ?? "")?.[1];
+  const agent =
+    template === undefined ? structure.agents.find((one) => one.name === agentName) : readTemplate(structure, template);
   if (!agent || rest.length > 2) return undefined;
-  if (rest.length === 0) return { kind: "agent", of: agent };
+  if (rest.length === 0) return { kind: template === undefined ? "agent" : "template", of: agent };
   const subsystem = agent.subsystems.find((one) => one.name === rest[0]);
   if (!subsystem) return undefined;
   if (rest.length === 1) return { kind: "subsystem", of: subsystem, agent };

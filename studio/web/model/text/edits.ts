@@ -97,6 +97,24 @@ export function setChannel(structure: Structure, channel: Channel, change: Parti
   return done(structure, yaml.set(at, key, value === "non_blocking" ? "" : value));
 }
 
+/** Gives a channel a communication model of `models:`; empty: one of the built-in ones. */
+export function setModel(structure: Structure, channel: Channel, model: string): string {
+  const { yaml } = structure;
+  const at = ["channels", channel.index];
+  if (!model) return done(structure, yaml.remove([...at, "model"]));
+  if (channel.model) return done(structure, yaml.set(at, "model", model));
+  const { from, to, timeout } = channel;
+  const kept = yaml.keys(at).filter((key) => !["from", "to", "send", "receive", "timeout"].includes(key));
+  const parts = [
+    ["from", from],
+    ["to", to],
+    ["model", model],
+    ...(timeout ? [["timeout", timeout]] : []),
+    ...kept.map((key) => [key, yaml.valueText([...at, key]) ?? ""]),
+  ].map(([key, value]) => `${key}: ${scalarText(value!)}`);
+  return done(structure, yaml.replace(at, `{ ${parts.join(", ")} }`));
+}
+
 /** Sets the entries of `next` in order. A single unconditional entry is written in short form. */
 export function setNext(structure: Structure, behaviour: Behaviour, next: readonly { to: string; when: string }[]): string {
   const one = (entry: { to: string; when: string }) =>
@@ -134,7 +152,7 @@ export function renameAgent(structure: Structure, agent: Agent, name: string): s
 /** The text of all agents that share that part of the file. */
 function sharing(structure: Structure, body: YamlPath): string {
   const names = structure.agents.filter((agent) => agent.body.join("/") === body.join("/")).map((agent) => escaped(agent.name));
-  return `(?:${names.join("|")})`;
+  return names.length > 0 ? `(?:${names.join("|")})` : "(?!)";
 }
 
 const bodyOf = (subsystem: Subsystem): YamlPath => subsystem.yaml.slice(0, 2);
@@ -217,6 +235,32 @@ const subsystemPaths = (yaml: Structure["yaml"], agent: YamlPath): YamlPath[] =>
 const distinct = (edits: readonly TextEdit[]) =>
   edits.filter(({ from }, at) => edits.findIndex((one) => one.from === from) === at);
 
+/** The safe command and the limits of a real buffer. */
+function deviceEntries({ yaml }: Structure, subsystem: Subsystem, { direction, name }: Buffer): YamlPath[] {
+  if (direction !== "real") return [];
+  return ["safe", "limits"].flatMap((part) =>
+    yaml
+      .keys([...subsystem.yaml, part])
+      .filter((key) => key === name || key.startsWith(`${name}.`))
+      .map((key) => [...subsystem.yaml, part, key]),
+  );
+}
+
+/** Renames a template or a communication model, and the name where it is used. */
+export function renameUsed(text: string, part: "templates" | "models", from: string, to: string): string {
+  const structure = readStructure(text);
+  const { yaml } = structure;
+  const used =
+    part === "models"
+      ? structure.channels.map(({ index }) => ["channels", index, "model"])
+      : ["agents", "templates"].flatMap((at) => yaml.keys([at]).map((name) => [at, name, "use"]));
+  const whole = new RegExp(`^(["']?)${escaped(from)}\\1$`);
+  return apply(text, [
+    ...yaml.renameKey([part, from], to),
+    ...used.flatMap((at) => yaml.replaceWithin(yaml.node(at), whole, `$1${to}$1`)),
+  ]);
+}
+
 export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer: Buffer, name: string): string {
   const { yaml } = structure;
   const side = buffer.direction === "input" ? "in" : "out";
@@ -227,7 +271,8 @@ export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer:
     ...yaml.renameKey(buffer.yaml, name),
     ...renamePaths(structure, memberPattern(structure, subsystem, buffer.name), `$1.${name}`),
   ];
-  if (buffer.direction === "real") edits.push(...yaml.renameKey([...subsystem.yaml, "safe", buffer.name], name));
+  for (const at of deviceEntries(structure, subsystem, buffer))
+    edits.push(...yaml.renameKey(at, name + String(at.at(-1)).slice(buffer.name.length)));
   for (const behaviour of subsystem.behaviours)
     visit(yaml.node(behaviour.yaml) ?? null, {
       Scalar: (key, scalar, ancestors) => {
@@ -290,7 +335,11 @@ export function removeBuffer(
 ): string {
   return removeAll(
     structure,
-    [buffer.yaml, ...dependents(structure, everywhere(structure, subsystem, `.${buffer.name}`))],
+    [
+      buffer.yaml,
+      ...deviceEntries(structure, subsystem, buffer),
+      ...dependents(structure, everywhere(structure, subsystem, `.${buffer.name}`)),
+    ],
     reread,
   );
 }

@@ -1,6 +1,7 @@
 /** The parts of JSON Schema with which the schema of specifications describes values. */
 export interface Schema {
   $ref?: string;
+  title?: string;
   description?: string;
   type?: string | readonly string[];
   enum?: readonly unknown[];
@@ -9,6 +10,12 @@ export interface Schema {
   properties?: { readonly [key: string]: Schema };
   required?: readonly string[];
   anyOf?: readonly Schema[];
+  oneOf?: readonly Schema[];
+  if?: Schema;
+  then?: Schema;
+  else?: Schema;
+  examples?: readonly unknown[];
+  propertyNames?: Schema;
   prefixItems?: readonly Schema[];
   items?: Schema | false;
   minimum?: number;
@@ -21,10 +28,13 @@ export interface Schema {
 /** One key of a map, as a field of a form. */
 export interface FieldShape {
   key: string;
+  /** Its label, if that is not made from the key. */
+  title?: string;
   description: string;
   required: boolean;
   /** The possible values; empty: any text. */
   choices: readonly string[];
+  schema: Schema;
   /** The length of a list with a field for each value; 0: it is none. */
   parts: number;
   /** A list of any length: its values are written with commas between them. */
@@ -47,7 +57,7 @@ export function resolved(schema: Schema, root: Schema): Schema {
 const kindsOf = (schema: Schema) => (typeof schema.type === "string" ? [schema.type] : (schema.type ?? []));
 
 /** Whether a text, in the form of the file, is a value of the schema. It judges only what fields need. */
-function accepts(schema: Schema, root: Schema, text: string): boolean {
+export function accepts(schema: Schema, root: Schema, text: string): boolean {
   const { anyOf, enum: values, const: one, pattern, minimum, maximum, ...rest } = resolved(schema, root);
   if (anyOf) return anyOf.some((each) => accepts(each, root, text));
   if (values) return values.map(String).includes(text);
@@ -61,16 +71,19 @@ function accepts(schema: Schema, root: Schema, text: string): boolean {
   return kinds.length === 0 || kinds.includes("array") || kinds.includes("object");
 }
 
-function fieldOf(key: string, schema: Schema, root: Schema, required: boolean): FieldShape {
-  const { description = "", enum: values, prefixItems, anyOf, type } = resolved(schema, root);
+export function fieldOf(key: string, schema: Schema, root: Schema, required: boolean): FieldShape {
+  const { title, description = "", enum: several, const: one, prefixItems, anyOf, type } = resolved(schema, root);
+  const values = several ?? (one === undefined ? undefined : [one]);
   const flag = type === "boolean";
   const list = [resolved(schema, root), ...(anyOf ?? []).map((one) => resolved(one, root))].some(
     (one) => one.type === "array" && !one.prefixItems,
   );
   return {
     key,
+    ...(title ? { title } : {}),
     description,
     required,
+    schema,
     choices: values ? values.map(String) : flag ? ["true", "false"] : [],
     parts: prefixItems?.length ?? 0,
     list,

@@ -21,8 +21,8 @@ import {
  */
 
 export type YamlPath = readonly (string | number)[];
-/** A new value: a scalar or flow text as it is to appear in the file, or a map of such values. */
-export type Value = string | { [key: string]: Value };
+/** A new value: a scalar or flow text as it is to appear in the file, or a map or list of such values. */
+export type Value = string | readonly Value[] | { readonly [key: string]: Value };
 export interface TextEdit {
   from: number;
   to: number;
@@ -98,8 +98,29 @@ export class YamlText {
 
   endLine(path: YamlPath): number {
     const pair = this.pair(path);
-    const end = pair ? endOf(pair) : (this.node(path)?.range?.[1] ?? 0);
+    const end = pair ? this.endOf(pair) : (this.node(path)?.range?.[1] ?? 0);
     return this.lines.linePos(Math.max(0, end - 1)).line;
+  }
+
+  /** The value at a path as data, with empty maps and lists inside; undefined: there is none, or an alias. */
+  data(path: YamlPath): unknown {
+    const plain = (node: unknown) => (isScalar(node) ? node.value : isMap(node) ? {} : isSeq(node) ? [] : null);
+    const node = this.node(path);
+    if (isMap(node)) return Object.fromEntries(node.items.map((pair) => [keyText(pair), plain(pair.value)]));
+    return isSeq(node) ? node.items.map(plain) : isScalar(node) ? node.value : undefined;
+  }
+
+  /** The characters of the entry or item at a path, with its key; null: not there. */
+  range(path: YamlPath): [number, number] | null {
+    const pair = this.pair(path);
+    if (pair) return [pair.key.range![0], this.endOf(pair)];
+    const node = this.node(path);
+    return node?.range ? [node.range[0], this.endOf(node)] : null;
+  }
+
+  /** The offset of a line and a column, both from 1. */
+  offset(line: number, column: number): number {
+    return (this.lines.lineStarts[line - 1] ?? this.text.length) + column - 1;
   }
 
   // ---------------------------------------------------------------------------------------------- edits
@@ -110,16 +131,22 @@ export class YamlText {
     if (!map) return this.insertMap(path, key, value);
     if (map.items.length === 0) return this.replaceWith(path, { [key]: value });
     if (map.flow) {
-      const at = endOf(map.items.at(-1)!);
-      return [{ from: at, to: at, insert: `, ${key}: ${flow(value)}` }];
+      const at = this.endOf(map.items.at(-1)!);
+      return [{ from: at, to: at, insert: `, ${key}: ${flowText(value)}` }];
     }
     const indent = this.columnOf(map.items[0]!.key.range![0]);
-    return [this.afterLine(endOf(map.items.at(-1)!), `${" ".repeat(indent)}${key}:${block(value, indent)}`)];
+    return [this.afterLine(this.endOf(map.items.at(-1)!), `${" ".repeat(indent)}${key}:${block(value, indent)}`)];
+  }
+
+  /** Whether the path leads to an item of a list. */
+  private itemOf(path: YamlPath): boolean {
+    return typeof path.at(-1) === "number" && this.seq(path.slice(0, -1)) !== undefined;
   }
 
   private insertMap(path: YamlPath, key: string, value: Value): TextEdit[] {
     const inside = { [key]: value };
     if (this.pair(path)) return this.replaceWith(path, inside);
+    if (this.itemOf(path)) return this.replace(path, flowText(inside));
     return this.insert(path.slice(0, -1), String(path.at(-1)), inside);
   }
 
@@ -130,14 +157,20 @@ export class YamlText {
     const inFlow = this.map(path.slice(0, -1))?.flow === true;
     const [from, to] = this.valueRange(pair);
     const indent = this.columnOf(pair.key.range![0]);
-    const insert = inFlow || typeof value === "string" ? ` ${flow(value)}` : block(value, indent);
-    return [{ from, to, insert }];
+    const insert = inFlow || typeof value === "string" ? ` ${flowText(value)}` : block(value, indent);
+    return [{ from, to, insert: from === pair.key.range![1] ? `:${insert}` : insert }];
+  }
+
+  /** The position after the colon of an entry, or after the key of one without a colon: `{ in, out }`. */
+  private colonOf({ key }: PairOf): number {
+    const end = key.range![1];
+    return end + (/^[ \t]*:/.exec(this.text.slice(end))?.[0].length ?? 0);
   }
 
   /** The range from after the colon to the end of the value. */
   private valueRange(pair: PairOf): [number, number] {
-    const colon = this.text.indexOf(":", pair.key.range![1]) + 1;
-    return [colon, Math.max(colon, pair.value?.range ? endOf(pair) : colon)];
+    const colon = this.colonOf(pair);
+    return [colon, Math.max(colon, pair.value?.range ? this.endOf(pair) : colon)];
   }
 
   /**
@@ -150,13 +183,13 @@ export class YamlText {
     if (text.trim() === "") return pair ? this.remove(at) : [];
     if (!pair) return this.insert(path, key, as(text));
     if (!pair.value?.range || pair.value.range[0] === pair.value.range[1]) return this.replaceWith(at, as(text));
-    return [{ from: pair.value.range[0], to: endOf(pair), insert: as(text) }];
+    return [{ from: pair.value.range[0], to: this.endOf(pair), insert: as(text) }];
   }
 
   /** Replaces the scalar or collection at a path. */
   replace(path: YamlPath, text: string): TextEdit[] {
     const node = this.node(path);
-    return node?.range ? [{ from: node.range[0], to: endOfNode(node), insert: text }] : [];
+    return node?.range ? [{ from: node.range[0], to: this.endOfNode(node), insert: text }] : [];
   }
 
   renameKey(path: YamlPath, name: string): TextEdit[] {
@@ -176,13 +209,16 @@ export class YamlText {
     if (items.length === 1 && !parent.flow) return path.length > 1 ? this.remove(path.slice(0, -1)) : [];
     if (parent.flow) return [this.removeFromFlow(items, at, parent as Node)];
     const start = this.text.lastIndexOf("\n", startOf(item) - 1) + 1;
-    const end = this.text.indexOf("\n", endOf(item));
+    // The first entry of an item of a list stands behind the dash: the next one takes its place.
+    if (isPair(item) && this.text.slice(start, startOf(item)).trim() !== "")
+      return [{ from: startOf(item), to: startOf(items[at + 1]!), insert: "" }];
+    const end = this.text.indexOf("\n", this.endOf(item));
     return [{ from: start, to: end < 0 ? this.text.length : end + 1, insert: "" }];
   }
 
   private removeFromFlow(items: (PairOf | Node)[], at: number, parent: Node): TextEdit {
     if (items.length === 1) return { from: parent.range![0], to: parent.range![1], insert: isMap(parent) ? "{}" : "[]" };
-    if (at > 0) return { from: endOf(items[at - 1]!), to: endOf(items[at]!), insert: "" };
+    if (at > 0) return { from: this.endOf(items[at - 1]!), to: this.endOf(items[at]!), insert: "" };
     return { from: startOf(items[0]!), to: startOf(items[1]!), insert: "" };
   }
 
@@ -190,16 +226,16 @@ export class YamlText {
   append(path: YamlPath, item: string): TextEdit[] {
     const list = this.seq(path);
     if (!list || list.items.length === 0) {
-      const pair = this.pair(path);
-      if (pair) return [{ from: this.valueRange(pair)[0], to: this.valueRange(pair)[1], insert: `\n  - ${item}` }];
+      if (this.pair(path)) return this.replaceWith(path, [item]);
+      if (path.length > 1) return this.insert(path.slice(0, -1), String(path.at(-1)), [item]);
       const end = this.text.length;
       const gap = this.text.endsWith("\n") ? "\n" : "\n\n";
       return [{ from: end, to: end, insert: `${gap}${String(path.at(-1))}:\n  - ${item}\n` }];
     }
     const last = list.items.at(-1)!;
-    if (list.flow) return [{ from: endOf(last), to: endOf(last), insert: `, ${item}` }];
+    if (list.flow) return [{ from: this.endOf(last), to: this.endOf(last), insert: `, ${item}` }];
     const dash = this.text.lastIndexOf("-", startOf(last));
-    return [this.afterLine(endOf(last), `${" ".repeat(this.columnOf(dash))}- ${item}`)];
+    return [this.afterLine(this.endOf(last), `${" ".repeat(this.columnOf(dash))}- ${item}`)];
   }
 
   /** Replaces matching parts of a scalar in place. */
@@ -209,6 +245,19 @@ export class YamlText {
     const now = this.text.slice(from, to);
     const then = now.replace(pattern, by);
     return now === then ? [] : [{ from, to, insert: then }];
+  }
+
+  /** The end of an entry, without the comments and empty lines after it. */
+  private endOf(item: PairOf | Node): number {
+    if (!isPair(item)) return this.endOfNode(item as Node);
+    const { key, value } = item as PairOf;
+    if (value?.range && value.range[1] > key.range![1]) return this.endOfNode(value);
+    return this.colonOf(item as PairOf);
+  }
+
+  private endOfNode(node: Node): number {
+    if (isCollection(node) && !node.flow && node.items.length > 0) return this.endOf(node.items.at(-1) as PairOf | Node);
+    return node.range![1];
   }
 
   private columnOf(offset: number): number {
@@ -228,29 +277,22 @@ function startOf(item: PairOf | Node): number {
   return isPair(item) ? (item as PairOf).key.range![0] : (item as Node).range![0];
 }
 
-/** The end of an entry, without the comments and empty lines after it. */
-function endOf(item: PairOf | Node): number {
-  if (!isPair(item)) return endOfNode(item as Node);
-  const { key, value } = item as PairOf;
-  if (value?.range && value.range[1] > key.range![1]) return endOfNode(value);
-  return key.range![1] + 1;
-}
+const isList = (value: Value): value is readonly Value[] => Array.isArray(value);
 
-function endOfNode(node: Node): number {
-  if (isCollection(node) && !node.flow && node.items.length > 0) return endOf(node.items.at(-1) as PairOf | Node);
-  return node.range![1];
-}
-
-function flow(value: Value): string {
+/** A value as text in one line. */
+export function flowText(value: Value): string {
   if (typeof value === "string") return value;
-  const entries = Object.entries(value).map(([key, one]) => `${key}: ${flow(one)}`);
+  if (isList(value)) return `[${value.map(flowText).join(", ")}]`;
+  const entries = Object.entries(value).map(([key, one]) => `${key}: ${flowText(one)}`);
   return entries.length === 0 ? "{}" : `{ ${entries.join(", ")} }`;
 }
 
-/** The text after the colon: maps that contain maps as blocks, others in one line. */
+/** The text after the colon: maps that contain maps as blocks, others in one line; items in lines of their own. */
 function block(value: Value, indent: number): string {
   if (typeof value === "string") return ` ${value}`;
+  const start = `\n${" ".repeat(indent + 2)}`;
+  if (isList(value)) return value.map((one) => `${start}- ${flowText(one)}`).join("");
   const entries = Object.entries(value);
   if (entries.length === 0) return " {}";
-  return entries.map(([key, one]) => `\n${" ".repeat(indent + 2)}${key}:${block(one, indent + 2)}`).join("");
+  return entries.map(([key, one]) => `${start}${key}:${block(one, indent + 2)}`).join("");
 }

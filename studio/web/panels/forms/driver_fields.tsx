@@ -1,13 +1,17 @@
 import { useStudio } from "../../hooks/use";
-import { driverKinds, type DriverKind } from "../../model/text/schema_fields";
+import { driverKinds, type DriverKind, type FieldShape } from "../../model/text/schema_fields";
+import { listAsTyped, listAsWritten } from "../../model/text/list_text";
+import { fieldsFor } from "../../model/text/value_shape";
 import type { Structure } from "../../model/structure/structure";
 import { withoutIndex } from "../../model/structure/structure";
 import { apply, type YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { MapForm } from "./map_form";
-import { listAsTyped, listAsWritten, ObjectFields } from "./object_fields";
+import { ObjectFields } from "./object_fields";
+import { driverHelp } from "./form_help";
 import { schema } from "./schema";
-import { useTargets, type Targets } from "./targets";
+import { OwnProblem, useProblems } from "./use_problems";
+import type { Targets } from "./targets";
 
 const kinds = driverKinds(schema);
 
@@ -33,9 +37,14 @@ const fitting = (side: string | undefined, where: "world" | "robot") =>
 const firstTarget = (kind: DriverKind, targets: Targets) =>
   ({ cpp: "Device", panel: "true", ros2: "/topic" })[kind.kind] ?? targets[kind.kind]?.[0] ?? "name";
 
+interface DriversFormProps {
+  structure: Structure;
+  where: "world" | "robot";
+  targets: Targets;
+}
+
 /** The drivers of one section: the device behind each real buffer. */
-export function DriversForm({ structure, where }: { structure: Structure; where: "world" | "robot" }) {
-  const targets = useTargets();
+export function DriversForm({ structure, where, targets }: DriversFormProps) {
   const at: YamlPath = where === "world" ? ["simulation", "drivers"] : ["drivers"];
   const driven = structure.yaml.keys(at);
   const buffers = realBuffers(structure);
@@ -48,7 +57,7 @@ export function DriversForm({ structure, where }: { structure: Structure; where:
       at={at}
       title={where === "world" ? "Drivers in the world" : "Drivers of the real robot"}
       one="driver"
-      paths
+      wrong={() => undefined}
       names={buffers.map(({ path }) => path)}
       fresh={{
         name: free?.path ?? "robot.sensor.device",
@@ -58,6 +67,12 @@ export function DriversForm({ structure, where }: { structure: Structure; where:
       {...(buffers.length === 0 ? { hint: "A driver is the device behind a real buffer of a receptor or an effector" } : {})}
     />
   );
+}
+
+/** The fields of a driver as it is now: those of a topic are not those of a service. */
+function optionsOf({ kind, options }: DriverKind, value: unknown): readonly FieldShape[] {
+  const definition = { ros2: "ros2_device", panel: "panel_device" }[kind];
+  return definition ? fieldsFor({ $ref: `#/$defs/${definition}` }, schema, value) : options;
 }
 
 interface DriverFieldsProps {
@@ -71,6 +86,7 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
   const studio = useStudio();
   const { yaml } = structure;
   const edit = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
+  const problem = useProblems(structure);
   const keys = yaml.keys(at);
   const is = kinds.find(({ kind }) => keys.includes(kind));
   const possible = fitting(sideOf(structure, String(at.at(-1))), where);
@@ -96,14 +112,26 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
       />
       {is && (
         <>
-          <Field
-            label="Device"
-            value={listAsTyped(target)}
-            hint={is.description}
-            choices={targets[is.kind] ?? []}
-            onChange={(text) => text.trim() && edit(yaml.set(at, is.kind, text, listAsWritten))}
+          <OwnProblem structure={structure} at={at} />
+          {is.kind !== "panel" && (
+            <Field
+              label="Device"
+              value={listAsTyped(target)}
+              hint={is.description}
+              choices={targets[is.kind] ?? []}
+              problem={problem([...at, is.kind])}
+              onChange={(text) => text.trim() && edit(yaml.set(at, is.kind, text, listAsWritten))}
+            />
+          )}
+          <ObjectFields
+            structure={structure}
+            at={at}
+            shapes={optionsOf(is, yaml.data(at))}
+            without={is.kind === "panel" ? [] : [is.kind]}
+            open={is.open}
+            strays
+            help={driverHelp}
           />
-          <ObjectFields structure={structure} at={at} shapes={is.options} without={[is.kind]} open={is.open} />
         </>
       )}
     </>

@@ -3,27 +3,33 @@ import {
   readStructure,
   type Agent,
   type Buffer,
-  type Channel,
   type Structure,
   type Subsystem,
   type Thing,
 } from "../../model/structure/structure";
-import { fieldsOf, type FieldShape } from "../../model/text/schema_fields";
-import type { YamlPath } from "../../model/text/yaml_text";
+import { fieldOf, fieldsOf, type FieldShape } from "../../model/text/schema_fields";
+import { makeTemplate } from "../../model/text/template_edits";
+import { limitNames, titled } from "../../model/structure/inside_types";
 import { BehaviourForm } from "./behaviour_form";
+import { ChannelForm } from "./channel_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, SharedNote, useEdit } from "./form_parts";
 import { ConnectForm } from "./connect_form";
+import { limitHelp, limitsHelp, safeHelp } from "./form_help";
 import { ObjectFields } from "./object_fields";
 import { ParameterFields } from "./parameter_fields";
 import { schema } from "./schema";
 import { MemoryFields, TypeInputs } from "./type_fields";
+import { AddSubsystem, TemplateForm, TemplateLink } from "./templates_form";
 import { MapForm } from "./map_form";
+import { OwnProblem } from "./use_problems";
 
 export function EditForm({ structure, thing }: { structure: Structure; thing: Thing }) {
   switch (thing.kind) {
     case "agent":
       return <AgentForm structure={structure} agent={thing.of} />;
+    case "template":
+      return <TemplateForm structure={structure} template={thing.of} />;
     case "subsystem":
       return <SubsystemForm structure={structure} subsystem={thing.of} agent={thing.agent} />;
     case "behaviour":
@@ -35,15 +41,12 @@ export function EditForm({ structure, thing }: { structure: Structure; thing: Th
   }
 }
 
-const otherOptions = ["overrun", "watchdog", "non_finite", "recovery"];
+/** Keys of a subsystem that have fields of their own. Every other one is shown as the schema describes it. */
+const shownAlone = "rate start stale inputs outputs real behaviours memory parameters safe limits".split(" ");
 
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
-  const names = agent.subsystems.map((one) => one.name);
-  const add = (kind: Subsystem["kind"]) => {
-    const name = kind === "control" ? "control" : edits.freeName(kind === "receptor" ? "sensor" : "motor", names);
-    edit(edits.addSubsystem(structure, agent, kind, name), `${agent.name}.${name}`);
-  };
+  const template = makeTemplate(structure, agent);
   return (
     <>
       <Field
@@ -59,7 +62,7 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
         label="How many"
         value={agent.count}
         placeholder="one"
-        hint="A fleet of equal agents"
+        hint={agent.template ? "A fleet of equal agents" : "A fleet of equal agents needs a template"}
         onChange={(text) => edit(edits.setField(structure, agent.yaml, "count", text))}
       />
       <Field
@@ -81,10 +84,10 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
         />
       )}
       <SharedNote structure={structure} agent={agent} />
+      {agent.template && <TemplateLink name={agent.template} />}
       <div className="buttons">
-        {!names.includes("control") && <button onClick={() => add("control")}>Add control</button>}
-        <button onClick={() => add("receptor")}>Add receptor</button>
-        <button onClick={() => add("effector")}>Add effector</button>
+        <AddSubsystem structure={structure} agent={agent} />
+        {template !== null && <button onClick={() => edit(template, agent.name)}>Make it a template</button>}
         <Remove
           what="agent"
           structure={structure}
@@ -173,24 +176,49 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         fields={(name) => <ParameterFields structure={structure} at={[...subsystem.yaml, "parameters", name]} />}
       />
       {subsystem.kind === "effector" && subsystem.buffers.some(({ direction }) => direction === "real") && (
-        <MapForm
+        <ObjectFields
           structure={structure}
-          at={[...subsystem.yaml, "safe"]}
-          title="Safe command"
-          one="safe value"
-          fresh={{ name: subsystem.buffers.find(({ direction }) => direction === "real")!.name, value: "0" }}
-          hint="The command that the devices get when the subsystem stops or fails"
+          at={subsystem.yaml}
+          shapes={[safeField(structure, subsystem), limits]}
+          always="all"
+          help={{ ...safeHelp(subsystem), ...limitsHelp(structure, subsystem) }}
         />
       )}
     </>
   );
 }
 
-/** Keys of a subsystem that have no form of their own, and hold no map. */
+const limits = fieldsOf({ $ref: "#/$defs/effector" }, schema).find(({ key }) => key === "limits")!;
+const limitFields = fieldsOf({ $ref: "#/$defs/effector/properties/limits/additionalProperties" }, schema);
+
+/** The safe command: a value for each real buffer, in the fields of its type. */
+function safeField(structure: Structure, { buffers }: Subsystem): FieldShape {
+  const real = buffers.filter(({ direction }) => direction === "real");
+  const properties = Object.fromEntries(real.map(({ name, type }) => [name, titled(name, type, structure)]));
+  return fieldOf("safe", { type: "object", properties, additionalProperties: false }, schema, false);
+}
+
+/** The limits of a real buffer that is a number or an array of numbers. */
+function LimitsForm({ structure, subsystem, buffer }: { structure: Structure; subsystem: Subsystem; buffer: Buffer }) {
+  const edges =
+    subsystem.kind === "effector" && buffer.direction === "real" && limitNames(structure, buffer).includes(buffer.name);
+  if (!edges) return null;
+  const at = [...subsystem.yaml, "limits", buffer.name];
+  return (
+    <fieldset className="entry" aria-label="Limits">
+      <legend>Limits</legend>
+      <OwnProblem structure={structure} at={at} />
+      <div className="compact">
+        <ObjectFields structure={structure} at={at} shapes={limitFields} always="all" help={limitHelp} onEmpty={() => {}} />
+      </div>
+    </fieldset>
+  );
+}
+
 const optionsOf = Object.fromEntries(
   (["control", "receptor", "effector"] as const).map((kind) => [
     kind,
-    fieldsOf({ $ref: `#/$defs/${kind}` }, schema).filter(({ key }) => otherOptions.includes(key)),
+    fieldsOf({ $ref: `#/$defs/${kind}` }, schema).filter(({ key }) => !shownAlone.includes(key)),
   ]),
 ) as Record<Subsystem["kind"], FieldShape[]>;
 
@@ -208,6 +236,7 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
         onChange={(name) => edit(edits.renameBuffer(structure, subsystem, buffer, name), `${subsystem.path}.${name}`)}
       />
       <TypeInputs structure={structure} value={buffer.type} onChange={(type) => edit(edits.setType(structure, buffer, type))} />
+      <LimitsForm structure={structure} subsystem={subsystem} buffer={buffer} />
       <ConnectForm key={buffer.path} structure={structure} buffer={buffer} />
       <div className="buttons">
         <Remove
@@ -216,54 +245,6 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
           at={buffer.yaml}
           after={() => edits.removeBuffer(structure, subsystem, buffer, readStructure)}
           onClick={(text) => edit(text, subsystem.path)}
-        />
-      </div>
-    </>
-  );
-}
-
-const modes = [
-  { value: "non_blocking", title: "goes on at once" },
-  { value: "blocking", title: "waits (blocking)" },
-] as const;
-
-function ChannelForm({ structure, channel }: { structure: Structure; channel: Channel }) {
-  const edit = useEdit();
-  const at: YamlPath = ["channels", channel.index];
-  const set = (change: Partial<edits.ChannelModes>) => edit(edits.setChannel(structure, channel, change));
-  return (
-    <>
-      <dl>
-        <dt>From</dt>
-        <dd className="path">{channel.from}</dd>
-        <dt>To</dt>
-        <dd className="path">{channel.to}</dd>
-      </dl>
-      {channel.model ? (
-        <Field
-          label="Communication model"
-          value={channel.model}
-          onChange={(text) => edit(edits.setField(structure, at, "model", text))}
-        />
-      ) : (
-        <>
-          <Choice label="The sender" value={channel.send} choices={modes} onChange={(send) => set({ send })} />
-          <Choice label="The receiver" value={channel.receive} choices={modes} onChange={(receive) => set({ receive })} />
-          <Field
-            label="Timeout of a side that waits"
-            value={channel.timeout}
-            placeholder="waits for ever"
-            onChange={(timeout) => set({ timeout })}
-          />
-        </>
-      )}
-      <div className="buttons">
-        <Remove
-          what="channel"
-          structure={structure}
-          at={at}
-          after={() => edits.removeChannel(structure, channel)}
-          onClick={(text) => edit(text, null)}
         />
       </div>
     </>

@@ -12,19 +12,22 @@ interface FieldProps {
   mono?: boolean;
   /** The reason why a text is not accepted; undefined: it is. */
   wrong?: (text: string) => string | undefined;
+  /** The complaint of the check about the value. */
+  problem?: string | undefined;
   onChange: (text: string) => void;
 }
 
 /**
  * A text field whose value takes effect when the field is left or on Enter; Escape restores the old value.
  */
-export function Field({ label, of, value, hint, placeholder, choices, mono, wrong, onChange }: FieldProps) {
+export function Field({ label, of, value, hint, placeholder, choices, mono, wrong, problem: found, onChange }: FieldProps) {
   const id = useId();
   const [text, setText] = useState(value);
   useEffect(() => setText(value), [value]);
-  const problem = text === value ? undefined : wrong?.(text);
+  const refused = text === value ? undefined : wrong?.(text);
+  const problem = text === value ? found : refused;
   const take = () => {
-    if (text !== value && !problem) onChange(text);
+    if (text !== value && !refused) onChange(text);
   };
   const key = (event: KeyboardEvent<HTMLInputElement>) => {
     if (event.key === "Enter") take();
@@ -34,7 +37,7 @@ export function Field({ label, of, value, hint, placeholder, choices, mono, wron
   };
   return (
     <div className="field">
-      <Label id={id} label={label} of={of} />
+      <Label id={id} label={label} of={of} tip={hint} />
       <input
         id={id}
         type="text"
@@ -57,18 +60,23 @@ export function Field({ label, of, value, hint, placeholder, choices, mono, wron
           ))}
         </datalist>
       )}
-      {(problem || hint) && (
-        <p id={`${id}-hint`} className={problem ? "problem-hint" : "faint"}>
-          {problem ?? hint}
-        </p>
-      )}
+      <Hint id={id} hint={hint} problem={problem} />
     </div>
   );
 }
 
-function Label({ id, label, of }: { id: string; label: string; of: string | undefined }) {
+function Hint({ id, hint, problem }: { id: string; hint: string | undefined; problem: string | undefined }) {
+  if (!problem && !hint) return null;
   return (
-    <label htmlFor={id}>
+    <p id={`${id}-hint`} className={problem ? "problem-hint" : "faint"}>
+      {problem ?? hint}
+    </p>
+  );
+}
+
+function Label({ id, label, of, tip }: { id: string; label: string; of: string | undefined; tip: string | undefined }) {
+  return (
+    <label htmlFor={id} title={tip}>
       {label}
       {of && <span className="visually-hidden"> {of}</span>}
     </label>
@@ -80,25 +88,36 @@ export function Choice<T extends string>({
   of,
   value,
   choices,
+  hint,
+  problem,
   onChange,
 }: {
   label: string;
   of?: string;
   value: T;
   choices: readonly { value: T; title: string }[];
+  hint?: string;
+  problem?: string | undefined;
   onChange: (value: T) => void;
 }) {
   const id = useId();
   return (
     <div className="field">
-      <Label id={id} label={label} of={of} />
-      <select id={id} value={value} onChange={(event) => onChange(event.target.value as T)}>
+      <Label id={id} label={label} of={of} tip={hint} />
+      <select
+        id={id}
+        value={value}
+        aria-invalid={problem !== undefined}
+        aria-describedby={problem || hint ? `${id}-hint` : undefined}
+        onChange={(event) => onChange(event.target.value as T)}
+      >
         {choices.map((choice) => (
           <option key={choice.value} value={choice.value}>
             {choice.title}
           </option>
         ))}
       </select>
+      <Hint id={id} hint={hint} problem={problem} />
     </div>
   );
 }

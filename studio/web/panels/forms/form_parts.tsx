@@ -2,7 +2,7 @@ import { useState } from "react";
 import { useStudio } from "../../hooks/use";
 import { changedLines } from "../../model/text/changed_lines";
 import { isName } from "../../model/text/edits";
-import type { Agent, Structure, Subsystem } from "../../model/structure/structure";
+import { sharersOf, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";
 
 /** Why a name cannot be used for an element beside those that exist. */
@@ -67,7 +67,15 @@ interface RemoveProps {
 
 /** Tells the user that a change of a template changes all agents that use it. */
 export function SharedNote({ structure, agent }: { structure: Structure; agent: Agent }) {
-  const others = structure.agents.filter((one) => one.name !== agent.name && one.body.join("/") === agent.body.join("/"));
+  const others = sharersOf(structure, agent).filter((one) => one.name !== agent.name);
+  if (agent.yaml[0] === "templates")
+    return (
+      <p className="shared-note">
+        {others.length > 0
+          ? `A change of this template changes ${others.map(({ name, count }) => (count ? `all ${count} members of ${name}` : name)).join(", ")}.`
+          : "No agent uses this template."}
+      </p>
+    );
   if (!agent.template) return null;
   return (
     <p className="shared-note">

@@ -2,9 +2,10 @@ import { useState, type ReactNode } from "react";
 import { useStudio } from "../../hooks/use";
 import { freeName } from "../../model/text/edits";
 import type { Structure } from "../../model/structure/structure";
-import { apply, scalarText, type YamlPath } from "../../model/text/yaml_text";
+import { apply, scalarText, type Value, type YamlPath } from "../../model/text/yaml_text";
 import { Field } from "./field";
 import { nameProblem } from "./form_parts";
+import { OwnProblem, useProblems } from "./use_problems";
 
 interface MapFormProps {
   structure: Structure;
@@ -14,10 +15,10 @@ interface MapFormProps {
   /** The word for one entry: "type". */
   one: string;
   /** A new entry, as text of the file; none: entries are not added here. */
-  fresh?: { name: string; value: string };
+  fresh?: { name: string; value: Value };
   hint?: string;
-  /** Names are paths and not plain names. */
-  paths?: boolean;
+  /** Why a name cannot be used; plain names can, unless this says otherwise. */
+  wrong?: (name: string) => string | undefined;
   /** Proposals while a name is typed. */
   names?: readonly string[];
   /** Entries that are shown elsewhere. */
@@ -26,11 +27,17 @@ interface MapFormProps {
   renamed?: (text: string, from: string, to: string) => string;
   /** The fields of an entry; without them it is shown as text. */
   fields?: (name: string) => ReactNode;
+  /** Entries are opened one at a time. */
+  folds?: boolean;
+  /** Whether an entry is shown in one line in spite of `fields`. */
+  line?: (name: string) => boolean;
+  /** The field of such an entry, if it is more than its text. */
+  field?: (name: string) => ReactNode;
 }
 
 /** The entries of a map of the specification: each has a name, and fields or a value. */
 export function MapForm(props: MapFormProps) {
-  const { structure, at, title, one, fresh, hint, paths, without = [] } = props;
+  const { structure, at, title, one, fresh, hint, without = [] } = props;
   const studio = useStudio();
   const { yaml } = structure;
   const [opened, open] = useState<string | null>(null);
@@ -38,6 +45,7 @@ export function MapForm(props: MapFormProps) {
   return (
     <fieldset className="map-form">
       <legend>{title}</legend>
+      <OwnProblem structure={structure} at={at} />
       {taken
         .filter((name) => !without.includes(name))
         .map((name) => (
@@ -48,7 +56,7 @@ export function MapForm(props: MapFormProps) {
         <button
           onClick={() => {
             const name = freeName(fresh.name, taken);
-            studio.draft.edit(apply(yaml.text, yaml.insert(at, paths ? scalarText(name) : name, fresh.value)), "edit");
+            studio.draft.edit(apply(yaml.text, yaml.insert(at, scalarText(name), fresh.value)), "edit");
             open(name);
           }}
         >
@@ -68,22 +76,24 @@ interface EntryProps {
 }
 
 function Entry({ of, name, taken, opened, open }: EntryProps) {
-  const { structure, at, paths, names, renamed, fields } = of;
+  const { structure, at, names, renamed, line, field } = of;
+  const fields = line?.(name) ? undefined : of.fields;
   const studio = useStudio();
+  const problem = useProblems(structure);
   const { yaml } = structure;
   const where = [...at, name];
   const change = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
   const rename = (to: string) => {
     const text = renamed ? renamed(yaml.text, name, to) : yaml.text;
-    if (text === yaml.text) change(yaml.renameKey(where, to));
+    if (text === yaml.text) change(yaml.renameKey(where, yaml.map(at)?.flow ? scalarText(to) : to));
     else studio.draft.edit(text, "edit");
     open(to);
   };
   const wrong = (text: string) =>
-    paths
+    of.wrong
       ? text !== name && taken.includes(text)
         ? `The name ${text} is taken here`
-        : undefined
+        : of.wrong(text)
       : nameProblem(name, taken)(text);
   const value = yaml.valueText(where) ?? "";
   const asText = value.includes("\n") ? (
@@ -91,12 +101,19 @@ function Entry({ of, name, taken, opened, open }: EntryProps) {
       {name}: in the text, line {yaml.line(where)}
     </button>
   ) : (
-    <Field label={fields ? `${name} as text` : name} mono value={value} onChange={(text) => change(yaml.set(at, name, text))} />
+    <Field
+      label={fields ? `${name} as text` : name}
+      mono
+      value={value}
+      problem={fields ? undefined : problem(where)}
+      onChange={(text) => change(yaml.set(at, name, text))}
+    />
   );
+  const unfolded = !of.folds || opened;
   const more = (
     <button
       className="quiet"
-      aria-label={`Rename or remove ${name}`}
+      aria-label={of.folds ? `Change ${name}` : `Rename or remove ${name}`}
       aria-expanded={opened}
       onClick={() => open(opened ? null : name)}
     >
@@ -119,12 +136,12 @@ function Entry({ of, name, taken, opened, open }: EntryProps) {
           <span className="mono">{name}</span> {more}
         </legend>
         {opening}
-        {fields(name)}
+        {unfolded && fields(name)}
       </fieldset>
     );
   return (
     <div className="map-entry">
-      {asText}
+      {field?.(name) ?? asText}
       {more}
       {opening}
     </div>

@@ -1,9 +1,43 @@
 import { useState } from "react";
-import type { FieldShape } from "../../model/text/schema_fields";
+import { useStudio } from "../../hooks/use";
+import { fieldOf, type FieldShape, type Schema } from "../../model/text/schema_fields";
+import { freshValue, shapeOf, type Case, type ValueShape } from "../../model/text/value_shape";
+import { lineText } from "../../model/text/list_text";
 import type { Structure } from "../../model/structure/structure";
-import { apply, scalarText, type YamlPath } from "../../model/text/yaml_text";
+import { apply, flowText, scalarText, type Value, type YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { useEdit } from "./form_parts";
+import { ListForm } from "./list_form";
+import { MapForm } from "./map_form";
+import { OneField, titleOf } from "./one_field";
+import { schema as root } from "./schema";
+import { OwnProblem, useProblems } from "./use_problems";
+
+/** The facts about the value of a key that the schema does not say. */
+export interface Help {
+  /** The word for one entry: "check". */
+  one?: string;
+  title?: string;
+  hint?: string;
+  mono?: boolean;
+  /** Entries are opened one at a time. */
+  folds?: boolean;
+  /** Entries with short values: several fields in a row, and what they mean as tips. */
+  compact?: boolean;
+  /** A new entry, and its name in a map. */
+  fresh?: { name?: string; value?: Value };
+  /** Proposals while a value is typed, here or in an entry. */
+  choices?: readonly string[];
+  /** Proposals while the name of an entry is typed. */
+  names?: readonly string[];
+  /** The names of the parts of a list. */
+  parts?: readonly string[];
+  /** The text after a change of the name of an entry. */
+  renamed?: (text: string, from: string, to: string) => string;
+}
+
+/** Help by key, for all maps below. */
+export type HelpByKey = { readonly [key: string]: Help };
 
 interface ObjectFieldsProps {
   structure: Structure;
@@ -12,19 +46,22 @@ interface ObjectFieldsProps {
   shapes: readonly FieldShape[];
   /** Keys that have fields elsewhere. */
   without?: readonly string[];
-  /** Keys may have any name; otherwise keys unknown to the shapes are shown elsewhere. */
+  /** Keys that have fields although they are not there: all, or those named. */
+  always?: "all" | readonly string[];
+  /** Keys may have any name. */
   open?: boolean;
-  /** Proposals while typing, by key. */
-  choices?: { readonly [key: string]: readonly string[] };
-  /** The names of the parts of a list, by key. */
-  parts?: { readonly [key: string]: readonly string[] };
+  /** Keys that the shapes do not have are shown, so that they can be removed; otherwise they are shown elsewhere. */
+  strays?: boolean;
+  help?: HelpByKey;
+  /** The map is left out with its last key; called when that happens. */
+  onEmpty?: () => void;
 }
 
-const titleOf = (key: string) => key[0]!.toUpperCase() + key.slice(1).replaceAll("_", " ");
 const anyText = (key: string): FieldShape => ({
   key,
   description: "",
   required: false,
+  schema: {},
   choices: [],
   parts: 0,
   list: false,
@@ -32,36 +69,77 @@ const anyText = (key: string): FieldShape => ({
 });
 
 /** The keys of a map, each as a field of its kind in the schema. An empty field leaves its key out. */
-export function ObjectFields({ structure, at, shapes, without = [], open, choices = {}, parts = {} }: ObjectFieldsProps) {
+export function ObjectFields(props: ObjectFieldsProps) {
+  const { structure, at, shapes, without = [], always = [], open, strays = open, help = {}, onEmpty } = props;
+  const studio = useStudio();
   const edit = useEdit();
+  const problem = useProblems(structure);
   const [wanted, want] = useState<readonly string[]>([]);
   const { yaml } = structure;
   const there = yaml.keys(at);
   const hidden = (key: string) => without.includes(key);
   const known = shapes.filter(({ key }) => !hidden(key));
   const shown = [
-    ...known.filter(({ key, required }) => required || there.includes(key) || wanted.includes(key)),
-    ...(open ? there : []).filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
+    ...known.filter(
+      ({ key, required }) => required || there.includes(key) || wanted.includes(key) || always === "all" || always.includes(key),
+    ),
+    ...(strays ? there : []).filter((key) => !hidden(key) && !shapes.some((one) => one.key === key)).map(anyText),
   ];
   const left = known.filter((one) => !shown.includes(one));
-  const set = (key: string, text: string, as = scalarText) => edit(apply(yaml.text, yaml.set(at, key, text, as)));
+  const label = ({ key, title }: FieldShape) => help[key]?.title ?? title ?? titleOf(key);
+  const set = (key: string, text: string, as = scalarText) => {
+    const last = onEmpty && text.trim() === "" && there.length === 1 && there[0] === key;
+    if (last) onEmpty();
+    edit(apply(yaml.text, last ? yaml.remove(at) : yaml.set(at, key, text, as)));
+  };
   return (
     <>
-      {shown.map((shape) => (
-        <OneField
-          key={shape.key}
-          shape={shape}
-          value={yaml.valueText([...at, shape.key]) ?? ""}
-          choices={choices[shape.key] ?? []}
-          parts={parts[shape.key] ?? []}
-          onChange={(text, as) => set(shape.key, text, as)}
-        />
-      ))}
+      {shown.map((field) => {
+        const where = [...at, field.key];
+        const shape = shapeOf(field.schema, root, yaml.data(where));
+        const value = lineText(yaml, where);
+        if (shape.kind !== "line")
+          return (
+            <ValueForm
+              key={field.key}
+              structure={structure}
+              at={where}
+              shape={shape}
+              title={label(field)}
+              hint={help[field.key]?.hint ?? field.description}
+              help={help}
+              onEmpty={() => want([...wanted, field.key])}
+            />
+          );
+        if (value.includes("\n"))
+          return (
+            <p key={field.key}>
+              <button className="link" onClick={() => studio.showLine(yaml.line(where))}>
+                {label(field)}: in the text, line {yaml.line(where)}
+              </button>
+            </p>
+          );
+        return (
+          <div key={field.key}>
+            <OneField
+              shape={field}
+              label={label(field)}
+              mono={help[field.key]?.mono ?? false}
+              value={value}
+              choices={help[field.key]?.choices ?? []}
+              parts={help[field.key]?.parts ?? []}
+              problem={problem(where)}
+              onChange={(text, as) => set(field.key, text, as)}
+            />
+            {yaml.range(where) && <MoreOf structure={structure} at={where} schema={field.schema} />}
+          </div>
+        );
+      })}
       {left.length > 0 && (
         <Choice
           label="Also give"
           value=""
-          choices={[{ value: "", title: "…" }, ...left.map(({ key }) => ({ value: key, title: titleOf(key) }))]}
+          choices={[{ value: "", title: "…" }, ...left.map((one) => ({ value: one.key, title: label(one) }))]}
           onChange={(key) => want([...wanted, key])}
         />
       )}
@@ -78,61 +156,194 @@ export function ObjectFields({ structure, at, shapes, without = [], open, choice
   );
 }
 
-interface OneFieldProps {
-  shape: FieldShape;
-  value: string;
-  choices: readonly string[];
-  parts: readonly string[];
-  onChange: (text: string, as?: (text: string) => string) => void;
+/** Writes a value of one line as a map, if the schema allows that: a map has more fields. */
+function MoreOf({ structure, at, schema }: { structure: Structure; at: YamlPath; schema: Schema }) {
+  const edit = useEdit();
+  const { yaml } = structure;
+  const shape = shapeOf(schema, root, yaml.data(at));
+  if (shape.kind !== "line" || !shape.more) return null;
+  const now = scalarText(lineText(yaml, at));
+  const text = shape.more.key && now ? `{ ${shape.more.key}: ${now} }` : "{}";
+  return (
+    <button
+      className="link"
+      aria-label={`Give ${String(at.at(-1))} in several fields`}
+      onClick={() =>
+        edit(
+          apply(
+            yaml.text,
+            yaml.set(at.slice(0, -1), String(at.at(-1)), text, (as) => as),
+          ),
+        )
+      }
+    >
+      In several fields
+    </button>
+  );
 }
 
-/** "[a, b]" in the form for typing: "a, b". */
-export const listAsTyped = (text: string) => text.replace(/^\[\s*(.*?)\s*\]$/s, "$1");
-/** "a, b" in the form of the file; a single name is no list. */
-export const listAsWritten = (text: string) =>
-  /^[^[{"']*,[^[{"']*$/.test(text)
-    ? `[${text
-        .split(",")
-        .map((one) => scalarText(one))
-        .join(", ")}]`
-    : scalarText(text);
+interface ValueFormProps {
+  structure: Structure;
+  at: YamlPath;
+  shape: Exclude<ValueShape, { kind: "line" }>;
+  title: string;
+  hint?: string;
+  help?: HelpByKey;
+  onEmpty?: () => void;
+}
 
-function OneField({ shape, value, choices, parts, onChange }: OneFieldProps) {
-  const { key, description, wrong } = shape;
-  const label = titleOf(key);
-  if (shape.choices.length > 0)
+/** The form of a map or a list of the specification, made from its schema. */
+export function ValueForm({ structure, at, shape, title, hint, help = {}, onEmpty }: ValueFormProps) {
+  const own = help[String(at.at(-1))] ?? {};
+  if (shape.kind === "record" || shape.kind === "cases")
     return (
-      <Choice
-        label={label}
-        value={value}
-        choices={["", ...shape.choices].map((one) => ({ value: one, title: one || "as it is by default" }))}
-        onChange={(text) => onChange(text)}
-      />
-    );
-  if (shape.parts > 0) {
-    const now = value ? listAsTyped(value).split(/\s*,\s*/) : [];
-    const write = (at: number, text: string) => {
-      const next = Array.from({ length: shape.parts }, (_, index) => (index === at ? text : (now[index] ?? "0")) || "0");
-      onChange(`[${next.join(", ")}]`);
-    };
-    return (
-      <fieldset className="tuple" aria-label={label}>
-        <legend>{label}</legend>
-        {Array.from({ length: shape.parts }, (_, at) => (
-          <Field key={at} label={parts[at] ?? `${at + 1}`} value={now[at] ?? ""} onChange={(text) => write(at, text.trim())} />
-        ))}
-        <p className="faint">{description}</p>
+      <fieldset className="entry" aria-label={title}>
+        <legend>{title}</legend>
+        {hint && <p className="faint">{hint}</p>}
+        <div className={own.compact ? "compact" : ""}>
+          <Inside structure={structure} at={at} shape={shape} help={help} {...(onEmpty ? { onEmpty } : {})} />
+        </div>
       </fieldset>
     );
-  }
+  if (shape.kind === "list")
+    return (
+      <ListForm
+        structure={structure}
+        at={at}
+        title={title}
+        one={own.one ?? oneOf(String(at.at(-1)))}
+        fresh={flowText(own.fresh?.value ?? freshValue(shape.of, root))}
+        {...(hint ? { hint } : {})}
+        fields={(index) => <Entry structure={structure} at={[...at, index]} schema={shape.of} help={help} />}
+      />
+    );
+  const inOneLine = (name: string) => {
+    const of = shapeOf(shape.of(name), root, structure.yaml.data([...at, name]));
+    return of.kind === "line" || (of.kind === "record" && of.fields.length === 0);
+  };
   return (
-    <Field
-      label={label}
-      value={shape.list ? listAsTyped(value) : value}
-      wrong={wrong}
-      {...(description ? { hint: description } : {})}
-      {...(choices.length > 0 ? { choices } : {})}
-      onChange={(text) => (shape.list ? onChange(text, listAsWritten) : onChange(text))}
+    <MapForm
+      structure={structure}
+      at={at}
+      title={title}
+      one={own.one ?? oneOf(String(at.at(-1)))}
+      fresh={{ name: own.fresh?.name ?? "one", value: own.fresh?.value ?? freshValue(shape.of(""), root) }}
+      wrong={shape.wrong}
+      {...(hint ? { hint } : {})}
+      {...(own.names ? { names: own.names } : {})}
+      {...(own.renamed ? { renamed: own.renamed } : {})}
+      line={inOneLine}
+      field={(name) => <OneEntry structure={structure} at={at} name={name} schema={shape.of(name)} own={own} />}
+      folds={own.folds ?? false}
+      fields={(name) => (
+        <div className={own.compact ? "compact" : ""}>
+          <Entry structure={structure} at={[...at, name]} schema={shape.of(name)} help={help} />
+        </div>
+      )}
     />
+  );
+}
+
+interface OneEntryProps {
+  structure: Structure;
+  at: YamlPath;
+  name: string;
+  schema: Schema;
+  own: Help;
+}
+
+/** An entry of a map whose value is one line. */
+function OneEntry({ structure, at, name, schema, own }: OneEntryProps) {
+  const edit = useEdit();
+  const problem = useProblems(structure);
+  const { yaml } = structure;
+  const field = fieldOf(name, schema, root, true);
+  const where = [...at, name];
+  if (shapeOf(schema, root, yaml.data(where)).kind === "record") return <p className="mono">{name}</p>;
+  return (
+    <div>
+      <OneField
+        shape={{ ...field, description: "" }}
+        label={name}
+        value={lineText(yaml, where)}
+        choices={own.choices ?? []}
+        parts={[]}
+        problem={problem(where)}
+        onChange={(text, as) => text.trim() && edit(apply(yaml.text, yaml.set(at, name, text, as)))}
+      />
+      {!yaml.map(where) && <MoreOf structure={structure} at={where} schema={schema} />}
+    </div>
+  );
+}
+
+/** "processes" as the word for one of them. */
+const oneOf = (key: string) =>
+  (/s$/.test(key) ? key.replace(/sses$/, "ss ").replace(/s$/, "").trim() : "entry").replaceAll("_", " ");
+
+/** An entry of a map or a list: its fields, without a frame. */
+function Entry({ structure, at, schema, help }: { structure: Structure; at: YamlPath; schema: Schema; help: HelpByKey }) {
+  const shape = shapeOf(schema, root, structure.yaml.data(at));
+  if (shape.kind === "record" || shape.kind === "cases")
+    return <Inside structure={structure} at={at} shape={shape} help={help} />;
+  if (shape.kind === "line") return null;
+  return <ValueForm structure={structure} at={at} shape={shape} title="Entries" help={help} />;
+}
+
+interface InsideProps {
+  structure: Structure;
+  at: YamlPath;
+  shape: { kind: "record"; fields: readonly FieldShape[] } | { kind: "cases"; cases: readonly Case[] };
+  help: HelpByKey;
+  onEmpty?: () => void;
+}
+
+/** So many fields are all shown; of more, only those that are given or needed. */
+const fewFields = 5;
+
+function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
+  const edit = useEdit();
+  const { yaml } = structure;
+  const keys = yaml.keys(at);
+  const cases = shape.kind === "cases" ? shape.cases : [];
+  const is = cases.find(({ key }) => keys.includes(key));
+  const fields = shape.kind === "record" ? shape.fields : (is?.fields ?? []);
+  const choose = (key: string) => {
+    const next = cases.find((one) => one.key === key);
+    if (!next) return;
+    if (!is) return edit(apply(yaml.text, yaml.set(at, key, "name")));
+    const gone = is.fields.filter((one) => one.key !== is.key && !next.fields.some((other) => other.key === one.key));
+    edit(apply(yaml.text, [...yaml.renameKey([...at, is.key], key), ...gone.flatMap((one) => yaml.remove([...at, one.key]))]));
+  };
+  // The fields of every case, such as the name, stay in their place.
+  const first = is ? fields.findIndex(({ key }) => key === is.key) : 0;
+  const part = (shapes: readonly FieldShape[], without: readonly FieldShape[] = []) => (
+    <ObjectFields
+      structure={structure}
+      at={at}
+      shapes={shapes}
+      without={without.map(({ key }) => key)}
+      strays={shapes.at(-1) === fields.at(-1)}
+      always={fields.length <= fewFields ? "all" : []}
+      help={help}
+      {...(onEmpty ? { onEmpty } : {})}
+    />
+  );
+  return (
+    <>
+      <OwnProblem structure={structure} at={at} />
+      {first > 0 && part(fields.slice(0, first))}
+      {cases.length > 0 && (
+        <Choice
+          label="Kind"
+          value={is?.key ?? ""}
+          choices={[
+            ...(is ? [] : [{ value: "", title: "…" }]),
+            ...cases.map(({ key }) => ({ value: key, title: key.replaceAll("_", " ") })),
+          ]}
+          onChange={choose}
+        />
+      )}
+      {part(fields.slice(first), fields.slice(0, first))}
+    </>
   );
 }

@@ -7,14 +7,25 @@ import { ParameterFields } from "./parameter_fields";
 import { PropertiesForm } from "./properties_form";
 import { StructureFields } from "./type_fields";
 import { WorldForm } from "./world_form";
+import { deployHelp, modelHelp } from "./form_help";
 import { MapForm } from "./map_form";
+import { ObjectFields } from "./object_fields";
+import { schema } from "./schema";
+import { useTargets } from "./targets";
+import { TemplatesForm } from "./templates_form";
+import { fieldsOf } from "../../model/text/schema_fields";
+
+const keyOf = (key: string) => fieldsOf(schema, schema).filter((one) => one.key === key);
+const models = keyOf("models");
+const deploy = keyOf("deploy");
 
 /**
- * The parts that belong to no agent: the name, types, parameters, properties, templates, models, drivers and
- * the world.
+ * The parts that belong to no agent: the name, types, parameters, properties, templates, models, drivers,
+ * the world and the processes.
  */
 export function SystemForm({ structure }: { structure: Structure }) {
   const studio = useStudio();
+  const targets = useTargets();
   const edit = (text: string) => studio.draft.edit(text, "edit");
   return (
     <div className="inspect">
@@ -39,24 +50,12 @@ export function SystemForm({ structure }: { structure: Structure }) {
         renamed={(text, from, to) => renameParameter(text, from, to)}
       />
       <PropertiesForm structure={structure} />
-      <MapForm
-        structure={structure}
-        at={["templates"]}
-        title="Templates"
-        one="template"
-        fresh={{ name: "member", value: "{ control: { rate: 10 Hz, behaviours: { run: {} } } }" }}
-        hint="An agent that uses a template shares its subsystems"
-      />
-      <MapForm
-        structure={structure}
-        at={["models"]}
-        title="Communication models"
-        one="model"
-        fresh={{ name: "own", value: "{}" }}
-      />
-      <WorldForm structure={structure} />
-      <DriversForm structure={structure} where="world" />
-      <DriversForm structure={structure} where="robot" />
+      <TemplatesForm structure={structure} />
+      <ObjectFields structure={structure} at={[]} shapes={models} always="all" help={modelHelp} />
+      <WorldForm structure={structure} targets={targets} />
+      <DriversForm structure={structure} where="world" targets={targets} />
+      <DriversForm structure={structure} where="robot" targets={targets} />
+      <ObjectFields structure={structure} at={[]} shapes={deploy} help={deployHelp(structure)} />
     </div>
   );
 }

@@ -5,14 +5,16 @@ import type { Structure } from "../../model/structure/structure";
 import { apply } from "../../model/text/yaml_text";
 import { Field } from "./field";
 import { useEdit } from "./form_parts";
-import { MapForm } from "./map_form";
+import { worldHelp } from "./form_help";
 import { ObjectFields } from "./object_fields";
 import { schema } from "./schema";
+import type { Targets } from "./targets";
 
+const shapes = fieldsOf({ $ref: "#/properties/simulation" }, schema);
 const trackShapes = fieldsOf({ $ref: "#/$defs/track" }, schema);
 
 /** The simulated world and its floor. Its drivers have a form of their own. */
-export function WorldForm({ structure }: { structure: Structure }) {
+export function WorldForm({ structure, targets }: { structure: Structure; targets: Targets }) {
   const edit = useEdit();
   const studio = useStudio();
   const worlds = useStore(studio.project, (all) => all.project?.worlds ?? []);
@@ -40,8 +42,7 @@ export function WorldForm({ structure }: { structure: Structure }) {
               structure={structure}
               at={at}
               shapes={trackShapes}
-              choices={{ image: tracks }}
-              parts={{ start: ["x", "y", "Heading"] }}
+              help={{ image: { choices: tracks }, start: { parts: ["x", "y", "Heading"] } }}
             />
             <button className="danger" onClick={() => edit(apply(yaml.text, yaml.remove(at)))}>
               Remove the track
@@ -58,9 +59,14 @@ export function WorldForm({ structure }: { structure: Structure }) {
           </button>
         )}
       </fieldset>
-      {yaml.keys(["simulation"]).some((key) => !elsewhere.includes(key)) && (
-        <MapForm structure={structure} at={["simulation"]} title="More of the simulation" one="entry" without={elsewhere} />
-      )}
+      <ObjectFields
+        structure={structure}
+        at={["simulation"]}
+        shapes={shapes}
+        without={elsewhere}
+        always={world ? ["models", "checks", "measures"] : []}
+        help={worldHelp(structure, targets)}
+      />
     </>
   );
 }

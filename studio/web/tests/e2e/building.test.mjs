@@ -106,13 +106,6 @@ test("an error of the build is shown beside its function, with its hint, and a f
   );
 });
 
-test("a world without a floor picture offers no tracks", () =>
-  onPage(example("05_crossing"), async (page) => {
-    await tab(page, "Run").click();
-    await page.getByLabel("Seed").waitFor();
-    assert.equal(await page.getByLabel("Track").count(), 0);
-  }));
-
 test("a patrol robot is built in the browser alone, and drives", () => {
   const root = join(parent, "patrol");
   mkdirSync(root);
@@ -194,7 +187,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       await buffer("robot.motor", "input", "input", "motion", "Motion");
       await head("robot.motor");
       await fill(field("Inputs are stale after"), "500 ms");
-      await group("Safe command").getByRole("button", { name: "Add safe value" }).click();
+      await fill(group("Safe command").getByLabel("left (rad/s)"), "0");
       await buffer("robot.control", "input", "input", "light", "Light");
       await buffer("robot.control", "output", "output", "motion", "Motion");
       const line = async (from, to) => {

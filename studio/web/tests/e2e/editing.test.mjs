@@ -1,7 +1,8 @@
 import assert from "node:assert/strict";
+import { execFileSync } from "node:child_process";
 import { writeFileSync } from "node:fs";
 import { test } from "node:test";
-import { button, changes, draftText, drawn, example, find, folder, onPage, tab, until } from "./page.mjs";
+import { button, changes, draftText, drawn, environment, example, find, folder, judges, onPage, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -173,4 +174,117 @@ test("without a mouse: a behaviour is added, the text verified, undone and saved
     await press("Control+z", "Control+z");
     await press("Control+s");
     await until(page, async () => server.text() === before, "the text of before on disk");
+  }));
+
+test("checks, measures, limits, templates and models have fields, which leave a clean diff that the check accepts", () =>
+  onPage(example("05_crossing"), async (page, server) => {
+    // A world without a floor picture offers no tracks.
+    await tab(page, "Run").click();
+    await page.getByLabel("Seed").waitFor();
+    assert.equal(await page.getByLabel("Track").count(), 0);
+
+    const before = server.text();
+    const within = (...names) =>
+      names.reduce((outer, name) => outer.getByRole("group", { name, exact: true }), page.locator(".inspect"));
+    const fill = async (locator, text) => {
+      await locator.fill(text);
+      await locator.press("Enter");
+    };
+    const found = [];
+    const judge = await judges(page, found);
+    /** Judges the form where it is narrow: nothing sticks out, and no letters are too small. */
+    const judged = async (what) => {
+      await page.setViewportSize({ width: 640, height: 900 });
+      await judge(what);
+      const faults = await page.locator(".inspect").evaluate((form) => {
+        const edge = form.getBoundingClientRect().right + 1;
+        const wrong = (one) =>
+          one.getBoundingClientRect().right > edge || (one.innerText && parseFloat(getComputedStyle(one).fontSize) < 10);
+        return [...form.querySelectorAll("*")].filter(wrong).map((one) => one.outerHTML.slice(0, 200));
+      });
+      found.push(...faults.map((one) => `${what}: ${one}`));
+      await page.setViewportSize({ width: 1440, height: 900 });
+    };
+    await tab(page, "Structure").click();
+    await page.locator('.channel-label[data-path="channel:0"]').waitFor();
+    await tab(page, "Element").click();
+
+    // By keys alone: a check is added, its kind is chosen, and its fields follow.
+    await within("Checks").getByRole("button", { name: "Add check" }).press("Enter");
+    const check = within("Checks", "Check 6");
+    await check.getByLabel("Kind").focus();
+    await page.keyboard.type("event");
+    await page.keyboard.press("Tab");
+    await page.keyboard.type("inside(robot[0])");
+    await page.keyboard.press("Tab");
+    await page.keyboard.type("20");
+    await check.getByText(/^This cannot be within/).waitFor();
+    await page.keyboard.type(" s");
+    await page.keyboard.press("Tab");
+    // The complaint of the check is beside the field, and goes with its cause.
+    const condition = check.getByLabel("Eventually");
+    const problem = check.locator(".problem-hint");
+    await problem.getByText(/inside/).waitFor();
+    assert.equal(await condition.getAttribute("aria-invalid"), "true");
+    assert.equal(await condition.getAttribute("aria-describedby"), await problem.getAttribute("id"));
+    await fill(condition, "inside(robot[0], north)");
+    await problem.waitFor({ state: "detached" });
+    await fill(check.getByLabel("Name"), "it turns north");
+    await within("Measures").getByRole("button", { name: "Add measure" }).click();
+    await fill(within("Measures").getByLabel("New name of measure"), "pace");
+    await fill(within("Measures").getByLabel("pace", { exact: true }), "speed(robot[0])");
+    // Entries of a check that its kind does not have go with a change of the kind.
+    await within("Checks", "Check 5").getByLabel("Kind").selectOption("at_end");
+    await within("Communication models").getByRole("button", { name: "Add model" }).click();
+    await within("Communication models", "own", "Send", "Transitions", "end").getByLabel("To").waitFor();
+
+    await judged("the system");
+
+    await fill(within("Communication models").getByLabel("New name of own"), "one_value");
+
+    await page.getByRole("button", { name: "Template rover" }).click();
+    await page.getByText("A change of this template changes all 2 members of robot.").waitFor();
+    await page.getByRole("button", { name: "Effector base" }).click();
+    const limits = within("Limits of real outputs");
+    await fill(limits.getByRole("group", { name: "command.ahead", exact: true }).getByLabel("Change per second"), "4 m/s");
+    await limits.getByRole("group", { name: "command.turn", exact: true }).getByLabel("Beyond them").selectOption("fault");
+    await page.getByLabel("Also give").selectOption("realtime");
+    await fill(within("Realtime").getByLabel("Priority"), "80");
+    await fill(within("Safe command", "command").getByLabel("ahead (m/s)"), "0.1");
+    await judged("the effector of a template");
+
+    await page.locator('.channel-label[data-path="channel:2"]').click();
+    await page.getByLabel("Communication model").selectOption("one_value");
+    // An agent that is to be a fleet becomes a template, as it is.
+    await page.locator('.agent-name[data-path="crossing"]').click();
+    await button(page, "Make it a template").click();
+    await button(page, "Template crossing").waitFor();
+    await page.getByText("No problems").waitFor();
+    assert.deepEqual(found, []);
+    await button(page, "Save").click();
+    await page.getByText("Saved").waitFor();
+    const [gone, come] = ["-", "+"].map((sign) =>
+      changes(before, server.text())
+        .filter((line) => line.startsWith(sign))
+        .map((line) => line.slice(1)),
+    );
+    assert.equal(gone.length, 4);
+    assert.deepEqual(come.slice(0, 10), [
+      "          command.ahead: { min: -1, max: 1, per_second: 4 m/s }",
+      "          command.turn:  { min: -3, max: 3, beyond: fault }",
+      "        realtime:",
+      "          priority: 80",
+      "        safe:",
+      "          command:",
+      "            ahead: 0.1",
+      "  crossing: { use: crossing }",
+      `  - { from: "robot[0].control.request", to: crossing.control.request_0, model: one_value }${" ".repeat(36)}# it looks at both`,
+      '    - { name: the second gets across, at_end: "inside(robot[1], north)" }',
+    ]);
+    assert.deepEqual(come.slice(10, 13), [
+      '    - { name: it turns north, eventually: "inside(robot[0], north)", within: 20 s }',
+      '    pace: "speed(robot[0])"',
+      "models:",
+    ]);
+    assert.match(execFileSync(environment.tessera, ["check", server.root], { env: environment.env, encoding: "utf8" }), /place/);
   }));

@@ -1,0 +1,70 @@
+import * as edits from "../../model/text/edits";
+import { fieldsOf } from "../../model/text/schema_fields";
+import type { Channel, Structure } from "../../model/structure/structure";
+import type { YamlPath } from "../../model/text/yaml_text";
+import { Choice, Field } from "./field";
+import { Remove, useEdit } from "./form_parts";
+import { ObjectFields } from "./object_fields";
+import { schema } from "./schema";
+import { useProblems } from "./use_problems";
+
+/** The timeouts of one side. */
+const timeouts = fieldsOf(schema.$defs!.channel!.anyOf![1]!, schema).filter(({ key }) => /_timeout$/.test(key));
+
+const modes = [
+  { value: "non_blocking", title: "goes on at once" },
+  { value: "blocking", title: "waits (blocking)" },
+] as const;
+
+export function ChannelForm({ structure, channel }: { structure: Structure; channel: Channel }) {
+  const edit = useEdit();
+  const at: YamlPath = ["channels", channel.index];
+  const problem = useProblems(structure);
+  const models = structure.yaml.keys(["models"]);
+  const set = (change: Partial<edits.ChannelModes>) => edit(edits.setChannel(structure, channel, change));
+  return (
+    <>
+      <dl>
+        <dt>From</dt>
+        <dd className="path">{channel.from}</dd>
+        <dt>To</dt>
+        <dd className="path">{channel.to}</dd>
+      </dl>
+      {(models.length > 0 || channel.model) && (
+        <Choice
+          label="Communication model"
+          value={channel.model}
+          choices={["", ...models, ...(channel.model && !models.includes(channel.model) ? [channel.model] : [])].map((one) => ({
+            value: one,
+            title: one || "built in",
+          }))}
+          problem={problem([...at, "model"])}
+          onChange={(model) => edit(edits.setModel(structure, channel, model))}
+        />
+      )}
+      {!channel.model && (
+        <>
+          <Choice label="The sender" value={channel.send} choices={modes} onChange={(send) => set({ send })} />
+          <Choice label="The receiver" value={channel.receive} choices={modes} onChange={(receive) => set({ receive })} />
+        </>
+      )}
+      <Field
+        label="Timeout of a side that waits"
+        value={channel.timeout}
+        placeholder="waits for ever"
+        problem={problem([...at, "timeout"])}
+        onChange={(timeout) => set({ timeout })}
+      />
+      {structure.yaml.map(at) && <ObjectFields structure={structure} at={at} shapes={timeouts} />}
+      <div className="buttons">
+        <Remove
+          what="channel"
+          structure={structure}
+          at={at}
+          after={() => edits.removeChannel(structure, channel)}
+          onClick={(text) => edit(text, null)}
+        />
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,66 @@
+import type { FieldShape } from "../../model/text/schema_fields";
+import { listAsTyped, listAsWritten } from "../../model/text/list_text";
+import { Choice, Field } from "./field";
+
+/** "per_second" as a label: "Per second". */
+export const titleOf = (key: string) => (key[0] ?? "").toUpperCase() + key.slice(1).replaceAll("_", " ");
+
+interface OneFieldProps {
+  shape: FieldShape;
+  value: string;
+  choices: readonly string[];
+  parts: readonly string[];
+  /** The label, if it is not the key. */
+  label?: string;
+  mono?: boolean;
+  problem?: string | undefined;
+  onChange: (text: string, as?: (text: string) => string) => void;
+}
+
+/** A value of one line, as its schema says: a choice, a list, parts with a field each, or a text. */
+export function OneField({ shape, value, choices, parts, label = titleOf(shape.key), mono, problem, onChange }: OneFieldProps) {
+  const { description, wrong } = shape;
+  const known = value === "" || shape.choices.includes(value);
+  if (shape.choices.length > 0)
+    return (
+      <Choice
+        label={label}
+        value={value}
+        choices={[...(shape.required && value ? [] : [""]), ...shape.choices, ...(known ? [] : [value])].map((one) => ({
+          value: one,
+          title: one || (shape.required ? "…" : "default"),
+        }))}
+        {...(description ? { hint: description } : {})}
+        problem={problem}
+        onChange={(text) => onChange(text)}
+      />
+    );
+  if (shape.parts > 0) {
+    const now = value ? listAsTyped(value).split(/\s*,\s*/) : [];
+    const write = (at: number, text: string) => {
+      const next = Array.from({ length: shape.parts }, (_, index) => (index === at ? text : (now[index] ?? "0")) || "0");
+      onChange(`[${next.join(", ")}]`);
+    };
+    return (
+      <fieldset className="tuple" aria-label={label}>
+        <legend>{label}</legend>
+        {Array.from({ length: shape.parts }, (_, at) => (
+          <Field key={at} label={parts[at] ?? `${at + 1}`} value={now[at] ?? ""} onChange={(text) => write(at, text.trim())} />
+        ))}
+        <p className={problem ? "problem-hint" : "faint"}>{problem ?? description}</p>
+      </fieldset>
+    );
+  }
+  return (
+    <Field
+      label={label}
+      value={shape.list ? listAsTyped(value) : value}
+      wrong={wrong}
+      {...(mono ? { mono } : {})}
+      problem={problem}
+      {...(description ? { hint: description } : {})}
+      {...(choices.length > 0 ? { choices } : {})}
+      onChange={(text) => (shape.list ? onChange(text, listAsWritten) : onChange(text))}
+    />
+  );
+}

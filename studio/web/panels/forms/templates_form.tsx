@@ -1,0 +1,126 @@
+import { useStudio } from "../../hooks/use";
+import {
+  readTemplate,
+  sharersOf,
+  templatePath,
+  type Agent,
+  type Structure,
+  type Subsystem,
+} from "../../model/structure/structure";
+import * as edits from "../../model/text/edits";
+import { apply } from "../../model/text/yaml_text";
+import { Field } from "./field";
+import { nameProblem, SharedNote, useEdit } from "./form_parts";
+import { OwnProblem } from "./use_problems";
+
+const fresh = { control: { rate: "10 Hz", behaviours: { run: "{}" } } };
+
+/** The templates: each leads to its form. */
+export function TemplatesForm({ structure }: { structure: Structure }) {
+  const edit = useEdit();
+  const { yaml } = structure;
+  const names = yaml.keys(["templates"]);
+  const add = () => {
+    const name = edits.freeName("member", names);
+    edit(apply(yaml.text, yaml.insert(["templates"], name, fresh)), templatePath(name));
+  };
+  return (
+    <fieldset className="map-form">
+      <legend>Templates</legend>
+      <OwnProblem structure={structure} at={["templates"]} />
+      {names.map((name) => {
+        const template = readTemplate(structure, name);
+        const users = template ? sharersOf(structure, template).map((one) => one.name) : [];
+        return (
+          <div key={name} className="template">
+            <TemplateLink name={name} />
+            <p className="faint">{users.length > 0 ? `Used by ${users.join(", ")}` : "Not used"}</p>
+          </div>
+        );
+      })}
+      <p className="faint">An agent that uses a template shares its subsystems</p>
+      <button onClick={add}>Add template</button>
+    </fieldset>
+  );
+}
+
+/** Leads to the form of a template. */
+export function TemplateLink({ name }: { name: string }) {
+  const studio = useStudio();
+  return (
+    <button className="link" onClick={() => studio.view.set({ selected: templatePath(name) })}>
+      Template {name}
+    </button>
+  );
+}
+
+/** The buttons that add a subsystem to an agent or a template. */
+export function AddSubsystem({ structure, agent }: { structure: Structure; agent: Agent }) {
+  const edit = useEdit();
+  const names = agent.subsystems.map((one) => one.name);
+  const add = (kind: Subsystem["kind"]) => {
+    const name = kind === "control" ? "control" : edits.freeName(kind === "receptor" ? "sensor" : "motor", names);
+    edit(edits.addSubsystem(structure, agent, kind, name), `${agent.name}.${name}`);
+  };
+  return (
+    <>
+      {!names.includes("control") && <button onClick={() => add("control")}>Add control</button>}
+      <button onClick={() => add("receptor")}>Add receptor</button>
+      <button onClick={() => add("effector")}>Add effector</button>
+    </>
+  );
+}
+
+/** A template: its name, its subsystems, and the agents that use it. */
+export function TemplateForm({ structure, template }: { structure: Structure; template: Agent }) {
+  const edit = useEdit();
+  const studio = useStudio();
+  const { yaml } = structure;
+  const name = String(template.yaml[1]);
+  const used = ["agents", "templates"].some((part) =>
+    yaml.keys([part]).some((key) => yaml.valueText([part, key, "use"]) === name),
+  );
+  const addAgent = () => {
+    const agent = edits.freeName(
+      name,
+      structure.agents.map((one) => one.name),
+    );
+    edit(apply(yaml.text, yaml.insert(["agents"], agent, `{ use: ${name} }`)), agent);
+  };
+  return (
+    <>
+      <OwnProblem structure={structure} at={template.yaml} />
+      <Field
+        label="Name"
+        value={name}
+        wrong={nameProblem(name, yaml.keys(["templates"]))}
+        onChange={(to) => edit(edits.renameUsed(yaml.text, "templates", name, to), templatePath(to))}
+      />
+      {template.template && (
+        <Field
+          label="Another name for the template"
+          value={template.template}
+          choices={yaml.keys(["templates"]).filter((one) => one !== name)}
+          onChange={(text) => text.trim() && edit(edits.setField(structure, template.yaml, "use", text))}
+        />
+      )}
+      <SharedNote structure={structure} agent={template} />
+      <div className="links">
+        {template.subsystems.map((one) => (
+          <button key={one.name} className="link" onClick={() => studio.view.set({ selected: one.path })}>
+            {one.kind === "control" ? "Control" : `${one.kind === "receptor" ? "Receptor" : "Effector"} ${one.name}`}
+          </button>
+        ))}
+      </div>
+      <div className="buttons">
+        <AddSubsystem structure={structure} agent={template} />
+        <button onClick={addAgent}>Add an agent of it</button>
+        {!used && (
+          <button className="danger" onClick={() => edit(apply(yaml.text, yaml.remove(template.yaml)), null)}>
+            Remove template
+          </button>
+        )}
+      </div>
+    </>
+  );
+}

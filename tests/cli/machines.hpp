@@ -7,6 +7,12 @@
 
 namespace tessera::cli_test {
 
+/// A number from the environment, for runs longer than the usual ones.
+[[nodiscard]] inline int given_or(const char* variable, int usual) {
+  const char* const given = std::getenv(variable);
+  return given == nullptr ? usual : std::atoi(given);
+}
+
 /// Three machines in network namespaces (tests/namespaces/machines). Only root may make them.
 class Machines : public Command {
  protected:
@@ -31,12 +37,6 @@ class Machines : public Command {
     return given == nullptr ? folder_ / "runs" : fs::path(given);
   }
   [[nodiscard]] fs::path project() const { return folder_ / "project"; }
-
-  /// A number from the environment, for runs longer than the usual ones.
-  [[nodiscard]] static int given_or(const char* variable, int usual) {
-    const char* const given = std::getenv(variable);
-    return given == nullptr ? usual : std::atoi(given);
-  }
 };
 
 }  // namespace tessera::cli_test

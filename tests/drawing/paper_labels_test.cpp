@@ -75,7 +75,7 @@ TEST_F(PaperLabels, NameTransmissionsBetweenControlSubsystems) {
   for (const char* name : {"p", "q"})
     builder.agent(name, {test::subsystem(spec::SubsystemKind::control, "control", {"in1"}, {"out1"},
                                          {test::behaviour("work")})});
-  builder.channel({0, 0}, {1, 0});
+  builder.channel({{0}, {0}}, {{1}, {0}});
   model_ = builder.result();
   built_ = test::build(model_);
   labels_ = paper_labels(built_.pages, model_);

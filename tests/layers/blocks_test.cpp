@@ -81,9 +81,9 @@ TEST(Blocks, OfAnOutputWithTwoChannelsAreNumbered) {
   builder.agent("a", {subsystem(spec::SubsystemKind::control, "control", {}, {"u", "v"}, {behaviour("give")}),
                       subsystem(spec::SubsystemKind::effector, "m", {"x"}, {}, {behaviour("take")}),
                       subsystem(spec::SubsystemKind::effector, "n", {"x", "y"}, {}, {behaviour("take")})});
-  builder.channel({0, 0}, {1, 0});
-  builder.channel({0, 1}, {2, 1});
-  builder.channel({0, 0}, {2, 0});
+  builder.channel({{0}, {0}}, {{1}, {0}});
+  builder.channel({{0}, {1}}, {{2}, {1}});
+  builder.channel({{0}, {0}}, {{2}, {0}});
   const Built built = build(builder.result());
   EXPECT_THAT(places_of(built.pages, "a.control.give.snd"),
               ElementsAre("in", "u#1.2", "u#1.out", "v.2", "v.out", "u#2.2", "out"));

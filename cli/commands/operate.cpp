@@ -94,7 +94,7 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
   return code;
 }
 
-/// Commands never go over the network: nothing there says who asks.
+/// Commands never go over the network, which does not tell who sends them.
 void note_not_told(const std::vector<SeenController>& processes, const char* what) {
   NotReached others;
   for (const SeenController& one : processes)
@@ -141,7 +141,7 @@ int emergency_stop_command(const OperateOptions& options) {
     others.tried(one.name());
     if (first && (options.which.empty() || options.which == first->system)) others.reached(*first);
   }
-  // Half a stop is none: who types this shall know what may still move.
+  // A stop of some processes is not a stop of the system: the operator must know what may still move.
   for (const std::string& text : others.texts())
     code = complain("NOT STOPPED, because they are on other machines, if they run: " + text +
                     ". Type `tessera emergency-stop` there, too");

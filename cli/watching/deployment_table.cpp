@@ -58,7 +58,7 @@ std::string doings(const Snapshot& now) {
   return text;
 }
 
-/// Processes that are not seen, with what is known of them: that the deployment has them, and what others tell.
+/// Processes that are not seen, with their host and the reports of their neighbours.
 std::vector<TableLine> unseen_lines(const DeploymentWatch& deployment, std::size_t width) {
   struct Known {
     std::string host, told;

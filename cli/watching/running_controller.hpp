@@ -43,7 +43,7 @@ class RunningController {
   project::ControlConnection connection_;
   std::string name_;
   project::ControlReader heard_;
-  std::optional<project::ControlMessage> coming_;  ///< nullopt: nobody has looked at it yet
+  std::optional<project::ControlMessage> coming_;  ///< nullopt: it was not looked at yet
 };
 
 /// A controller and its first message, which stays unread.

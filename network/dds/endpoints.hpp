@@ -50,7 +50,7 @@ class Endpoints {
   };
   [[nodiscard]] Writers to(ProcessNumber peer) const;
   [[nodiscard]] dds_entity_t alive_writer() const { return alive_writer_; }
-  /// For those who watch; the others read nothing of it.
+  /// For `tessera top` and the studio; no process reads it.
   [[nodiscard]] dds_entity_t status_writer() const { return status_writer_; }
   [[nodiscard]] dds_entity_t data() const { return data_; }
   [[nodiscard]] dds_entity_t state() const { return state_; }

@@ -27,7 +27,7 @@ extern "C" __attribute__((visibility("default"))) tessera::network::Carrier* tes
   }
 }
 
-/// Makes a reader of what processes tell; throws nothing. See tessera::network::OpenStatusReader.
+/// Makes a reader of the status of processes; throws nothing. See tessera::network::OpenStatusReader.
 extern "C" __attribute__((visibility("default"))) tessera::network::StatusReader*
 tessera_open_status_reader_1(const tessera::network::StatusReaderSetup& setup, char* error,
                              std::size_t size) {

@@ -36,14 +36,7 @@ namespace {
 /// The names of `--only`; empty: it was not given. Throws std::runtime_error: a name does not exist.
 std::vector<std::string> names_of_only(const std::string& list) {
   if (list == DeployOptions::all) return {};
-  std::vector<std::string> names;
-  for (std::size_t from = 0; from <= list.size();) {
-    const std::size_t comma = std::min(list.find(',', from), list.size());
-    const std::size_t first = list.find_first_not_of(" \t", from);
-    if (first < comma)
-      names.push_back(list.substr(first, list.find_last_not_of(" \t", comma - 1) + 1 - first));
-    from = comma + 1;
-  }
+  std::vector<std::string> names = names_between_commas(list);
   if (names.empty()) throw std::runtime_error("--only names no process");
   return names;
 }

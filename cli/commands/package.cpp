@@ -11,6 +11,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
+#include "project/deployed_run.hpp"
 #include "project/files/installation.hpp"
 #include "project/packaging/debian_packages.hpp"
 
@@ -24,16 +25,6 @@ struct PackageCommandOptions : LaunchOptions {
   std::string output = ".", format = "archive", groups, architecture, runtime;
   PackageOptions package;
 };
-
-std::vector<std::string> names_between_commas(const std::string& list) {
-  std::vector<std::string> names;
-  for (std::size_t from = 0; from < list.size();) {
-    const std::size_t comma = std::min(list.find(',', from), list.size());
-    names.push_back(list.substr(from, comma - from));
-    from = comma + 1;
-  }
-  return names;
-}
 
 /// nullopt: the processor of this machine. Throws std::runtime_error if the other one is not installed.
 std::optional<OtherProcessor> processor_of(const PackageCommandOptions& options) {

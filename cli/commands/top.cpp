@@ -17,12 +17,10 @@
 #include "cli/terminal.hpp"
 #include "cli/watching/running_controller.hpp"
 #include "cli/watching/top_deployment.hpp"
-#include "diagnostics/source.hpp"
 #include "project/launch.hpp"
 #include "project/meeting_place.hpp"
 #include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
-#include "spec/parser.hpp"
 #include "tessera/printable.hpp"
 
 namespace tessera::cli {
@@ -125,31 +123,40 @@ int watch_one(SeenController& watched, const TopOptions& options) {
   return ok;
 }
 
-/// The deployed system of a project, which may run on other machines only; nullopt: there is none in that place.
-std::optional<WatchedSystem> system_of_project(const TopOptions& options) {
-  const std::filesystem::path spec = project::spec_file(options.which.empty() ? "." : options.which);
+/// The specification that the options name, or that of this folder; nullopt: there is no such file.
+std::optional<std::filesystem::path> named_specification(const TopOptions& options) {
+  std::filesystem::path file = project::spec_file(options.which.empty() ? "." : options.which);
   std::error_code missing;
-  if (!std::filesystem::is_regular_file(spec, missing)) return std::nullopt;
-  diagnostics::Diagnostics found = diagnostics::load(spec);
-  const std::optional<spec::Model> model = found.has_errors() ? std::nullopt : spec::parse(found);
-  if (!model || !model->deployment) return std::nullopt;
-  const project::NetworkOptions& network = options.network;
-  return WatchedSystem{
-      .name = model->system,
-      .found = 0,
-      .given = project::meeting_place(*model->deployment, network, project::machine_name()),
-      .firm = !network.domain.empty() || !network.interface.empty() || !network.peers.empty()};
+  if (!std::filesystem::is_regular_file(file, missing)) return std::nullopt;
+  return file;
+}
+
+/// Whether the options say where the processes meet.
+bool names_network(const project::NetworkOptions& network) {
+  return !network.domain.empty() || !network.interface.empty() || !network.peers.empty();
+}
+
+/// Its processes may run on other machines only.
+int watch_project(const std::filesystem::path& file, const TopOptions& options, const WatchOptions& how) {
+  const std::optional<project::Specification> specification = project::read(file, terminal());
+  if (!specification) return exit_code_without_net();
+  const spec::Model& model = specification->model;
+  if (!model.deployment) return complain_of_none(options.which);
+  return watch_deployment(
+      {.name = model.system,
+       .found = 0,
+       .given = project::meeting_place(*model.deployment, options.network, project::machine_name()),
+       .firm = names_network(options.network)},
+      how);
 }
 
 int top_command(const TopOptions& options) {
   const WatchOptions how{.once = options.once, .lines = options.lines};
   std::vector<SeenController> seen = first_look(running_controllers(options.which));
-  const project::NetworkOptions& network = options.network;
-  const bool tells_network = !network.domain.empty() || !network.interface.empty() || !network.peers.empty();
-  if (seen.empty() || tells_network) {
-    if (const std::optional<WatchedSystem> system = system_of_project(options))
-      return watch_deployment(*system, how);
-    if (tells_network)
+  if (seen.empty() || names_network(options.network)) {
+    if (const std::optional<std::filesystem::path> file = named_specification(options))
+      return watch_project(*file, options, how);
+    if (names_network(options.network))
       return complain("--domain, --interface and --peers need a project with `deploy`: name it");
     return complain_of_none(options.which);
   }

@@ -24,6 +24,18 @@ std::string machine_name() {
   return name.data();
 }
 
+std::vector<std::string> names_between_commas(const std::string& list) {
+  std::vector<std::string> names;
+  for (std::size_t from = 0; from <= list.size();) {
+    const std::size_t comma = std::min(list.find(',', from), list.size());
+    const std::size_t first = list.find_first_not_of(" \t", from);
+    if (first < comma)
+      names.push_back(list.substr(first, list.find_last_not_of(" \t", comma - 1) + 1 - first));
+    from = comma + 1;
+  }
+  return names;
+}
+
 bool is_this_machine(const std::string& host, const std::string& machine) {
   const auto first_part = [](const std::string& name) { return name.substr(0, name.find('.')); };
   if (host.empty() || host == "localhost" || host == "127.0.0.1" || host == "::1" || host == machine)

@@ -18,6 +18,8 @@ namespace tessera::project {
 struct NetworkOptions {
   std::string domain, interface, peers;
 };
+/// "A, B" as "A" and "B"; empty ones are left out.
+[[nodiscard]] std::vector<std::string> names_between_commas(const std::string& list);
 
 /// Processes of a deployment, by their numbers.
 struct Placement {

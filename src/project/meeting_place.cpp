@@ -23,17 +23,6 @@ std::string interface_of(const spec::Deployment& deployment, const std::string& 
   return all ? first : "";
 }
 
-/// "A,B"
-std::vector<std::string> split(const std::string& list) {
-  std::vector<std::string> parts;
-  for (std::size_t from = 0; from <= list.size();) {
-    const std::size_t comma = std::min(list.find(',', from), list.size());
-    if (comma > from) parts.push_back(list.substr(from, comma - from));
-    from = comma + 1;
-  }
-  return parts;
-}
-
 }  // namespace
 
 std::uint32_t domain_of(const spec::Deployment& deployment, const NetworkOptions& options) {
@@ -50,7 +39,7 @@ Snapshot::Deployment meeting_place(const spec::Deployment& deployment, const Net
                                    const std::string& machine) {
   Snapshot::Deployment place{.domain = static_cast<int>(domain_of(deployment, options)),
                              .interface = options.interface,
-                             .peers = split(options.peers),
+                             .peers = names_between_commas(options.peers),
                              .processes = {}};
   if (place.interface.empty()) place.interface = interface_of(deployment, machine);
   for (const spec::Process& one : deployment.processes) {

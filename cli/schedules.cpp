@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
-#include <fstream>
 #include <iterator>
 #include <map>
 #include <string_view>
@@ -30,11 +29,6 @@ namespace {
 /// Options of the controller that do not change a run: paths of files, and the seed.
 constexpr std::array not_of_the_runs{"--record", "--record-values", "--record-limit", "--summary",
                                      "--seed",   "--trace",         "--world-library"};
-
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
 
 /// The value that counts: for a file its content, wherever it is.
 std::string meaning_of(const std::string& value) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <cstdlib>
+#include <span>
 
 namespace tessera {
 
@@ -17,9 +20,17 @@ inline constexpr bool sanitized = false;
 inline constexpr bool sanitized = false;
 #endif
 
-/// How many of \p cases a long test tries. Under a sanitizer, where each takes ten times as long, it is a third of them:
-/// the optimised build tries them all.
-[[nodiscard]] constexpr std::uint64_t share_of(std::uint64_t cases) { return sanitized ? cases / 3 : cases; }
+/// How many of \p cases a long test tries. Under a sanitizer, where each takes ten times as long, it is a tenth of them,
+/// and at least one: the optimised build tries them all.
+[[nodiscard]] constexpr std::uint64_t share_of(std::uint64_t cases) {
+  return sanitized ? (cases + 9) / 10 : cases;
+}
+
+/// The first of \p cases, as many as a long test tries.
+template <class Case, std::size_t count>
+[[nodiscard]] constexpr std::span<const Case> share_of(const std::array<Case, count>& cases) {
+  return std::span<const Case>(cases).first(share_of(std::uint64_t{count}));
+}
 
 /// The number in an environment variable: how long a test is to be. `otherwise`: it is not set.
 [[nodiscard]] inline std::uint64_t from_environment(const char* name, std::uint64_t otherwise) {

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <sstream>
 
 #include "recording_header.hpp"
 #include "segment_field.hpp"
@@ -193,8 +194,10 @@ namespace {
 
 [[nodiscard]] std::optional<Recording> read_segment(const std::string& path, std::string& error) {
   std::ifstream file(path, std::ios::binary);
-  const std::string content{std::istreambuf_iterator<char>(file), {}};
-  if (!file.is_open() || file.bad()) {
+  std::ostringstream whole;
+  whole << file.rdbuf();  // in blocks
+  const std::string content = std::move(whole).str();
+  if (!file.is_open() || whole.bad()) {
     error = fmt::format("cannot read '{}'", path);
     return std::nullopt;
   }

@@ -4,19 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <cstdlib>
 #include <random>
 #include <vector>
 
+#include "../environment.hpp"
 #include "command.hpp"
 
 namespace tessera::cli_test {
 namespace {
 
-[[nodiscard]] unsigned controllers() {
-  const char* wanted = std::getenv("TESSERA_CONTROLLERS");
-  return wanted == nullptr ? 2 : static_cast<unsigned>(std::strtoul(wanted, nullptr, 10));
-}
+[[nodiscard]] std::uint64_t controllers() { return from_environment("TESSERA_CONTROLLERS", 2); }
 
 /// Two to four agents of one control subsystem each, and channels of all modes between them. A second
 /// behaviour uses only some of the channels, and is left for the first again, or for good.

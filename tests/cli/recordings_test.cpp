@@ -9,6 +9,7 @@
 #include <thread>
 #include <vector>
 
+#include "../environment.hpp"
 #include "cli/terminal.hpp"
 #include "command.hpp"
 #include "project/verification/pipeline.hpp"
@@ -20,10 +21,7 @@ namespace {
 
 using Verdict = replay::Legality::Verdict;
 
-[[nodiscard]] unsigned recordings() {
-  const char* wanted = std::getenv("TESSERA_RECORDINGS");
-  return wanted == nullptr ? 20 : static_cast<unsigned>(std::strtoul(wanted, nullptr, 10));
-}
+[[nodiscard]] std::uint64_t recordings() { return from_environment("TESSERA_RECORDINGS", 20); }
 
 /// Pairs that wait for each other, and some that do not.
 constexpr const char* talkers = R"(tessera: 1

@@ -19,6 +19,7 @@
 #include <variant>
 #include <vector>
 
+#include "../environment.hpp"
 #include "../schema/judge.hpp"
 #include "command.hpp"
 #include "project/build/controller.hpp"
@@ -36,10 +37,7 @@ using namespace std::chrono_literals;
 namespace tessera::cli_test {
 namespace {
 
-[[nodiscard]] std::uint64_t seeds() {
-  const char* wanted = std::getenv("TESSERA_SEEDS");
-  return wanted == nullptr ? 2 : std::strtoull(wanted, nullptr, 10);
-}
+[[nodiscard]] std::uint64_t seeds() { return from_environment("TESSERA_SEEDS", 2); }
 
 /// Two robots, a camera, and an arm without wheels; the long form has the others, too.
 [[nodiscard]] std::vector<std::string> examples() {

@@ -12,6 +12,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "../environment.hpp"
 #include "command.hpp"
 
 namespace tessera::cli_test {
@@ -66,9 +67,8 @@ bool await(Condition&& condition) {
 }
 
 TEST_F(Several, CommandsAtOnceAreAllRight) {
-  const char* wanted = std::getenv("TESSERA_SEVERAL");
-  const int rounds = wanted == nullptr ? 1 : std::atoi(wanted);
-  for (int round = 0; round < rounds; ++round) {
+  const std::uint64_t rounds = from_environment("TESSERA_SEVERAL", 1);
+  for (std::uint64_t round = 0; round < rounds; ++round) {
     if (rounds > 1) fmt::print("round {} of {}\n", round + 1, rounds), std::fflush(stdout);
     fs::remove_all(folder_ / "rover");
     ASSERT_EQ(tessera("new rover").code, 0);

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include "../environment.hpp"
 #include "command.hpp"
 
 namespace tessera::cli_test {
@@ -27,9 +28,9 @@ TEST_F(Simulate, TheRobotKeepsToEveryShippedTrack) {
     double laps;
   };
   for (const Case& track : {Case{"", 3}, Case{"--track curves.png", 1}}) {
-    for (const char* seed : {"1", "2"}) {
+    for (std::uint64_t seed = 1; seed <= share_of(2); ++seed) {
       const nlohmann::json run =
-          json(std::string("simulate 01_line_follower --for 120s --seed ") + seed + " " + track.options);
+          json(fmt::format("simulate 01_line_follower --for 120s --seed {} {}", seed, track.options));
       EXPECT_GE(run.at("laps"), track.laps) << track.options;
       EXPECT_LE(run.at("longest_loss_s"), 1) << track.options;
     }
@@ -110,12 +111,14 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   replace(project / "src/control.cpp", "  out.motion = steer(",
           "  context.assert_that(in.line.valid, \"blind in iteration {}\", context.iteration);\n"
           "  out.motion = steer(");
-  const project::Exit found = tessera("simulate 01_line_follower --schedules 1000 --json out.json");
+  const std::uint64_t tried = share_of(1000);
+  const project::Exit found =
+      tessera(fmt::format("simulate 01_line_follower --schedules {} --json out.json", tried));
   EXPECT_EQ(found.code, 1) << found.text;
   const nlohmann::json failure = nlohmann::json::parse(content_of(folder_ / "out.json"));
   EXPECT_NE(found.text.find("robot.control.follow.in: blind in iteration 1"), std::string::npos)
       << found.text;
-  EXPECT_EQ(failure.at("tried"), 1000);
+  EXPECT_EQ(failure.at("tried"), tried);
   EXPECT_GT(failure.at("failed"), 0);
   EXPECT_EQ(failure.at("not_repeated"), nlohmann::json::array());
   EXPECT_EQ(failure.at("outcomes").at(0).at("kind"), "assertion");

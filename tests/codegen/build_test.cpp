@@ -22,7 +22,7 @@ class Build {
         run(TESSERA_CMAKE " -G Ninja -S " + folder_.path().string() + " -B " + build().string() +
             " -DCMAKE_CXX_COMPILER=" TESSERA_CXX " -Dtessera_DIR=" TESSERA_PACKAGE " -DTESSERA_PROJECT_DIR=" +
             project.string() + " -DCMAKE_CXX_FLAGS='-Wpedantic -Wconversion -Wshadow -Werror" +
-            (sanitize.empty() ? "'" : " -fsanitize=" + sanitize + "'") +
+            (sanitize.empty() ? "'" : " -fsanitize=" + sanitize + "' -DCMAKE_CXX_FLAGS_RELWITHDEBINFO=-O0") +
             (launcher.empty() ? "" : " -DCMAKE_CXX_COMPILER_LAUNCHER=" + launcher));
     if (configured_.exit_code == 0)
       built_ = run(TESSERA_CMAKE " --build " + build().string() + " -j2 -t all tests");

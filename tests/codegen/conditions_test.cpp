@@ -1,8 +1,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <string>
 
+#include "../environment.hpp"
 #include "generated.hpp"
 #include "spec/legal_conditions.hpp"
 #include "verify_circuits/naive_endings.hpp"
@@ -59,15 +61,15 @@ struct Mistake {
   const char* source;
 };
 
-const Mistake mistakes[] = {
+constexpr std::array<Mistake, 4> mistakes{{
     {"memory.count > 3", "std::cont > 3", "spec.yaml:10:34: error:", "std::cont > 3"},
     {"'memory.count < 0'", "'memory.count < '", "spec.yaml:11:36: error:", "memory.count < '"},
     {"memory.count == 4", "four(memory.count)", "spec.yaml:14:33: error:", "four(memory.count)"},
     {"memory.count > 9", "memory.count() > 9", "spec.yaml:10:67: error:", "memory.count() > 9"},
-};
+}};
 
 TEST(Conditions, AMistakeNamesTheLineAndColumnOfTheSpecification) {
-  for (const Mistake& mistake : mistakes) {
+  for (const Mistake& mistake : share_of(mistakes)) {
     SCOPED_TRACE(mistake.wrong);
     const Ran ran = compile(replaced(lonely, mistake.right, mistake.wrong));
     EXPECT_NE(ran.exit_code, 0);
@@ -154,7 +156,8 @@ std::string behaviour_text(std::uint32_t number, std::uint32_t of, std::uint64_t
 }
 
 TEST(Conditions, OfAnyKindCompileWithoutWarnings) {
-  constexpr std::uint32_t many = 60, alone = 4;
+  constexpr auto many = static_cast<std::uint32_t>(share_of(60)),
+                 alone = static_cast<std::uint32_t>(share_of(4));
   std::string spec =
       "tessera: 1\nsystem: s\nagents:\n  robot:\n    control:\n      rate: 10 Hz\n"
       "      memory: { a: bool, b: bool, c: bool }\n      behaviours:\n";

@@ -129,7 +129,7 @@ TEST(FoldedNet, IsTheWholeNet) {
   expect_whole(test::build(test::line_follower()), "line follower");
   expect_whole(test::build(test::fleet(7)), "fleet");
   expect_whole(test::build(test::pair({{test::B, test::B, true, true}, {test::N, test::B}})), "pair");
-  for (std::uint32_t seed = 0; seed < share_of(300); ++seed)
+  for (std::uint32_t seed = 0; seed < from_environment("TESSERA_RANDOM_MODELS", share_of(100)); ++seed)
     expect_whole(test::build(test::random_model(seed)), "random model " + std::to_string(seed));
 }
 

@@ -2,6 +2,7 @@
 
 #include <tuple>
 
+#include "../environment.hpp"
 #include "explore/explore.hpp"
 #include "formula_oracle.hpp"
 #include "oracle/nets/of_net.hpp"
@@ -145,7 +146,7 @@ class RandomNets : public testing::TestWithParam<std::tuple<Family, std::uint32_
 
 TEST_P(RandomNets, EveryAnswerIsThatOfTheOracle) {
   const auto& [family, part] = GetParam();
-  constexpr std::uint32_t nets = 1000;
+  constexpr auto nets = static_cast<std::uint32_t>(share_of(1000));
   std::uint32_t compared = 0;
   for (std::uint32_t seed = part * nets; seed < (part + 1) * nets; ++seed) {
     SCOPED_TRACE(testing::Message() << family.name << " net of seed " << seed);

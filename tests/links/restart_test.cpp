@@ -4,11 +4,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <random>
 #include <string>
 #include <vector>
 
+#include "../environment.hpp"
 #include "links_nets.hpp"
 #include "nets.hpp"
 #include "tessera/recording.hpp"
@@ -72,10 +72,7 @@ struct Delivery {
 };
 
 /// The number of runs: some in every test, many if TESSERA_RESTARTS is set.
-[[nodiscard]] unsigned scenarios() {
-  const char* const given = std::getenv("TESSERA_RESTARTS");
-  return given == nullptr ? 60U : static_cast<unsigned>(std::strtoul(given, nullptr, 10));
-}
+[[nodiscard]] std::uint64_t scenarios() { return from_environment("TESSERA_RESTARTS", share_of(60)); }
 
 /// One of ten messages is lost, two cuts of 2 s, and each process dies once at a time that the seed draws.
 TEST(Restart, NoConfirmedValueIsLostOrReadAgainAndEveryWheelIsSafe) {

@@ -2,7 +2,6 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <string>
 #include <utility>
 
@@ -67,11 +66,6 @@ std::unique_ptr<NetExecutor> load(ExecutableNet net, NetExecutor::Options option
   auto executor = NetExecutor::load(std::move(net), std::move(options), error);
   EXPECT_NE(executor, nullptr) << error;
   return executor;
-}
-
-std::uint32_t number_from(const char* variable, std::uint32_t otherwise) {
-  const char* text = std::getenv(variable);
-  return text == nullptr ? otherwise : static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
 }
 
 }  // namespace tessera::testing

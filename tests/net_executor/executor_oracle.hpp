@@ -37,7 +37,4 @@ class NaiveRun {
 
 [[nodiscard]] std::unique_ptr<NetExecutor> load(ExecutableNet net, NetExecutor::Options options = {});
 
-/// The number an environment variable holds, for long forms of tests.
-[[nodiscard]] std::uint32_t number_from(const char* variable, std::uint32_t otherwise);
-
 }  // namespace tessera::testing

@@ -4,6 +4,7 @@
 #include <optional>
 #include <set>
 
+#include "../environment.hpp"
 #include "executor_oracle.hpp"
 #include "oracle/nets/reachability_graph.hpp"
 
@@ -52,7 +53,7 @@ std::uint64_t play_in_step(const ExecutableNet& net, NetExecutor::Options option
 }
 
 TEST(RandomNets, EveryFiringIsLegalAndEnablingIsExact) {
-  const std::uint32_t nets = number_from("TESSERA_RANDOM_NETS", 3000);
+  const std::uint64_t nets = from_environment("TESSERA_RANDOM_NETS", share_of(3000));
   std::uint64_t firings = 0;
   for (std::uint32_t seed = 0; seed < nets && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -62,7 +63,7 @@ TEST(RandomNets, EveryFiringIsLegalAndEnablingIsExact) {
     firings += play_in_step(net, {.bound = most_tokens}, 60);
     firings += play_in_step(net, by_lot(seed), 60);
   }
-  EXPECT_GT(firings, 10 * std::uint64_t{nets});
+  EXPECT_GT(firings, 10 * nets);
 }
 
 /// All markings that can be reached, and those of them that are dead.
@@ -109,7 +110,7 @@ struct LongRun {
 }
 
 TEST(RandomNets, RunsByLotStayWithinTheOutcomesOfTheOracle) {
-  const std::uint32_t nets = number_from("TESSERA_RANDOM_NETS", 3000);
+  const std::uint64_t nets = from_environment("TESSERA_RANDOM_NETS", share_of(3000));
   std::uint32_t dead_ends = 0;
   for (std::uint32_t seed = 0; seed < nets && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -146,7 +147,7 @@ TEST(RandomNets, RunsByLotStayWithinTheOutcomesOfTheOracle) {
 }
 
 TEST(RandomNets, LotsReachExactlyTheOutcomesOfTheOracle) {
-  const std::uint32_t nets = number_from("TESSERA_RANDOM_NETS", 3000);
+  const std::uint64_t nets = from_environment("TESSERA_RANDOM_NETS", share_of(3000));
   std::uint32_t compared = 0, with_dead_ends = 0;
   for (std::uint32_t seed = 0; seed < nets && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
@@ -175,7 +176,8 @@ TEST(RandomNets, LotsReachExactlyTheOutcomesOfTheOracle) {
 
 /// A firing that is not observed takes a way of its own through the code.
 TEST(RandomNets, ObservingChangesNothing) {
-  for (std::uint32_t seed = 0; seed < number_from("TESSERA_RANDOM_NETS", 3000) && !HasFailure(); ++seed) {
+  const std::uint64_t nets = from_environment("TESSERA_RANDOM_NETS", share_of(3000));
+  for (std::uint32_t seed = 0; seed < nets && !HasFailure(); ++seed) {
     SCOPED_TRACE(seed);
     Random random(seed);
     const ExecutableNet net = random_net(random);

@@ -5,6 +5,7 @@
 #include <csignal>
 #include <thread>
 
+#include "../environment.hpp"
 #include "executor_oracle.hpp"
 
 // TESSERA_STOPS asks for more stops than an everyday run makes.
@@ -62,13 +63,13 @@ class Stopper {
   std::thread thread_;
 };
 
-void stop_at_random_moments(ExecutableNet net, std::uint32_t stops) {
+void stop_at_random_moments(ExecutableNet net, std::uint64_t stops) {
   const std::uint32_t tokens = 4;
   const auto executor = load(std::move(net), {.workers = 2});
   Stopper stopper(*executor);
   Random random(1);
   std::uint64_t firings = 0;
-  for (std::uint32_t stop = 0; stop < stops; ++stop) {
+  for (std::uint64_t stop = 0; stop < stops; ++stop) {
     stopper.stop_after(static_cast<std::int32_t>(random() % 20'000));
     const NetExecutor::Outcome outcome = executor->run();
     ASSERT_EQ(outcome.end, End::stopped);
@@ -82,7 +83,7 @@ void stop_at_random_moments(ExecutableNet net, std::uint32_t stops) {
 
 TEST(Stop, AtAnyMomentEndsARunThatFiresAndWorks) {
   std::atomic<std::uint64_t> work{0};
-  stop_at_random_moments(busy_net(work), number_from("TESSERA_STOPS", 1000));
+  stop_at_random_moments(busy_net(work), from_environment("TESSERA_STOPS", share_of(1000)));
   EXPECT_GT(work, 0U);
 }
 
@@ -91,7 +92,7 @@ TEST(Stop, AtAnyMomentEndsARunThatSleepsBetweenOperations) {
   std::atomic<std::uint64_t> work{0};
   ExecutableNet net{.places = {{.tokens = 4, .operation = [&] { ++work; }, .runs = Runs::on_worker}},
                     .transitions = {{.inputs = {{0}}, .outputs = {{0}}}}};
-  stop_at_random_moments(net, number_from("TESSERA_STOPS", 1000));
+  stop_at_random_moments(net, from_environment("TESSERA_STOPS", share_of(1000)));
   EXPECT_GT(work, 0U);
 }
 

@@ -78,7 +78,7 @@ TEST(ControlReader, AHeadThatAnnouncesMoreThanAControllerSendsIsTheLast) {
 
 TEST(ControlReader, HoldsAtMost64MegabytesWithoutAMessage) {
   ControlReader reader;
-  const std::string megabyte(std::size_t{1} << 20U, ' ');
+  const std::string megabyte(std::size_t{1} << 20U, 'x');
   for (int count = 0; count < 64; ++count) reader.add(megabyte);
   EXPECT_FALSE(reader.exceeds_limits());
   reader.add("\n");

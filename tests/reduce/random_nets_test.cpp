@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <set>
 #include <string>
 
+#include "../environment.hpp"
 #include "oracle/nets/of_net.hpp"
 #include "oracle/nets/reachability_graph.hpp"
 #include "reduce/random_case.hpp"
@@ -22,10 +22,7 @@ using reduce::Statistics;
 constexpr std::size_t most_markings = 400;
 
 /// The long form of the test: TESSERA_RANDOM_NETS=20000.
-std::uint64_t cases() {
-  const char* text = std::getenv("TESSERA_RANDOM_NETS");
-  return text == nullptr ? 1000 : std::strtoull(text, nullptr, 10);
-}
+std::uint64_t cases() { return from_environment("TESSERA_RANDOM_NETS", share_of(1000)); }
 
 struct Rule {
   const char* name;
@@ -174,13 +171,13 @@ std::size_t compare_random_nets(const Rules& on, std::size_t Statistics::*count)
 TEST(Reduce, EachRuleAloneKeepsTheAnswersOnRandomNets) {
   for (const Rule& rule : rules) {
     SCOPED_TRACE(rule.name);
-    EXPECT_GT(compare_random_nets(only(rule), rule.count), 50U) << "the rule was hardly tried";
+    EXPECT_GT(compare_random_nets(only(rule), rule.count), share_of(50)) << "the rule was hardly tried";
     if (HasFailure()) break;
   }
 }
 
 TEST(Reduce, AllRulesTogetherKeepTheAnswersOnRandomNets) {
-  EXPECT_GT(compare_random_nets({}, &Statistics::post_agglomeration), 100U);
+  EXPECT_GT(compare_random_nets({}, &Statistics::post_agglomeration), share_of(100));
 }
 
 TEST(Reduce, RulesThatAreOffAreNotApplied) {

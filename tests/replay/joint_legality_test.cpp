@@ -3,11 +3,11 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <functional>
 #include <map>
 #include <random>
 
+#include "../environment.hpp"
 #include "deployed_run.hpp"
 #include "layers/models.hpp"
 #include "naive_joint.hpp"
@@ -60,7 +60,7 @@ spec::Model small_model(std::mt19937& engine) {
 TEST(JointLegality, RandomRunsOfDeployedSystemsAreLegal) {
   std::mt19937 random(3);
   std::size_t networked = 0;
-  for (std::uint32_t seed = 0; seed < 150; ++seed) {
+  for (std::uint32_t seed = 0; seed < share_of(150); ++seed) {
     const Deployed system = each_apart(seed % 2 == 0 ? test::random_model(seed) : small_model(random));
     const std::vector<Recording> run = deployed_run(system, 600, random);
     EXPECT_EQ(cannot_be_joined(run, system.processes), std::nullopt);
@@ -78,7 +78,7 @@ TEST(JointLegality, RandomRunsOfDeployedSystemsAreLegal) {
     EXPECT_EQ(in_order.verdict, JointVerdict::legal) << seed << ": " << in_order.why;
     EXPECT_EQ(in_order.firings, simulated.entries.size()) << seed;
   }
-  EXPECT_GT(networked, 100U) << "channels between processes were used";
+  EXPECT_GT(networked, share_of(100)) << "channels between processes were used";
 }
 
 void renumber(Recording& recording) {
@@ -125,8 +125,7 @@ const std::map<std::string, std::function<void(Recording&, std::size_t, std::mt1
 TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
   std::mt19937 random(7);
   std::map<bool, std::size_t> verdicts;
-  const char* more = std::getenv("TESSERA_JOINT_RUNS");
-  const std::uint32_t runs = more == nullptr ? 30 : static_cast<std::uint32_t>(std::stoul(more));
+  const std::uint64_t runs = from_environment("TESSERA_JOINT_RUNS", share_of(30));
   for (std::uint32_t seed = 0; seed < runs; ++seed) {
     const Deployed system = each_apart(small_model(random));
     const std::vector<Recording> run = deployed_run(system, 40, random);
@@ -144,8 +143,8 @@ TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
       ++verdicts[possible];
     }
   }
-  EXPECT_GT(verdicts[true], 10U);
-  EXPECT_GT(verdicts[false], 50U);
+  EXPECT_GT(verdicts[true], share_of(10));
+  EXPECT_GT(verdicts[false], share_of(50));
 }
 
 TEST(JointLegality, AFiringOfAnotherProcessOrSubsystemIsIllegal) {

@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <limits>
 #include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "../environment.hpp"
 #include "firing_oracle.hpp"
 #include "nets.hpp"
 #include "system/console.hpp"
@@ -322,10 +322,7 @@ void make_line_follower(TestSystem& system) {
 }
 
 /// So many seeds of each fault; TESSERA_FAULT_SEEDS=1000 for the long form.
-[[nodiscard]] std::uint64_t fault_seeds() {
-  const char* wanted = std::getenv("TESSERA_FAULT_SEEDS");
-  return wanted == nullptr ? 20 : std::strtoull(wanted, nullptr, 10);
-}
+[[nodiscard]] std::uint64_t fault_seeds() { return from_environment("TESSERA_FAULT_SEEDS", share_of(20)); }
 
 TEST(FaultClasses, OfTheLineFollowerAreRecordedAndEndInTheSafeCommand) {
   struct Case {

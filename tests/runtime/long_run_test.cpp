@@ -2,10 +2,10 @@
 #include <unistd.h>
 
 #include <cstdio>
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 
+#include "../environment.hpp"
 #include "nets.hpp"
 #include "system/console.hpp"
 #include "test_system.hpp"
@@ -18,8 +18,7 @@ namespace {
 
 /// Simulated minutes; TESSERA_LONG_RUN_MINUTES=1440 for the long form.
 [[nodiscard]] std::chrono::minutes minutes() {
-  const char* wanted = std::getenv("TESSERA_LONG_RUN_MINUTES");
-  return std::chrono::minutes(wanted == nullptr ? 20 : std::atoi(wanted));
+  return std::chrono::minutes(from_environment("TESSERA_LONG_RUN_MINUTES", 20));
 }
 
 [[nodiscard]] std::size_t resident_bytes() {

@@ -11,6 +11,7 @@
 #include <string>
 #include <thread>
 
+#include "../environment.hpp"
 #include "child_run.hpp"
 #include "nets.hpp"
 #include "run/execute.hpp"
@@ -221,16 +222,13 @@ TEST(RealTime, ThatIsNotPermittedIsWarnedOfOnce) {
 }
 
 /// So many stops; TESSERA_STOPS=10000 for the long form.
-[[nodiscard]] int stops() {
-  const char* wanted = std::getenv("TESSERA_STOPS");
-  return wanted == nullptr ? 500 : std::atoi(wanted);
-}
+[[nodiscard]] std::uint64_t stops() { return from_environment("TESSERA_STOPS", share_of(500)); }
 
 TEST(Stop, AtARandomMomentNeverHangs) {
   std::mt19937_64 random(1);
   const auto below = [&](std::uint64_t limit) { return random() % limit; };
   console::silence(true);
-  for (int round = 0; round < stops(); ++round) {
+  for (std::uint64_t round = 0; round < stops(); ++round) {
     TestSystem system;
     Script stopper, thrower, motor;
     const std::uint64_t at = below(40), fails_at = below(80);

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <deque>
 #include <optional>
 #include <random>
@@ -11,6 +10,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "../environment.hpp"
 #include "blocks.hpp"
 #include "nets.hpp"
 #include "nets/flat_net.hpp"
@@ -261,8 +261,7 @@ void build(TestSystem& system, std::mt19937_64& random) {
 
 /// TESSERA_STUCK_SYSTEMS: how many, in place of 100.
 TEST(Stuck, NobodyIsNamedWhoCouldGoOnAndHardlyAnybodyIsForgotten) {
-  const char* const asked = std::getenv("TESSERA_STUCK_SYSTEMS");
-  const std::uint64_t count = asked == nullptr ? 100 : std::strtoull(asked, nullptr, 10);
+  const std::uint64_t count = from_environment("TESSERA_STUCK_SYSTEMS", share_of(100));
   std::uint64_t stuck = 0, forgotten = 0, judged = 0;
   for (std::uint64_t seed = 1; seed <= count; ++seed) {
     SCOPED_TRACE(seed);

@@ -13,6 +13,8 @@
 #include <random>
 #include <thread>
 
+#include "../environment.hpp"
+
 namespace tessera::safety_test {
 namespace {
 
@@ -22,10 +24,7 @@ constexpr unsigned workers = 3;
 constexpr milliseconds patience = seconds(30);  // for what must happen
 constexpr milliseconds still{150};              // for so long must devices stay safe if the process lives on
 
-[[nodiscard]] unsigned runs() {
-  const char* const wanted = std::getenv("TESSERA_SAFETY_RUNS");
-  return wanted == nullptr ? 2 : static_cast<unsigned>(std::strtoul(wanted, nullptr, 10));
-}
+[[nodiscard]] std::uint64_t runs() { return from_environment("TESSERA_SAFETY_RUNS", 2); }
 
 /// The result of one trial.
 struct Result {

@@ -3,10 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <array>
-#include <cstdlib>
 #include <random>
 #include <vector>
 
+#include "../environment.hpp"
 #include "sim/rendering/offscreen.hpp"
 #include "small_worlds.hpp"
 #include "tessera/large_array.hpp"
@@ -133,8 +133,7 @@ Outcome outcome_of(std::uint64_t seed, bool watched, bool with_camera) {
 }
 
 TEST(World, IsTheSameWhateverWatchesIt) {
-  const char* wanted = std::getenv("TESSERA_SEEDS");
-  const std::uint64_t seeds = wanted == nullptr ? 20 : std::strtoull(wanted, nullptr, 10);
+  const std::uint64_t seeds = from_environment("TESSERA_SEEDS", share_of(20));
   const bool with_camera = static_cast<bool>(sim::OffscreenContext::open("libEGL.so.1"));
   Outcome last;
   for (std::uint64_t seed = 1; seed <= seeds; ++seed) {

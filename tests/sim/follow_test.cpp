@@ -2,14 +2,17 @@
 // and the longest delays that the pipeline sensor -> control -> motor may have.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <filesystem>
 
+#include "../environment.hpp"
 #include "drawing.hpp"
 #include "follower.hpp"
 #include "sim/track.hpp"
 #include "world_library.hpp"
 
+using tessera::share_of;
 using tessera::WorldOptions;
 using tessera::sim::LineMetrics;
 using tessera::sim::Point;
@@ -21,6 +24,7 @@ namespace {
 constexpr Follower fast{.sensor_delay_ms = 0, .motor_delay_ms = 0};
 constexpr Follower usual{.sensor_delay_ms = 10, .motor_delay_ms = 10};
 constexpr Follower slow{.sensor_delay_ms = 20, .motor_delay_ms = 70};
+constexpr std::array all{fast, usual, slow};
 
 struct Start {
   std::string track;
@@ -51,11 +55,12 @@ TEST(Follow, KeepsToEveryShippedTrackBothWaysRound) {
     Start start;
     double laps;  ///< in 120 s
   };
-  for (const Case& c :
-       {Case{{oval, 1.2, 0.1, 0}, 4}, Case{{oval, 1.2, 0.1, M_PI}, 4}, Case{{oval, 0.4, 0.2, M_PI / 2}, 4},
-        Case{{curves, 1.2, 0.2, 0}, 3}, Case{{curves, 1.2, 0.2, M_PI}, 3}}) {
+  const std::array cases{Case{{oval, 1.2, 0.1, 0}, 4}, Case{{oval, 1.2, 0.1, M_PI}, 4},
+                         Case{{oval, 0.4, 0.2, M_PI / 2}, 4}, Case{{curves, 1.2, 0.2, 0}, 3},
+                         Case{{curves, 1.2, 0.2, M_PI}, 3}};
+  for (const Case& c : share_of(cases)) {
     std::uint64_t seed = 1;
-    for (const Follower& follower : {fast, usual, slow}) {
+    for (const Follower& follower : share_of(all)) {
       const LineMetrics metrics = follow(follower, c.start, ++seed, 120);
       SCOPED_TRACE(c.start.track + " " + std::to_string(follower.motor_delay_ms) + " ms, seed " +
                    std::to_string(seed));
@@ -67,7 +72,7 @@ TEST(Follow, KeepsToEveryShippedTrackBothWaysRound) {
 }
 
 TEST(Follow, KeepsToAnyLineAsWideWithCurvesNoTighter) {
-  for (std::uint64_t seed = 1; seed <= 5; ++seed) {
+  for (std::uint64_t seed = 1; seed <= share_of(5); ++seed) {
     const Drawing loop = random_loop(seed, 0.2);
     const std::string png = write_png(loop, "loop" + std::to_string(seed));
     const auto& points = loop.strokes[0].points;
@@ -93,7 +98,7 @@ TEST(Follow, PassesCrossings) {
   }
   const std::string png =
       write_png(Drawing{.width_m = 2.4, .height_m = 1.6, .strokes = {{eight, true}}}, "eight");
-  for (const std::uint64_t seed : {1U, 2U, 3U}) {
+  for (std::uint64_t seed = 1; seed <= share_of(3); ++seed) {
     const LineMetrics metrics = follow(usual, {png, eight[75].x_m, eight[75].y_m, 0}, seed, 120);
     EXPECT_GT(metrics.laps, 2.5) << seed;
     EXPECT_LT(metrics.longest_loss_s, 0.5) << seed;
@@ -111,7 +116,7 @@ TEST(Follow, TheTableAloneDoesNotCrossAGapOfTwoCentimetres) {
 }
 
 TEST(Follow, SearchingStraightOnCrossesTheGaps) {
-  for (const Follower& follower : {fast, usual, slow}) {
+  for (const Follower& follower : share_of(all)) {
     for (const double heading : {0.0, M_PI}) {
       Follower searching = follower;
       searching.search = true;

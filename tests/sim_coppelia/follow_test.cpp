@@ -3,9 +3,11 @@
 // readings and commands, not CoppeliaSim's physics.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <numbers>
 #include <stdexcept>
 
+#include "../environment.hpp"
 #include "follower.hpp"
 #include "scene_server.hpp"
 #include "sim/track.hpp"
@@ -28,8 +30,9 @@ sim::LineMetrics follow(const Follower& follower, const sim::Pose& start, double
 }
 
 TEST(FollowInCoppelia, KeepsToTheOvalBothWaysRound) {
-  for (const double heading_rad : {0.0, std::numbers::pi})
-    for (const double step_s : {0.01, 0.05}) {
+  constexpr std::array headings_rad{0.0, std::numbers::pi}, steps_s{0.05, 0.01};
+  for (const double heading_rad : share_of(headings_rad))
+    for (const double step_s : share_of(steps_s)) {
       const sim::LineMetrics metrics =
           follow({.sensor_delay_ms = 10, .motor_delay_ms = 10}, {{1.2, 0.1}, heading_rad}, step_s);
       SCOPED_TRACE(std::to_string(heading_rad) + " rad, steps of " + std::to_string(step_s) + " s");

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
-
+#include "../environment.hpp"
 #include "formula_oracle.hpp"
 #include "siphons/exclusion.hpp"
 
@@ -13,10 +12,7 @@ using explore::ReachabilityGraph;
 using oracle::Random;
 
 /// The long form of the test: TESSERA_RANDOM_NETS=20000.
-std::uint32_t cases() {
-  const char* text = std::getenv("TESSERA_RANDOM_NETS");
-  return text == nullptr ? 1000 : static_cast<std::uint32_t>(std::strtoul(text, nullptr, 10));
-}
+std::uint64_t cases() { return from_environment("TESSERA_RANDOM_NETS", share_of(1000)); }
 
 struct Tally {
   std::uint32_t questions = 0, impossible = 0, excluded = 0;

@@ -287,9 +287,10 @@ Tally compared(spec::Model (*system)(std::uint64_t seed), std::uint64_t systems)
 void expect_both_verdicts(Tally tally) {
   for (const char* name : {"deadlock_free", "goes_on", "channels_flow", "survives_exceptions"}) {
     const auto& [holds, violated, unknown] = tally.verdicts[name];
+    EXPECT_EQ(unknown, 0) << name;
+    if (sanitized) continue;  // the few systems there need not have both
     EXPECT_GT(holds, 0) << name;
     EXPECT_GT(violated, 0) << name;
-    EXPECT_EQ(unknown, 0) << name;
   }
 }
 

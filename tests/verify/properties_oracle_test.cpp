@@ -195,6 +195,7 @@ TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {
       comparison.with(method, properties, tally);
     if (HasFailure()) return;
   }
+  if (sanitized) return;  // the few systems there need not have both verdicts
   for (const auto& [method, verdicts] : tally) {
     EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::holds)], 0) << method;
     EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::violated)], 0) << method;

@@ -10,7 +10,7 @@
 #include <cerrno>
 #include <cstring>
 #include <fstream>
-#include <iterator>
+#include <sstream>
 #include <stdexcept>
 
 #include "tessera/net_hash.hpp"
@@ -39,7 +39,9 @@ bool write_all(int descriptor, std::string_view text) {
 
 std::string content_of(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  std::ostringstream text;
+  text << stream.rdbuf();  // in blocks: programs are hashed, too
+  return std::move(text).str();
 }
 
 void write_file(const fs::path& file, std::string_view text) {

@@ -128,8 +128,7 @@ export class YamlText {
   /** Inserts `key: value` at the end of the map at `path`; makes the map if it does not exist. */
   insert(path: YamlPath, key: string, value: Value): TextEdit[] {
     const map = this.map(path);
-    if (!map) return this.insertMap(path, key, value);
-    if (map.items.length === 0) return this.replaceWith(path, { [key]: value });
+    if (!map || map.items.length === 0) return this.insertMap(path, key, value);
     if (map.flow) {
       const at = this.endOf(map.items.at(-1)!);
       return [{ from: at, to: at, insert: `, ${key}: ${flowText(value)}` }];
@@ -145,9 +144,20 @@ export class YamlText {
 
   private insertMap(path: YamlPath, key: string, value: Value): TextEdit[] {
     const inside = { [key]: value };
+    if (path.length === 0) return this.insertFirst(key, value);
     if (this.pair(path)) return this.replaceWith(path, inside);
     if (this.itemOf(path)) return this.replace(path, flowText(inside));
     return this.insert(path.slice(0, -1), String(path.at(-1)), inside);
+  }
+
+  /** Inserts the first entry of a text that has none. A text that is no map stays as it is. */
+  private insertFirst(key: string, value: Value): TextEdit[] {
+    const root = this.node([]);
+    if (isMap(root)) return [{ from: root.range![0], to: root.range![1], insert: flowText({ [key]: value }) }];
+    if (root?.range && root.range[1] > root.range[0]) return [];
+    const end = this.text.length;
+    const gap = end === 0 || this.text.endsWith("\n") ? "" : "\n";
+    return [{ from: end, to: end, insert: `${gap}${key}:${block(value, 0)}\n` }];
   }
 
   /** Replaces a value; within flow style, the new value is in flow style. */
@@ -189,7 +199,10 @@ export class YamlText {
   /** Replaces the scalar or collection at a path. */
   replace(path: YamlPath, text: string): TextEdit[] {
     const node = this.node(path);
-    return node?.range ? [{ from: node.range[0], to: this.endOfNode(node), insert: text }] : [];
+    if (!node?.range) return [];
+    const from = node.range[0];
+    const gap = this.text[from - 1] === "-" ? " " : ""; // an item without a value
+    return [{ from, to: this.endOfNode(node), insert: gap + text }];
   }
 
   renameKey(path: YamlPath, name: string): TextEdit[] {
@@ -208,10 +221,11 @@ export class YamlText {
     if (!item) return [];
     if (items.length === 1 && !parent.flow) return path.length > 1 ? this.remove(path.slice(0, -1)) : [];
     if (parent.flow) return [this.removeFromFlow(items, at, parent as Node)];
-    const start = this.text.lastIndexOf("\n", startOf(item) - 1) + 1;
+    const begins = (one: PairOf | Node) => (isMap(parent) ? startOf(one) : this.dashOf(parent as YAMLSeq<Node>, one as Node));
+    const start = this.lineStart(begins(item));
     // The first entry of an item of a list stands behind the dash: the next one takes its place.
-    if (isPair(item) && this.text.slice(start, startOf(item)).trim() !== "")
-      return [{ from: startOf(item), to: startOf(items[at + 1]!), insert: "" }];
+    if (this.text.slice(start, begins(item)).trim() !== "")
+      return [{ from: begins(item), to: begins(items[at + 1]!), insert: "" }];
     const end = this.text.indexOf("\n", this.endOf(item));
     return [{ from: start, to: end < 0 ? this.text.length : end + 1, insert: "" }];
   }
@@ -222,11 +236,17 @@ export class YamlText {
     return { from: startOf(items[0]!), to: startOf(items[1]!), insert: "" };
   }
 
+  /** The text without several entries of the map at `path`, one after the other: the rest decides how the next one goes. */
+  without(path: YamlPath, keys: readonly string[]): YamlText {
+    return keys.reduce((now: YamlText, key) => new YamlText(apply(now.text, now.remove([...path, key]))), this);
+  }
+
   /** Adds an item at the end of the list at `path`. */
   append(path: YamlPath, item: string): TextEdit[] {
     const list = this.seq(path);
     if (!list || list.items.length === 0) {
       if (this.pair(path)) return this.replaceWith(path, [item]);
+      if (this.itemOf(path)) return this.replace(path, flowText([item]));
       if (path.length > 1) return this.insert(path.slice(0, -1), String(path.at(-1)), [item]);
       const end = this.text.length;
       const gap = this.text.endsWith("\n") ? "\n" : "\n\n";
@@ -234,8 +254,8 @@ export class YamlText {
     }
     const last = list.items.at(-1)!;
     if (list.flow) return [{ from: this.endOf(last), to: this.endOf(last), insert: `, ${item}` }];
-    const dash = this.text.lastIndexOf("-", startOf(last));
-    return [this.afterLine(this.endOf(last), `${" ".repeat(this.columnOf(dash))}- ${item}`)];
+    const indent = this.columnOf(list.range![0]);
+    return [this.afterLine(this.endOf(last), `${" ".repeat(indent)}- ${item}`)];
   }
 
   /** Replaces matching parts of a scalar in place. */
@@ -257,11 +277,26 @@ export class YamlText {
 
   private endOfNode(node: Node): number {
     if (isCollection(node) && !node.flow && node.items.length > 0) return this.endOf(node.items.at(-1) as PairOf | Node);
-    return node.range![1];
+    const [start, end] = node.range!;
+    // The range of a block text (`|`, `>`) ends at the start of the next line.
+    const isBlockText = isScalar(node) && (node.type === "BLOCK_LITERAL" || node.type === "BLOCK_FOLDED");
+    return isBlockText ? start + this.text.slice(start, end).trimEnd().length : end;
+  }
+
+  private lineStart(offset: number): number {
+    return offset === 0 ? 0 : this.text.lastIndexOf("\n", offset - 1) + 1;
   }
 
   private columnOf(offset: number): number {
-    return offset - (this.text.lastIndexOf("\n", offset - 1) + 1);
+    return offset - this.lineStart(offset);
+  }
+
+  /** The dash of an item of a list that is no flow. All dashes of a list stand in one column; an item may begin lines below. */
+  private dashOf(list: YAMLSeq<Node>, item: Node): number {
+    const column = this.columnOf(list.range![0]);
+    for (let line = this.lineStart(item.range![0]); line >= 0; line = line === 0 ? -1 : this.lineStart(line - 1))
+      if (this.text[line + column] === "-" && /^[ -]*$/.test(this.text.slice(line, line + column))) return line + column;
+    return item.range![0];
   }
 
   private afterLine(offset: number, line: string): TextEdit {

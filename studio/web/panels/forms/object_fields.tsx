@@ -312,7 +312,11 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
     if (!next) return;
     if (!is) return edit(apply(yaml.text, yaml.set(at, key, "name")));
     const gone = is.fields.filter((one) => one.key !== is.key && !next.fields.some((other) => other.key === one.key));
-    edit(apply(yaml.text, [...yaml.renameKey([...at, is.key], key), ...gone.flatMap((one) => yaml.remove([...at, one.key]))]));
+    const rest = yaml.without(
+      at,
+      gone.map((one) => one.key),
+    );
+    edit(apply(rest.text, rest.renameKey([...at, is.key], key)));
   };
   // The fields of every case, such as the name, stay in their place.
   const first = is ? fields.findIndex(({ key }) => key === is.key) : 0;

@@ -68,7 +68,10 @@ void report_reached(const Specification& specification, const fs::path& recordin
     fmt::print("  {:<32} {:>4} of {}{}\n", one.file.string(), one.lines - one.missed.size(), one.lines,
                one.missed.empty() ? "" : ", not " + ranges_of(one.missed));
   }
-  fmt::print("  {:<32} {:>4} of {}\n", "all", all - missed, all);
+  if (all == 0)
+    fmt::print("  unknown: the data that the compiler has left names no line of src/\n");
+  else
+    fmt::print("  {:<32} {:>4} of {}\n", "all", all - missed, all);
   CoverageInput input(specification);
   bool any = false;
   for (const auto& entry : fs::directory_iterator(recordings)) {

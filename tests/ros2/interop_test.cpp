@@ -14,6 +14,7 @@
 #include "eventually.hpp"
 #include "fast_peer.hpp"
 #include "ros2/dds/clock.hpp"
+#include "stderr_text.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/fields.hpp"
 
@@ -209,18 +210,14 @@ TEST_F(WithFastDds, IsANodeForToolsOfRos2) {
 }
 
 TEST_F(WithFastDds, TellsOfAPublisherWithAnotherReliability) {
-  testing::internal::CaptureStderr();
+  const StderrText told;
   auto* const writer = peer.writer<fast::Text>("rt/words", /*reliable=*/false);
   auto ear = opened_receptor(binding<BoundedString<16>>("/words", "std_msgs/msg/String"));
   fast::Text text{"unheard"};
-  std::string told;
   EXPECT_TRUE(eventually([&] {
     writer->write(&text);
-    told += testing::internal::GetCapturedStderr();
-    testing::internal::CaptureStderr();
-    return told.find("a publisher offers another reliability of /words than ours") != std::string::npos;
-  }));
-  told += testing::internal::GetCapturedStderr();
+    return told.has("a publisher offers another reliability of /words than ours");
+  })) << told.now();
   BoundedString<16> heard;
   EXPECT_FALSE(read(*ear, heard));
 }

@@ -13,6 +13,7 @@
 #include "bindings.hpp"
 #include "eventually.hpp"
 #include "fast_peer.hpp"
+#include "stderr_text.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -71,17 +72,13 @@ TEST(OtherSide, OfADefaultParticipantIsToldAsMissingOnLoopbackAndFoundOnItsInter
       })) << "peers: "
           << peers;
     }
-    std::string told;
-    testing::internal::CaptureStderr();
+    const StderrText told;
     auto effector = opened_effector(base("lo"));
     EXPECT_TRUE(eventually([&] {
       EXPECT_TRUE(write(*effector, Motion{1, 0}));
-      told += testing::internal::GetCapturedStderr();
-      testing::internal::CaptureStderr();
-      return told.find("nobody subscribes to /cmd_vel on interface lo") != std::string::npos;
+      return told.has("nobody subscribes to /cmd_vel on interface lo");
     }));
-    testing::internal::GetCapturedStderr();
-    EXPECT_NE(told.find("Write `interface: v0` into the driver"), std::string::npos) << told;
+    EXPECT_TRUE(told.has("Write `interface: v0` into the driver")) << told.now();
   });
   if (!made) GTEST_SKIP() << "no network namespace can be made here (root, package iproute2)";
 }

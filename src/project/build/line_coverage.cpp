@@ -29,8 +29,10 @@ std::vector<fs::path> files_of_gcov(const Specification& specification, const st
 using Counts = std::map<fs::path, std::map<std::uint32_t, std::uint64_t>>;
 
 void add_counts(const nlohmann::json& output, const fs::path& sources, Counts& counts) {
+  // Some compilers are started with paths that are relative to the folder of the build, for example by ccache.
+  const fs::path started_in = output.value("current_working_directory", "");
   for (const nlohmann::json& file : output.at("files")) {
-    const fs::path path = fs::weakly_canonical(file.at("file").get<std::string>());
+    const fs::path path = fs::weakly_canonical(started_in / file.at("file").get<std::string>());
     const fs::path relative = path.lexically_relative(sources);
     if (relative.empty() || *relative.begin() == "..") continue;
     for (const nlohmann::json& line : file.at("lines"))

@@ -74,10 +74,12 @@ export default function TextPane() {
 
   useEffect(() => {
     const editor = view.current;
-    if (!editor || editor.state.doc.toString() === text) return;
-    const { from, to, insert } = splice(editor.state.doc.toString(), text);
+    // Not the text that was drawn: an effect may run late, and would take back what came since, even the whole file.
+    const now = studio.draft.store.get().text;
+    if (!editor || editor.state.doc.toString() === now) return;
+    const { from, to, insert } = splice(editor.state.doc.toString(), now);
     editor.dispatch({ changes: { from, to, insert }, effects: EditorView.scrollIntoView(from, { y: "nearest", yMargin: 60 }) });
-  }, [text]);
+  }, [studio, text]);
 
   useEffect(() => {
     if (view.current) mark(view.current, diagnostics);

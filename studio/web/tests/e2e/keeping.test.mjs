@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { button, draftText, example, folder, onPage, serve, tab, until } from "./page.mjs";
+import { button, draftText, drawn, example, folder, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 const subsystem = '[data-path="robot.control"]';
@@ -31,6 +31,46 @@ async function typeAtBegin(page, area, text) {
 }
 
 const sourceOf = (server) => join(server.root, "src/control.cpp");
+
+/** Holds back the answer with the file until the text pane is in the page, but before its effects run. */
+function holdFileUntilTextPane() {
+  const fetched = window.fetch;
+  window.fetch = async (path, options) => {
+    const answer = await fetched(path, options);
+    if (!String(path).endsWith("/api/spec") || window.held) return answer;
+    const body = await answer.text();
+    // A body that is there needs no further task of the browser.
+    const ready = { ok: true, status: 200, headers: answer.headers, text: async () => body, json: async () => JSON.parse(body) };
+    const isThere = () => document.querySelector('[data-testid="editor"]') !== null;
+    await new Promise((done) => {
+      if (isThere()) return done();
+      window.held = true;
+      new MutationObserver((_, observer) => isThere() && (observer.disconnect(), done())).observe(document, {
+        childList: true,
+        subtree: true,
+      });
+    });
+    return ready;
+  };
+}
+
+test("a file that comes while the page is drawn for the first time stays as it is", () =>
+  onPage(lineFollower, async (_, server, open) => {
+    const page = await open();
+    await page.addInitScript(holdFileUntilTextPane);
+    // The part of the page with the editor comes late.
+    await page.route(/text_pane/, async (route) => {
+      await new Promise((done) => setTimeout(done, 1500));
+      await route.continue();
+    });
+    await page.goto(server.url);
+    await page.getByText("Opening…").waitFor({ state: "detached" });
+    await until(page, () => page.evaluate(() => window.held), "the file was held back");
+    await drawn(page);
+    const shown = await page.locator(".cm-content").innerText();
+    assert.match(shown, /system: line_follower/);
+    assert.equal(await draftText(page), undefined, "something is not saved");
+  }));
 
 test("undo in the C++ undoes the C++ and not the specification, and a reload loses neither", () =>
   onPage(lineFollower, async (page) => {

@@ -10,6 +10,7 @@
 #include <string_view>
 
 #include "cli/coverage.hpp"
+#include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/files.hpp"
 #include "project/process/death.hpp"

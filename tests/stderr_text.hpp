@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// What this process writes to the standard error stream from now on. It can be read at any time: what gtest captures
+/// Captures the standard error stream of this process from now on. It can be read at any time: what gtest captures
 /// is lost if another thread writes between the end of one capture and the beginning of the next.
 ///
 /// Only one at a time.

@@ -16,13 +16,13 @@ const char* name_of(TransitionRole role) {
 }
 
 std::string HierarchicalNet::path(PageId page) const {
-  std::vector<const std::string*> parts;
+  std::vector<const std::string*> names;
   for (PageId at = page; at.valid() && pages[at.value].parent.valid(); at = pages[at.value].parent)
-    parts.push_back(&pages[at.value].name);
+    names.push_back(&pages[at.value].name);
   std::string text;
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part) {
+  for (auto name = names.rbegin(); name != names.rend(); ++name) {
     if (!text.empty()) text += '.';
-    text += **part;
+    text += **name;
   }
   return text;
 }

@@ -240,7 +240,7 @@ std::size_t each_of(std::size_t words) {
   return sanitized ? 10 * words : words;
 }
 
-/// A third of the words in each role, others in each.
+/// Each role gets a third of the words, and another third than the role before.
 TEST(Names, WhatWeEmitMayBeANameOfTheUserOrIsRefused) {
   Batch batch;
   for (const Role role : roles) {

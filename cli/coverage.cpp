@@ -4,12 +4,12 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <utility>
 
 #include "cli/terminal.hpp"
+#include "project/files/files.hpp"
 #include "replay/coverage.hpp"
 #include "statistics/results.hpp"
 #include "tessera/recording.hpp"
@@ -27,10 +27,9 @@ namespace {
   throw std::runtime_error(fmt::format("{}: {}", file, why));
 }
 
-std::string content_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) refuse_input(file, "cannot be read");
-  return {std::istreambuf_iterator<char>(stream), {}};
+std::string content_of_readable(const std::string& file) {
+  if (!std::ifstream(file)) refuse_input(file, "cannot be read");
+  return project::content_of(file);
 }
 
 bool is_recording(const std::string& file) {
@@ -87,7 +86,7 @@ void CoverageInput::add_file(const std::string& file) {
     if (const auto why = state_->counts.add(*recording)) refuse_input(file, why->text);
     return;
   }
-  const Result<statistics::Results> results = statistics::parse_results(content_of(file));
+  const Result<statistics::Results> results = statistics::parse_results(content_of_readable(file));
   if (!results) refuse_input(file, "is no recording, and " + results.problem());
   if (results->transitions.empty() && results->tried > 0)
     refuse_input(file, "has no coverage: it comes from schedules without --coverage");

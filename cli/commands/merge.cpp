@@ -2,8 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <fstream>
-#include <iterator>
 #include <memory>
 #include <string>
 #include <vector>
@@ -11,6 +9,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/outputs.hpp"
 #include "cli/terminal.hpp"
+#include "project/files/files.hpp"
 #include "statistics/table.hpp"
 
 namespace tessera::cli {
@@ -28,9 +27,7 @@ int merge_command(const MergeOptions& options) {
   check_replaceable(options.json, "{");
   std::vector<statistics::NamedResults> all;
   for (const std::string& file : options.files) {
-    std::ifstream stream(file, std::ios::binary);
-    const std::string text{std::istreambuf_iterator<char>(stream), {}};
-    Result<statistics::Results> results = statistics::parse_results(text);
+    Result<statistics::Results> results = statistics::parse_results(project::content_of(file));
     if (!results) return complain(fmt::format("{} {}", file, results.problem()));
     all.push_back({file, std::move(*results)});
   }

@@ -4,12 +4,11 @@
 
 #include <algorithm>
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
+#include "project/files/files.hpp"
 #include "project/verification/run_files.hpp"
 #include "project/verification/verdicts.hpp"
 #include "server/analysis/views.hpp"
@@ -313,8 +312,7 @@ void Api::get_track(const Request& request, Response& response) {
   const auto tracks = assets_named(options_.share / "tracks", parts_.file.folder(), ".png");
   const auto found = tracks.find(request.matches[1]);
   if (found == tracks.end()) return answer_error(response, 404, "there is no such track");
-  std::ifstream stream(found->second, std::ios::binary);
-  response.set_content({std::istreambuf_iterator<char>(stream), {}}, "image/png");
+  response.set_content(project::content_of(found->second), "image/png");
 }
 
 void Api::stream_events(HttpServer& server, Response& response) {

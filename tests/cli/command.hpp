@@ -8,16 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "../bytes_of.hpp"
 #include "project/process/process.hpp"
 
 namespace tessera::cli_test {
 
 namespace fs = std::filesystem;
 
-inline std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+inline std::string content_of(const fs::path& file) { return bytes_of(file); }
 
 inline void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

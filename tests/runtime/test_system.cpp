@@ -191,9 +191,4 @@ std::string scratch_file(const std::string& name) {
   return path / name;
 }
 
-std::string bytes_of(const std::string& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
-
 }  // namespace tessera::testing

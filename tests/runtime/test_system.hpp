@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "../bytes_of.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/tables.hpp"
@@ -100,6 +101,5 @@ class TestSystem {
 
 /// A name for a file of this test in a fresh directory.
 [[nodiscard]] std::string scratch_file(const std::string& name);
-[[nodiscard]] std::string bytes_of(const std::string& file);
 
 }  // namespace tessera::testing

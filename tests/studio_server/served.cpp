@@ -9,6 +9,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "../bytes_of.hpp"
 #include "../schema/judge.hpp"
 
 namespace tessera::server_test {
@@ -29,10 +30,7 @@ std::string receive_some(int socket) {
 
 }  // namespace
 
-std::string content_of(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
-}
+std::string content_of(const fs::path& file) { return bytes_of(file); }
 
 void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

@@ -57,7 +57,12 @@ class NetHash {
       for (int shift = 0; shift < 64; shift += 8) byte(static_cast<unsigned char>(value >> shift));
     }
     void text(std::string_view value) {
-      for (char character : value) byte(static_cast<unsigned char>(character));
+      auto [first, second] = lanes;  // a local loop: programs are hashed too, and tests are not optimised
+      for (const char character : value) {
+        first = (first ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
+        second = (second ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
+      }
+      lanes = {first, second};
       byte(0xff);  // so that no name is a prefix of another
     }
   };

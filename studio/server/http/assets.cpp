@@ -1,11 +1,10 @@
 #include "server/http/assets.hpp"
 
 #include <array>
-#include <fstream>
-#include <iterator>
 #include <string_view>
 #include <utility>
 
+#include "project/files/files.hpp"
 #include "server/http/packing.hpp"
 
 namespace tessera::server {
@@ -60,9 +59,8 @@ Assets::Assets(const fs::path& folder) {
   for (fs::recursive_directory_iterator entry(folder, ignored), end; !ignored && entry != end;
        entry.increment(ignored)) {
     if (entry->is_symlink() || !entry->is_regular_file()) continue;
-    std::ifstream stream(entry->path(), std::ios::binary);
     files_["/" + fs::relative(entry->path(), folder).generic_string()] =
-        asset({std::istreambuf_iterator<char>(stream), {}}, type_of(entry->path()));
+        asset(project::content_of(entry->path()), type_of(entry->path()));
   }
   const auto index = files_.find("/index.html");
   files_["/"] = index == files_.end() ? asset(std::string(not_built), "text/html; charset=utf-8")

@@ -1,8 +1,7 @@
 // The poses in a recording, for Recordings.
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 
+#include "project/files/files.hpp"
 #include "server/http/json_text.hpp"
 #include "server/recordings/pose_track.hpp"
 #include "server/recordings/recording_stream.hpp"
@@ -72,8 +71,7 @@ std::optional<std::string> Recordings::scene(const std::string& hash) const {
     const fs::path scene = scene_file(file.string(), hash);
     std::error_code ignored;
     if (fs::symlink_status(scene, ignored).type() != fs::file_type::regular) continue;
-    std::ifstream stream(scene, std::ios::binary);
-    return std::string(std::istreambuf_iterator<char>(stream), {});
+    return project::content_of(scene);
   }
   return std::nullopt;
 }

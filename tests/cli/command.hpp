@@ -8,14 +8,14 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "../bytes_of.hpp"
+#include "../file_bytes.hpp"
 #include "project/process/process.hpp"
 
 namespace tessera::cli_test {
 
 namespace fs = std::filesystem;
 
-inline std::string content_of(const fs::path& file) { return bytes_of(file); }
+inline std::string content_of(const fs::path& file) { return file_bytes(file); }
 
 inline void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

@@ -41,7 +41,7 @@ TEST_F(CommandLineOf, SimulateRunsAndSummarises) {
                              "--record", recording}),
             0);
   EXPECT_EQ(gain, 3);
-  const auto json = nlohmann::json::parse(bytes_of(summary));
+  const auto json = nlohmann::json::parse(file_bytes(summary));
   EXPECT_EQ(json.at("simulated_s"), 2.0);
   EXPECT_EQ(json.at("ended"), "duration");
   EXPECT_EQ(json.at("failed"), false);

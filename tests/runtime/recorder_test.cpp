@@ -23,7 +23,7 @@ namespace {
   RunOptions options = simulated(55ms);
   options.recording = scratch_file("run");
   EXPECT_FALSE(run(system, options).failed);
-  return bytes_of(options.recording);
+  return file_bytes(options.recording);
 }
 
 [[nodiscard]] std::optional<Recording> read_bytes(const std::string& bytes) {

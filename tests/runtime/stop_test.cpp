@@ -106,7 +106,7 @@ TEST(Stop, GivesTheSafeCommandWhileUserCodeHasNotReturned) {
     return execute(system.system(), options, nullptr, give_up, error) ? 3 : 4;
   });
   const int code = child.wait();
-  return {code, bytes_of(file)};
+  return {code, file_bytes(file)};
 }
 
 /// The devices of the others are safe and closed, and the recording has its end.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "../bytes_of.hpp"
+#include "../file_bytes.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/tables.hpp"

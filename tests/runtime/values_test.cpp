@@ -305,7 +305,7 @@ TEST(RecordedValues, OfMemoryAreRefusedByOlderVersionsByName) {
   const auto beginning = [&] {
     options.recording = scratch_file("run");
     static_cast<void>(run(system, options));
-    return bytes_of(options.recording).substr(0, 8);
+    return file_bytes(options.recording).substr(0, 8);
   };
   EXPECT_EQ(beginning(), "TESSREC3");
   options.values = RunOptions::Values::none;

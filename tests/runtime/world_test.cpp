@@ -49,7 +49,7 @@ TEST_F(InAWorld, MovesInLockStepWithTheSimulatedClock) {
   EXPECT_DOUBLE_EQ(positions[0], 0);
   EXPECT_DOUBLE_EQ(positions[1], 0.02);
   EXPECT_DOUBLE_EQ(positions[2], 0.04);
-  EXPECT_EQ(bytes_of(options.world->trace), "0\n0.01\n0.02\n0.025\n");
+  EXPECT_EQ(file_bytes(options.world->trace), "0\n0.01\n0.02\n0.025\n");
   EXPECT_TRUE(system.devices.commands.empty()) << "the world's device comes before the C++ driver";
 }
 
@@ -94,7 +94,7 @@ TEST_F(InAWorld, ItsPosesAndSceneAreRecorded) {
   options.world->world = "seen.xml";
   options.recording = scratch_file("seen.tsr");
   EXPECT_FALSE(run(system, options).failed);
-  EXPECT_TRUE(bytes_of(options.recording).starts_with("TESSREC2"));
+  EXPECT_TRUE(file_bytes(options.recording).starts_with("TESSREC2"));
   std::string error;
   const auto recording = read_recording(options.recording, error);
   ASSERT_TRUE(recording) << error;
@@ -102,7 +102,7 @@ TEST_F(InAWorld, ItsPosesAndSceneAreRecorded) {
   ASSERT_EQ(recording->scene->bodies.size(), 2u);
   EXPECT_EQ(recording->scene->bodies[0].name, "wheel");
   EXPECT_EQ(recording->scene->bodies[0].agent, "robot");
-  EXPECT_EQ(bytes_of(scene_file(options.recording, recording->scene->hash)), "glTF");
+  EXPECT_EQ(file_bytes(scene_file(options.recording, recording->scene->hash)), "glTF");
   EXPECT_EQ(places_in(*recording),
             (std::map<std::int64_t, double>{{0, 0}, {10, 0.02}, {20, 0.04}, {25, 0.05}}));
   EXPECT_EQ(complaint_about(*recording, system.system()), "");
@@ -152,10 +152,10 @@ TEST(KeptScene, StandsBesideTheRecordingOrSaysWhyNot) {
   std::string error;
   for (int time = 0; time < 2; ++time) EXPECT_EQ(keep_scene(scene, recording, error), file);
   EXPECT_EQ(error, "");
-  EXPECT_EQ(bytes_of(file), scene.glb);
+  EXPECT_EQ(file_bytes(file), scene.glb);
   std::ofstream(file) << "cut";
   EXPECT_EQ(keep_scene(scene, recording, error), file);
-  EXPECT_EQ(bytes_of(file), scene.glb);
+  EXPECT_EQ(file_bytes(file), scene.glb);
   std::filesystem::remove(file);
   std::filesystem::create_directory(file);
   EXPECT_EQ(keep_scene(scene, recording, error), "");
@@ -195,7 +195,7 @@ TEST_F(InAWorld, ThatIsSlowerThanRealTimeFallsBehindAndSaysSo) {
   ASSERT_EQ(summary.warnings.size(), 1U);
   EXPECT_TRUE(summary.warnings[0].starts_with("the simulated world ran at 0.")) << summary.warnings[0];
   double last = 0;
-  std::istringstream trace(bytes_of(options.world->trace));
+  std::istringstream trace(file_bytes(options.world->trace));
   for (double time = 0; trace >> time; last = time)
     EXPECT_LE(time - last, 0.0101) << "nobody waits longer than for one step";
 }

@@ -9,7 +9,7 @@
 #include <fstream>
 #include <iterator>
 
-#include "../bytes_of.hpp"
+#include "../file_bytes.hpp"
 #include "../schema/judge.hpp"
 
 namespace tessera::server_test {
@@ -30,7 +30,7 @@ std::string receive_some(int socket) {
 
 }  // namespace
 
-std::string content_of(const fs::path& file) { return bytes_of(file); }
+std::string content_of(const fs::path& file) { return file_bytes(file); }
 
 void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

@@ -115,7 +115,7 @@ TEST(CommandsInARun, AreClampedAndTheRecordingHasWhatWasSent) {
   const std::string file = scratch_file("limited.tsr");
   EXPECT_FALSE(run_limited(system, false, file).failed);
   EXPECT_EQ(system.devices.commands, (std::vector<double>{0, 1, 2, 3, 3, 0}));
-  const std::string bytes = bytes_of(file);
+  const std::string bytes = file_bytes(file);
   EXPECT_NE(bytes.find("real output 'command' is limited to 0 (7 was asked for)"), std::string::npos);
   const auto holds = [&](double value) {
     return bytes.find(std::string_view(reinterpret_cast<const char*>(&value), sizeof value)) !=
@@ -131,7 +131,7 @@ TEST(CommandsInARun, BeyondALimitThatIsAFaultGiveTheSafeCommand) {
   static_cast<void>(run_limited(system, true, file));
   EXPECT_EQ(std::count(system.devices.commands.begin(), system.devices.commands.end(), 0.0),
             static_cast<std::ptrdiff_t>(system.devices.commands.size()));
-  EXPECT_NE(bytes_of(file).find("the command 7 to real output 'command' is beyond its limits"),
+  EXPECT_NE(file_bytes(file).find("the command 7 to real output 'command' is beyond its limits"),
             std::string::npos);
 }
 

@@ -59,7 +59,7 @@ TEST_F(Growing, ComesAsItIsWrittenInPieces) {
   EXPECT_TRUE(first.begins);
   EXPECT_TRUE(first.more);
   std::string all = first.bytes + files_of(growing, 100).at(0);
-  EXPECT_EQ(all, bytes_of(file_));
+  EXPECT_EQ(all, file_bytes(file_));
   fire(3);
   const GrowingRecording::Piece later = growing.next(plenty);
   EXPECT_EQ(later.bytes.size(), 3 * sizeof(Event));
@@ -75,9 +75,9 @@ TEST_F(Growing, GoesOnInTheNextSegment) {
   fire(300);
   const std::vector<std::string> files = files_of(growing, 500);
   ASSERT_EQ(files.size(), 3U);
-  EXPECT_EQ(first + files[0], bytes_of(segment_path(file_, 0)));
-  EXPECT_EQ(files[1], bytes_of(segment_path(file_, 1)));
-  EXPECT_EQ(files[2], bytes_of(file_));
+  EXPECT_EQ(first + files[0], file_bytes(segment_path(file_, 0)));
+  EXPECT_EQ(files[1], file_bytes(segment_path(file_, 1)));
+  EXPECT_EQ(files[2], file_bytes(file_));
 }
 
 TEST_F(Growing, WhoIsTooSlowGoesOnWithTheNewest) {
@@ -88,7 +88,7 @@ TEST_F(Growing, WhoIsTooSlowGoesOnWithTheNewest) {
   fire(1000);
   const std::vector<std::string> files = files_of(growing);
   ASSERT_EQ(files.size(), 2U);  // the rest of the one that it had open, though it is gone by now
-  EXPECT_EQ(files[1], bytes_of(file_));
+  EXPECT_EQ(files[1], file_bytes(file_));
 }
 
 TEST_F(Growing, BeginsWithTheOldestSegmentOfItsRunIfItShall) {
@@ -99,17 +99,17 @@ TEST_F(Growing, BeginsWithTheOldestSegmentOfItsRunIfItShall) {
   EXPECT_EQ(files_of(growing).size(), 4U);
 
   GrowingRecording newest(file_, GrowingRecording::From::newest);
-  EXPECT_EQ(files_of(newest), std::vector{bytes_of(file_)});
+  EXPECT_EQ(files_of(newest), std::vector{file_bytes(file_)});
   const std::string one = segment_path(file_, 7);
   ASSERT_TRUE(fs::exists(one));
   GrowingRecording numbered(one, GrowingRecording::From::oldest);
-  EXPECT_EQ(files_of(numbered), std::vector{bytes_of(one)});
+  EXPECT_EQ(files_of(numbered), std::vector{file_bytes(one)});
 
-  std::string other = bytes_of(segment_path(file_, 7));
+  std::string other = file_bytes(segment_path(file_, 7));
   other.replace(other.find("\"run\":1"), 7, "\"run\":2");
   std::ofstream(segment_path(file_, 7), std::ios::binary) << other;
   GrowingRecording shorter(file_, GrowingRecording::From::oldest);
-  EXPECT_EQ(files_of(shorter).back(), bytes_of(file_));
+  EXPECT_EQ(files_of(shorter).back(), file_bytes(file_));
   GrowingRecording again(file_, GrowingRecording::From::oldest);
   EXPECT_LT(files_of(again).size(), 4U);
 }

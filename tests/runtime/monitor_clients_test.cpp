@@ -57,13 +57,13 @@ TEST_F(Controlled, TheRecordingComesThroughTheSocketAsFarAsTheRunHasCome) {
   for (std::uint64_t step = 2; step < 10; ++step) {
     do recorded += piece();
     while (more_);
-    EXPECT_EQ(recorded, bytes_of(options_.recording));
+    EXPECT_EQ(recorded, file_bytes(options_.recording));
     EXPECT_EQ(command({{"command", "step_firing"}}), "");
     rest(step);
   }
   finish();
   recorded += what_comes_at_the_end();
-  EXPECT_EQ(recorded, bytes_of(options_.recording));
+  EXPECT_EQ(recorded, file_bytes(options_.recording));
 }
 
 TEST_F(Controlled, InRealTimeTheRecordingCanBeHadAndNothingElse) {
@@ -72,13 +72,13 @@ TEST_F(Controlled, InRealTimeTheRecordingCanBeHadAndNothingElse) {
   start();
   std::string recorded;
   while (recorded.size() < 10'000 || more_) recorded += piece();
-  EXPECT_EQ(bytes_of(options_.recording).substr(0, recorded.size()), recorded);
+  EXPECT_EQ(file_bytes(options_.recording).substr(0, recorded.size()), recorded);
   EXPECT_NE(command({{"command", "pause"}}), "");
   kill(getpid(), SIGTERM);
   running_.join();
   EXPECT_EQ(summary_.ended, "SIGTERM");
   recorded += what_comes_at_the_end();
-  EXPECT_EQ(recorded, bytes_of(options_.recording));
+  EXPECT_EQ(recorded, file_bytes(options_.recording));
 }
 
 TEST_F(Controlled, WithoutARecordingThereAreNoBytes) {

@@ -39,7 +39,7 @@ TEST_F(Controlled, PausesStepsAndSpeedChangeNothingInTheRecording) {
   EXPECT_EQ(command({{"command", "speed"}, {"value", 1000}}), "");
   finish();
   EXPECT_EQ(summary_.ended, "duration");
-  EXPECT_EQ(bytes_of(options_.recording), bytes_of(scratch_file("plain")));
+  EXPECT_EQ(file_bytes(options_.recording), file_bytes(scratch_file("plain")));
 }
 
 TEST_F(Controlled, AStepIsOneFiringAndTheRecordingShowsItAtOnce) {

@@ -248,7 +248,7 @@ TEST(Segments, AreReadWhenTheNewestIsNotThereOrNotBegun) {
   const RecordedRun limited = recorded(simulated(2s), 50'000, 4);
   const Recording all = recording_in(limited.file);
   EXPECT_FALSE(all.truncated);
-  const std::string newest = bytes_of(limited.file);
+  const std::string newest = file_bytes(limited.file);
   for (const bool is_there : {false, true}) {
     fs::remove(limited.file);
     if (is_there) std::ofstream(limited.file, std::ios::binary) << newest.substr(0, 100);
@@ -278,7 +278,7 @@ TEST(Segments, FilesOfOthersAreNeitherRemovedNorWrittenOver) {
   std::string error;
   EXPECT_FALSE(execute(system.system(), options, error));
   EXPECT_NE(error.find("run.1.tsr' is in the way"), std::string::npos) << error;
-  EXPECT_EQ(bytes_of(segment_path(file, 1)), "mine");
+  EXPECT_EQ(file_bytes(segment_path(file, 1)), "mine");
 }
 
 TEST(Segments, ARecordingThatHasEndedIsNoSegmentOfAnotherWhateverItsName) {
@@ -290,7 +290,7 @@ TEST(Segments, ARecordingThatHasEndedIsNoSegmentOfAnotherWhateverItsName) {
   console::silence(true);
   static_cast<void>(run(system, options));
   console::silence(false);
-  const std::string bytes = bytes_of(options.recording);
+  const std::string bytes = file_bytes(options.recording);
 
   TestSystem other;
   make_talkers(other);
@@ -299,7 +299,7 @@ TEST(Segments, ARecordingThatHasEndedIsNoSegmentOfAnotherWhateverItsName) {
   EXPECT_FALSE(execute(other.system(), options, error));
   EXPECT_NE(error.find("run.0.tsr' is in the way"), std::string::npos) << error;
   EXPECT_NE(error.find("--record-limit none"), std::string::npos) << error;
-  EXPECT_EQ(bytes_of(mine), bytes);
+  EXPECT_EQ(file_bytes(mine), bytes);
 }
 
 TEST(Segments, APipeHasNoneAndStaysWhereItIs) {

@@ -173,7 +173,7 @@ TEST(Service, WritesLinesWithTheirLevelIfStandardErrorIsTheJournal) {
   dup2(before, STDERR_FILENO);
   close(before);
   close(target);
-  const std::string text = bytes_of(file);
+  const std::string text = file_bytes(file);
   EXPECT_TRUE(
       text.starts_with("<3>1.000 s  robot.control  error: to the journal\n"
                        "<4>1.000 s  robot.control  warning: careful\n"

@@ -132,7 +132,7 @@ TEST(SimulatedRun, IterationCountsOverAllBehaviours) {
   options.seed = seed;
   options.recording = scratch_file(name);
   EXPECT_FALSE(run(system, options).failed);
-  std::string bytes = bytes_of(options.recording);
+  std::string bytes = file_bytes(options.recording);
   return bytes.substr(bytes.find("\"clock\""));  // the header before it holds the seed itself
 }
 

@@ -2,6 +2,7 @@
 #include <unistd.h>
 
 #include "../environment.hpp"
+#include "../schema/judge.hpp"
 #include "command.hpp"
 
 namespace tessera::cli_test {
@@ -134,6 +135,14 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
   EXPECT_NE(printed.text.find("fault (assertion): robot.control.follow.in: blind in iteration 1"),
             std::string::npos)
       << printed.text;
+
+  std::size_t summaries = 0;
+  for (const auto& entry : fs::recursive_directory_iterator(project / ".tessera/runs"))
+    if (entry.path().filename() == "summary.json") {
+      schema_test::judge_summary(nlohmann::json::parse(content_of(entry.path())));
+      ++summaries;
+    }
+  EXPECT_GT(summaries, 5U);
 }
 
 TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {

@@ -84,10 +84,7 @@ struct ScheduleReport {
 
 /// A few lines for people.
 [[nodiscard]] std::string schedules_text(const ScheduleReport& report);
-/// {"system", "net_hash", "asked", "tried", "failed", "first_seed", "ran": [[begin, end]...], "jobs", "simulated_s", "wall_s",
-/// "firings", "interrupted", "kinds": [outcome...], "outcomes": [outcome...], "failure": null or {"seed",
-/// "at_s", "ended"}, "not_repeated": [seed...]}; an outcome is {"kind", "name", "runs", "failed"} and, if there are runs, {"first_seed",
-/// "at_s", "text"}; an unknown "at_s" is null. If firings were counted, also "transitions": {name: firings}.
+/// `Schedules` in share/tessera/summary.schema.json.
 [[nodiscard]] std::string schedules_json(const ScheduleReport& report);
 
 /// Writes a result as one line of JSON, without line end; and reads it (nullopt: invalid).

@@ -131,7 +131,7 @@ TEST(Crossing, TheSameSeedGivesTheSameBytes) {
     options.seed = seed;
     options.recording = scratch_file(name);
     static_cast<void>(run(crossing.system, options));
-    return bytes_of(options.recording);
+    return file_bytes(options.recording);
   };
   const std::string once = recorded(7, "a.tsr");
   EXPECT_EQ(once, recorded(7, "b.tsr"));

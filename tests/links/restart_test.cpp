@@ -161,11 +161,11 @@ TEST(Restart, ARestartWithinTheLivelinessShowsAsGoneAndThere) {
       peers.push_back(entry.text);
   }
   EXPECT_THAT(lives, ::testing::ElementsAre("500 0 p1\n1", "600 1 p1\n2"));
-  const std::string first = bytes_of(options.recording);
+  const std::string first = file_bytes(options.recording);
   options.recording = scratch_file("again.tsr");
   told.clear();
   static_cast<void>(run(system, options));
-  EXPECT_EQ(bytes_of(options.recording), first) << "the same seed gives the same bytes";
+  EXPECT_EQ(file_bytes(options.recording), first) << "the same seed gives the same bytes";
 }
 
 TEST(Restart, WhatIsWrongWithADeathIsSaid) {

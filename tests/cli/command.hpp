@@ -4,18 +4,17 @@
 
 #include <filesystem>
 #include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "../file_bytes.hpp"
+#include "project/files/files.hpp"
 #include "project/process/process.hpp"
 
 namespace tessera::cli_test {
 
 namespace fs = std::filesystem;
 
-inline std::string content_of(const fs::path& file) { return file_bytes(file); }
+using project::content_of;
 
 inline void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

@@ -7,9 +7,7 @@
 
 #include <array>
 #include <fstream>
-#include <iterator>
 
-#include "../file_bytes.hpp"
 #include "../schema/judge.hpp"
 
 namespace tessera::server_test {
@@ -29,8 +27,6 @@ std::string receive_some(int socket) {
 }
 
 }  // namespace
-
-std::string content_of(const fs::path& file) { return file_bytes(file); }
 
 void write(const fs::path& file, const std::string& text) {
   fs::create_directories(file.parent_path());

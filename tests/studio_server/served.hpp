@@ -12,13 +12,14 @@
 #include <optional>
 #include <string>
 
+#include "project/files/files.hpp"
 #include "server/studio.hpp"
 
 namespace tessera::server_test {
 
 namespace fs = std::filesystem;
 
-[[nodiscard]] std::string content_of(const fs::path& file);
+using project::content_of;
 void write(const fs::path& file, const std::string& text);
 
 using Headers = std::multimap<std::string, std::string>;

@@ -48,10 +48,11 @@ class NetHash {
   // FNV-1a in two lanes with different offsets, finished by the mixer of splitmix64 so that sums do not
   // cancel out.
   struct Element {
+    static constexpr std::uint64_t prime = 0x100000001b3U;
     std::array<std::uint64_t, 2> lanes{0xcbf29ce484222325U, 0x9ae16a3b2f90404fU};
     explicit Element(std::string_view kind) { text(kind); }
     void byte(unsigned char value) {
-      for (std::uint64_t& lane : lanes) lane = (lane ^ value) * 0x100000001b3U;
+      for (std::uint64_t& lane : lanes) lane = (lane ^ value) * prime;
     }
     void number(std::uint64_t value) {
       for (int shift = 0; shift < 64; shift += 8) byte(static_cast<unsigned char>(value >> shift));
@@ -59,8 +60,8 @@ class NetHash {
     void text(std::string_view value) {
       auto [first, second] = lanes;  // a local loop: programs are hashed too, and tests are not optimised
       for (const char character : value) {
-        first = (first ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
-        second = (second ^ static_cast<unsigned char>(character)) * 0x100000001b3U;
+        first = (first ^ static_cast<unsigned char>(character)) * prime;
+        second = (second ^ static_cast<unsigned char>(character)) * prime;
       }
       lanes = {first, second};
       byte(0xff);  // so that no name is a prefix of another

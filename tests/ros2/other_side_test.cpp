@@ -74,7 +74,7 @@ TEST(OtherSide, OfADefaultParticipantIsToldAsMissingOnLoopbackAndFoundOnItsInter
     }
     // A new one: the one before would still write to the ports of the drivers that it knew.
     fast::Peer peer(test_domain(), fast::Reach::all);
-    auto* const reader = peer.reader<fast::Twist>("rt/cmd_vel");
+    peer.reader<fast::Twist>("rt/cmd_vel");
     const StderrText told;
     auto effector = opened_effector(base("lo"));
     EXPECT_TRUE(eventually([&] {

@@ -13,6 +13,13 @@ export default defineConfig({
     fs: { allow: ["../.."] },
     proxy: { "/api": process.env.TESSERA_STUDIO ?? "http://127.0.0.1:8787" },
   },
-  // ELK takes seconds while many builds run at once.
-  test: { include: ["tests/{model,live,panels}/**/*.test.ts"], testTimeout: 60_000 },
+  test: {
+    include: ["tests/{model,live,panels}/**/*.test.ts"],
+    // ELK takes seconds while many builds run at once.
+    testTimeout: 60_000,
+    // Loading the modules for each file again would take longer than the tests. A file that replaces a global or
+    // a clock puts it back.
+    pool: "threads",
+    isolate: false,
+  },
 });

@@ -1,4 +1,4 @@
-import { beforeEach, describe, expect, it, vi } from "vitest";
+import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import { Operator } from "../../live/operator";
 import type { ControlRequest, PanelShown } from "../../live/protocol";
 import { Store } from "../../live/store";
@@ -14,6 +14,7 @@ const panel: PanelShown = {
   ],
 };
 
+afterAll(() => vi.useRealTimers());
 beforeEach(() => {
   vi.useFakeTimers();
 });

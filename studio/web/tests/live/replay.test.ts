@@ -1,4 +1,4 @@
-import { beforeAll, describe, expect, it, vi } from "vitest";
+import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
 import { Replay } from "../../live/replay";
 import { lineFollower } from "../model/line_follower";
 import { recordingOf } from "./recording";
@@ -7,6 +7,7 @@ const net = lineFollower();
 const named = (name: string) => net.transitionByName.get(name)!;
 const held = (replay: Replay) => [...net.places].flatMap(({ name }, at) => (replay.stage.marking[at]! > 0 ? [name] : []));
 
+afterAll(() => vi.unstubAllGlobals());
 beforeAll(() => vi.stubGlobal("requestAnimationFrame", () => 1));
 
 describe("Replay", () => {

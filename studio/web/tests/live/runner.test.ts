@@ -1,4 +1,4 @@
-import { beforeEach, describe, expect, it, vi } from "vitest";
+import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Api } from "../../live/api";
 import type { Connection } from "../../live/connection";
 import type { Draft } from "../../live/draft";
@@ -9,6 +9,10 @@ import { lineFollower } from "../model/line_follower";
 const net = lineFollower();
 const named = (name: string) => net.transitionByName.get(name)!;
 
+afterAll(() => {
+  vi.useRealTimers();
+  vi.unstubAllGlobals();
+});
 beforeEach(() => {
   vi.useFakeTimers();
   vi.stubGlobal("requestAnimationFrame", () => 1);

@@ -1,4 +1,4 @@
-import { beforeEach, describe, expect, it, vi } from "vitest";
+import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import type { FiringRow } from "../../live/protocol";
 import type { Recordings, RecordingsState } from "../../live/recordings";
 import { Replay } from "../../live/replay";
@@ -34,6 +34,10 @@ const frame = () => {
   due.forEach((one) => one());
 };
 
+afterAll(() => {
+  vi.unstubAllGlobals();
+  vi.restoreAllMocks();
+});
 beforeEach(() => {
   frames = new Map();
   vi.stubGlobal("requestAnimationFrame", (one: () => void) => (frames.set((asked += 1), one), asked));

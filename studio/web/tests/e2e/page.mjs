@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { createRequire } from "node:module";
 import { fileURLToPath } from "node:url";
-import { launch } from "./browser.mjs";
+import { inSharedBrowser } from "./browser.mjs";
 import { environment, serve } from "./server.mjs";
 
 export { environment, serve };
@@ -15,7 +15,14 @@ export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, impo
 /** Runs a test on a page of a server for a copy of `project`; fails on errors of the page and on requests to elsewhere. */
 export async function onPage(project, test, options = {}) {
   const server = await serve(project, options.server);
-  const browser = await launch();
+  try {
+    await inSharedBrowser((browser) => onServer(browser, server, test));
+  } finally {
+    await server.close();
+  }
+}
+
+async function onServer(browser, server, test) {
   const context = await browser.newContext({
     viewport: { width: 1440, height: 900 },
     reducedMotion: "reduce",
@@ -43,8 +50,7 @@ export async function onPage(project, test, options = {}) {
       console.error(`-- the page when the test failed\n${await page.locator("body").innerText().catch(String)}\n--`);
     throw error;
   } finally {
-    await browser.close();
-    await server.close();
+    await context.close();
   }
 }
 
@@ -108,10 +114,25 @@ export async function middleOf(page, locator) {
   );
 }
 
+/** Waits until nothing in the page has changed for a tenth of a second, but two seconds at most. */
+const quiet = (page) =>
+  page.evaluate(
+    () =>
+      new Promise((done) => {
+        let timer = setTimeout(done, 100);
+        new MutationObserver(() => {
+          clearTimeout(timer);
+          timer = setTimeout(done, 100);
+        }).observe(document, { subtree: true, childList: true, attributes: true });
+        setTimeout(done, 2000);
+      }),
+  );
+
 /** A function that lets axe check the present page, and adds its complaints. */
 export async function judges(page, found) {
   await page.evaluate(readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8"));
   return async (where) => {
+    await quiet(page); // axe fails if an element goes while it looks
     const { violations } = await page.evaluate(() => axe.run());
     found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
   };

@@ -5,6 +5,7 @@
 #include <net/if.h>
 #include <netinet/in.h>
 #include <sys/socket.h>
+#include <sys/stat.h>
 
 #include <array>
 #include <cstdint>
@@ -50,19 +51,23 @@ void accept_only_from(int file, unsigned interface, unsigned loopback) {
 
 }  // namespace
 
-std::set<int> open_files() {
+OpenSockets open_sockets() {
   const std::unique_ptr<DIR, FolderCloser> folder(opendir("/proc/self/fd"));
   if (!folder) throw SetupError("/proc/self/fd cannot be read");
-  std::set<int> files;
-  while (const dirent* entry = readdir(folder.get()))
-    if (entry->d_name[0] != '.') files.insert(std::atoi(entry->d_name));
-  return files;
+  OpenSockets sockets;
+  while (const dirent* entry = readdir(folder.get())) {
+    if (entry->d_name[0] == '.') continue;
+    const int file = std::atoi(entry->d_name);
+    struct stat status {};
+    if (fstat(file, &status) == 0 && S_ISSOCK(status.st_mode)) sockets.emplace(status.st_ino, file);
+  }
+  return sockets;
 }
 
-void close_sockets_to_other_interfaces(const std::set<int>& before, int domain, const Location& location) {
+void close_sockets_to_other_interfaces(const OpenSockets& before, int domain, const Location& location) {
   int closed = 0;
-  for (const int file : open_files()) {
-    if (before.contains(file) || !is_receiver_of(domain, file)) continue;
+  for (const auto& [inode, file] : open_sockets()) {
+    if (before.contains(inode) || !is_receiver_of(domain, file)) continue;
     accept_only_from(file, location.interface_index, if_nametoindex("lo"));
     ++closed;
   }

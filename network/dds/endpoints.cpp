@@ -75,7 +75,7 @@ std::uint32_t next_number_of_domain() {
 Domain::Domain(int number, const Location& location, std::chrono::seconds lease) {
   const std::string xml = settings(number, location, lease);
   keep_middleware_log();
-  const std::set<int> before = open_files();
+  const OpenSockets before = open_sockets();
   const std::uint32_t id = next_number_of_domain();
   domain_ = made(dds_create_domain(id, xml.c_str()), "the DDS domain");
   try {

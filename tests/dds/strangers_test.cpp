@@ -1,4 +1,5 @@
 #include <dds/dds.h>
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <linux/filter.h>
@@ -131,6 +132,25 @@ bool is_closed(int file, const sockaddr_in& address) {
   return getsockopt(file, SOL_SOCKET, SO_GET_FILTER, nullptr, &instructions) == 0 && instructions > 0;
 }
 
+TEST(Strangers, ASocketWithTheDescriptorOfAFileThatWasOpenBeforeHearsLoopbackOnlyToo) {
+  const Crossing crossing;
+  for (const bool file_is_socket : {true, false}) {
+    const int file = file_is_socket ? socket(AF_INET, SOCK_STREAM, 0) : open("/dev/null", O_RDONLY);
+    const dds::OpenSockets before = dds::open_sockets();
+    close(file);
+    const int receiver = socket(AF_INET, SOCK_DGRAM, 0);
+    ASSERT_EQ(receiver, file);
+    sockaddr_in address{};
+    address.sin_family = AF_INET;
+    address.sin_addr.s_addr = htonl(INADDR_ANY);
+    address.sin_port = htons(static_cast<std::uint16_t>(dds::first_port(crossing.domain)));
+    ASSERT_EQ(bind(receiver, reinterpret_cast<const sockaddr*>(&address), sizeof address), 0);
+    dds::close_sockets_to_other_interfaces(before, crossing.domain, dds::locate("lo", {}));
+    EXPECT_TRUE(is_closed(receiver, address));
+    close(receiver);
+  }
+}
+
 TEST(Strangers, SocketsHearLoopbackOnlyWhateverTheEnvironmentSays) {
   setenv("CYCLONEDDS_URI",
          "<CycloneDDS><Domain Id='any'><General><AllowMulticast>true</AllowMulticast></General><Tracing>"
@@ -142,12 +162,12 @@ TEST(Strangers, SocketsHearLoopbackOnlyWhateverTheEnvironmentSays) {
     return std::string(std::istreambuf_iterator<char>(file), {});
   };
   const std::string before = memberships();
-  const std::set<int> files_before = dds::open_files();
+  const dds::OpenSockets sockets_before = dds::open_sockets();
   const Crossing crossing;
   const DdsCarrier carrier(crossing.setup(Crossing::cart, 20));
   int sockets = 0;
-  for (const int file : dds::open_files()) {
-    if (files_before.contains(file)) continue;
+  for (const auto& [inode, file] : dds::open_sockets()) {
+    if (sockets_before.contains(inode)) continue;
     sockaddr_in address{};
     socklen_t size = sizeof address;
     if (getsockname(file, reinterpret_cast<sockaddr*>(&address), &size) != 0) continue;

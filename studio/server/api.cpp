@@ -316,10 +316,14 @@ void Api::get_track(const Request& request, Response& response) {
 }
 
 void Api::stream_events(HttpServer& server, Response& response) {
-  const std::shared_ptr<Events::Subscription> subscription =
-      parts_.events.subscribe("hello", text_of(json{{"server_start", server_start_}}));
+  const std::string revision = parts_.file.read().revision;
+  const std::shared_ptr<Events::Subscription> subscription = parts_.events.subscribe(
+      "hello", text_of(json{{"server_start", server_start_}, {"revision", revision}}));
   if (subscription == nullptr)
     return answer_error(response, 503, "too many pages are open", "close one of them");
+  // A change between the reading and the subscription was published before.
+  if (const std::string now = parts_.file.read().revision; now != revision)
+    parts_.events.publish("spec", text_of(json{{"revision", now}}));
   response.status = 200;
   response.set_header("Cache-Control", "no-store");
   response.set_chunked_content_provider("text/event-stream",

@@ -11,7 +11,9 @@ using EventsOfAServer = Served;
 TEST_F(EventsOfAServer, BeginWithHello) {
   serve();
   EventStream stream(port_, token_);
-  EXPECT_EQ(stream.next("hello").at("server_start"), get("/api/project").json().at("server_start"));
+  const json hello = stream.next("hello");
+  EXPECT_EQ(hello.at("server_start"), get("/api/project").json().at("server_start"));
+  EXPECT_EQ(hello.at("revision"), get("/api/spec").json().at("revision"));
 }
 
 TEST_F(EventsOfAServer, TellEveryBrowserOfAChangedFile) {

@@ -168,8 +168,7 @@ export class Draft {
   /** The server reports that the file changed on disk. */
   async changedOnDisk(revision: string): Promise<void> {
     await this.saving;
-    // Another program has undone its change.
-    if (revision === this.store.get().revision) return this.store.set({ conflict: null });
+    if (revision === this.store.get().revision) return this.asBefore();
     let answer: SpecAnswer;
     try {
       answer = await this.api.spec();
@@ -181,7 +180,13 @@ export class Draft {
     const file = this.fileOf(answer);
     if (file.revision === "") this.store.set({ notice: `The file on disk cannot be read: ${answer.error}` });
     else if (file.revision !== this.store.get().revision) this.disk(file);
-    else this.store.set({ conflict: null });
+    else this.asBefore();
+  }
+
+  /** The file has the revision of this page: another program has undone its change. A conflict that was there after a reload stays. */
+  private asBefore(): void {
+    const { conflict, revision } = this.store.get();
+    if (conflict?.revision !== revision) this.store.set({ conflict: null });
   }
 
   /** Takes the content on disk, merges it with the changes of this page, or asks. */

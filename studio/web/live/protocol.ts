@@ -866,6 +866,11 @@ export interface Events {
 export interface Hello {
   /** Another one: the server was restarted. */
   server_start: string;
+  /**
+   * The revision of the file now. If `GET /api/spec` gave another one, the file has changed since then. Empty: it
+   * cannot be read.
+   */
+  revision: string;
 }
 /** The file changed on disk. */
 export interface SpecEvent {

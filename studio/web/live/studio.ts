@@ -128,11 +128,8 @@ export class Studio {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
     });
-    this.connection.on("spec", (event) => {
-      void this.draft.changedOnDisk(event.revision);
-      void this.describeProject();
-    });
-    this.connection.on("hello", (event) => void this.greeted(event.server_start));
+    this.connection.on("spec", (event) => this.fileChanged(event.revision));
+    this.connection.on("hello", (event) => void this.greeted(event.server_start, event.revision));
   }
 
   /** Writes the shown content into the address. */
@@ -194,8 +191,13 @@ export class Studio {
     location.reload();
   }
 
-  /** The server has been restarted, so its information about the file may be new. */
-  private async greeted(start: string): Promise<void> {
+  private fileChanged(revision: string): void {
+    void this.draft.changedOnDisk(revision);
+    void this.describeProject();
+  }
+
+  /** The stream of events is open. Before, the server may have been restarted, or the file changed. */
+  private async greeted(start: string, revision: string): Promise<void> {
     const known = this.serverStart;
     this.serverStart = start;
     if (!this.project.get().project) {
@@ -209,7 +211,7 @@ export class Studio {
       if (project && fileOf(await this.api.project()) !== fileOf(project)) return this.reload();
       await this.draft.changedOnDisk("");
       this.draft.store.set({ notice: "The server was restarted; connected again" });
-    }
+    } else if (revision !== this.draft.store.get().revision) this.fileChanged(revision);
   }
 
   private follow({ view = this.view.get().view, panel = this.view.get().panel, selected = null, moment }: Linked): void {

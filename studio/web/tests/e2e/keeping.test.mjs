@@ -54,6 +54,20 @@ function holdFileUntilTextPane() {
   };
 }
 
+test("a change on disk after the file was read and before events come is shown", () =>
+  onPage(lineFollower, async (_, server, open) => {
+    const page = await open();
+    const changeFirst = async (route) => {
+      writeFileSync(server.file, server.text().replace("v: 0.2 m/s", "v: 0.3 m/s"));
+      await new Promise((done) => setTimeout(done, 300)); // the server tells all that listen
+      await route.continue();
+    };
+    await page.route("**/api/events*", changeFirst, { times: 1 });
+    await page.goto(server.url);
+    await page.getByTestId("editor").getByText("v: 0.3 m/s").waitFor();
+    await page.getByText("The file changed on disk; reloaded").waitFor();
+  }));
+
 test("a file that comes while the page is drawn for the first time stays as it is", () =>
   onPage(lineFollower, async (_, server, open) => {
     const page = await open();

@@ -192,7 +192,8 @@ test("names of agents that are too long for their boxes are broken or cut in the
       }
       await button(page, "Fit View").click();
     }
-    await page.locator('.element.page[data-path="transportationvehicleforharvestedfruit"] .shape').hover({ force: true });
+    const agent = page.locator('.element.page[data-path="transportationvehicleforharvestedfruit"] .shape');
+    await page.mouse.move(...(await middleOf(page, agent)));
     const tip = await page.locator(".canvas-area").getAttribute("title");
     assert.match(tip, /^transportationvehicleforharvestedfruit: agent/);
   }));

@@ -119,12 +119,14 @@ const quiet = (page) =>
   page.evaluate(
     () =>
       new Promise((done) => {
-        let timer = setTimeout(done, 100);
-        new MutationObserver(() => {
+        const end = () => (observer.disconnect(), done());
+        let timer = setTimeout(end, 100);
+        const observer = new MutationObserver(() => {
           clearTimeout(timer);
-          timer = setTimeout(done, 100);
-        }).observe(document, { subtree: true, childList: true, attributes: true });
-        setTimeout(done, 2000);
+          timer = setTimeout(end, 100);
+        });
+        observer.observe(document, { subtree: true, childList: true, attributes: true });
+        setTimeout(end, 2000);
       }),
   );
 

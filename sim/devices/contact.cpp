@@ -37,7 +37,7 @@ Geoms geoms_named(const Physics& physics, const DriverRequest& request,
 }
 
 struct Bumper {
-  Frame frame;
+  FrameTarget frame;
   Geoms own, others;
 };
 
@@ -68,7 +68,7 @@ std::unique_ptr<RealReceptor> contact(const DeviceContext& context, const Driver
   Bumper bumper;
   context.simulation->use([&](const Physics& physics) {
     const mjModel& model = physics.model();
-    bumper.frame = frame_of(physics, request, only_target(request));
+    bumper.frame = frame_target(physics, request, only_target(request));
     bumper.own.resize(static_cast<std::size_t>(model.ngeom));
     add_body(model, bumper.frame.type == mjOBJ_BODY ? bumper.frame.id : model.site_bodyid[bumper.frame.id],
              bumper.own);

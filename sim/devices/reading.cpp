@@ -63,7 +63,7 @@ const std::string& only_target(const DriverRequest& request) {
   throw DeviceError("'" + request.kind + "' has one target, not a list", "");
 }
 
-Frame frame_of(const Physics& physics, const DriverRequest& request, const std::string& name) {
+FrameTarget frame_target(const Physics& physics, const DriverRequest& request, const std::string& name) {
   const std::string agent = request.agent();
   for (const mjtObj type : {mjOBJ_BODY, mjOBJ_SITE})
     if (const auto id = find_element(physics.model(), type, agent, name)) return {type, *id};

@@ -23,11 +23,12 @@ namespace tessera::sim {
 /// The one target. Throws DeviceError if there are several.
 [[nodiscard]] const std::string& only_target(const DriverRequest& request);
 /// A target that is a body or a site; bodies are looked up first.
-struct Frame {
+struct FrameTarget {
   mjtObj type = mjOBJ_BODY;
   int id = 0;
 };
-[[nodiscard]] Frame frame_of(const Physics& physics, const DriverRequest& request, const std::string& name);
+[[nodiscard]] FrameTarget frame_target(const Physics& physics, const DriverRequest& request,
+                                       const std::string& name);
 
 /// A receptor that reads a row of numbers. `look` has exclusive access to the physics; `distort` adds noise.
 /// Reading throws std::runtime_error once the physics has failed.

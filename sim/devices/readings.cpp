@@ -49,7 +49,7 @@ std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverR
       std::move(distort));
 }
 
-std::array<double, 7> pose_now(const Physics& physics, const Frame& frame) {
+std::array<double, 7> pose_now(const Physics& physics, const FrameTarget& frame) {
   const mjData& now = physics.positions();
   std::array<double, 7> pose{};
   if (frame.type == mjOBJ_BODY) {
@@ -63,7 +63,7 @@ std::array<double, 7> pose_now(const Physics& physics, const Frame& frame) {
 }
 
 /// The direction of the x axis, seen from above.
-double heading_now(const Physics& physics, const Frame& frame) {
+double heading_now(const Physics& physics, const FrameTarget& frame) {
   const mjData& now = physics.positions();
   const mjtNum* const axes =
       frame.type == mjOBJ_BODY ? now.xmat + 9 * frame.id : now.site_xmat + 9 * frame.id;
@@ -72,7 +72,7 @@ double heading_now(const Physics& physics, const Frame& frame) {
 
 /// The body with the name of a placed model never moves. Its pose would be a constant, where the user meant
 /// the pose of the robot.
-void refuse_place_of_model(const mjModel& model, const Frame& frame) {
+void refuse_place_of_model(const mjModel& model, const FrameTarget& frame) {
   if (frame.type != mjOBJ_BODY || model.body_dofnum[frame.id] > 0) return;
   const std::string name = name_of(model, mjOBJ_BODY, frame.id);
   for (int body = frame.id + 1; body < model.nbody; ++body) {
@@ -96,9 +96,9 @@ std::unique_ptr<RealReceptor> joint_velocity(const DeviceContext& context, const
 std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverRequest& request) {
   Buffer buffer(request);
   Options(request).refuse_others();
-  Frame frame;
+  FrameTarget frame;
   context.simulation->use([&](const Physics& physics) {
-    frame = frame_of(physics, request, only_target(request));
+    frame = frame_target(physics, request, only_target(request));
     refuse_place_of_model(physics.model(), frame);
   });
   if (takes_whole_pose(buffer))

@@ -1,4 +1,5 @@
 #include <fcntl.h>
+#include <fmt/core.h>
 #include <pty.h>
 #include <sys/ioctl.h>
 #include <sys/wait.h>
@@ -63,7 +64,19 @@ class Deploy : public Command {
     }
     return true;
   }
-  /// Runs it, and kills rover[0] after its first line.
+  [[nodiscard]] std::uintmax_t recorded(const char* process) const {
+    return fs::file_size(project_ / ".tessera/last" / fmt::format("process-{}.tsr", process));
+  }
+  /// Whether all processes fire. When their recordings begin, their devices are not open yet.
+  [[nodiscard]] bool all_fire() const {
+    if (!eventually([&] { return all_run(); })) return false;
+    for (const char* process : {"gate", "rover[0]", "rover[1]"}) {
+      const std::uintmax_t before = recorded(process);
+      if (!eventually([&] { return recorded(process) > before + 1000; })) return false;
+    }
+    return true;
+  }
+  /// Runs it, and kills rover[0] when all fire.
   project::Exit run_and_kill(const std::string& options) const {
     bool killed = false;
     const std::string line = "cd '" + folder_.string() + "' && exec " + TESSERA_BINARY_DIR +
@@ -71,6 +84,7 @@ class Deploy : public Command {
     return project::capture({"sh", "-c", line}, [&](std::string_view said) {
       if (killed || !said.starts_with("rover[0] |")) return;
       killed = true;
+      EXPECT_TRUE(all_fire());
       kill(pid_of(1), SIGKILL);
     });
   }

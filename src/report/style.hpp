@@ -17,7 +17,7 @@ h1{font-size:28px;line-height:1.2;margin:0}h2{font-size:17px;margin:36px 0 10px}
 .lead{color:var(--soft);margin:4px 0 24px}
 .figures{display:grid;grid-template-columns:repeat(auto-fill,minmax(130px,1fr));gap:12px}
 .figure,.panel{background:var(--card);border:1px solid var(--rule);border-radius:8px}
-.figure{padding:12px 14px}.figure b{display:block;font-size:22px;font-weight:600;font-variant-numeric:tabular-nums}
+.figure{padding:12px 14px}.figure b{display:block;font-size:20px;font-weight:600;font-variant-numeric:tabular-nums}
 .figure span{color:var(--soft);font-size:13px}
 .panel{padding:14px;overflow-x:auto}.panel svg{display:block;width:100%;height:auto}
 .floor svg{max-height:80vh;background:#fff;border-radius:4px}

@@ -61,7 +61,7 @@ function(tessera_add_controller name)
   add_library(${name}_system STATIC ${system})
   # Nearly all the compile time of each source is spent in the same headers.
   set_target_properties(${name}_system PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
-  # The runtime, which fires the net, is compiled for speed. Here, -O3 would take two to three times as long.
+  # The runtime, which fires the net, is compiled for speed. Here, -O3 would take about twice as long.
   target_compile_options(${name}_system PRIVATE $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
   target_link_libraries(${name}_system PUBLIC ${name}_project)
   add_executable(${name} "${generated}/main.cpp")

@@ -63,20 +63,56 @@ macro(tessera_test_headers)
   endif()
 endmacro()
 
+# Groups of modules that unity builds compile as one source, because they spend their time in the same headers and
+# templates. The modules of a group are optimised alike. For the others, it would save nothing; and a library that
+# controllers load links `checks`, and would load all that its group needs.
+set(TESSERA_MODULES_OF_specification diagnostics spec language)
+set(TESSERA_MODULES_OF_command codegen drawing replay statistics report project language_server server cli)
+
 # tessera_module(NAME SOURCES ... [PUBLIC targets...] [PRIVATE targets...])
-# A static library tessera_NAME whose headers are included as "NAME/header.hpp".
+# The library tessera_NAME, whose headers are included as "NAME/header.hpp". Its property TESSERA_ARCHIVE is the static
+# library that has its objects: itself, or that of its group in a unity build.
 function(tessera_module name)
   cmake_parse_arguments(MODULE "" "" "SOURCES;PUBLIC;PRIVATE" ${ARGN})
-  add_library(tessera_${name} STATIC ${MODULE_SOURCES})
+  set(archive tessera_${name})
+  foreach(group specification command)
+    if(CMAKE_UNITY_BUILD AND name IN_LIST TESSERA_MODULES_OF_${group})
+      set(archive tessera_${group}_modules)
+      set(siblings ${TESSERA_MODULES_OF_${group}})
+      list(TRANSFORM siblings PREPEND tessera_)
+    endif()
+  endforeach()
   cmake_path(GET CMAKE_CURRENT_SOURCE_DIR PARENT_PATH above)
-  target_include_directories(tessera_${name} PUBLIC ${above})
-  target_link_libraries(tessera_${name} PUBLIC ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE} tessera_flags)
-  # Checks of each pointer take a quarter of the compilation. Modules that read bytes of files, sockets and devices
-  # keep them. The others use containers, and AddressSanitizer finds their null pointers.
-  cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
-  if(TESSERA_SANITIZE MATCHES "undefined" AND folder MATCHES "^(src|studio|cli)")
-    target_compile_options(tessera_${name} PRIVATE -fno-sanitize=null,alignment)
+  if(NOT TARGET ${archive})
+    add_library(${archive} STATIC)
+    target_link_libraries(${archive} PRIVATE tessera_flags)
+    # Checks of each pointer take a quarter of the compilation. Modules that read bytes of files, sockets and devices
+    # keep them. The others use containers, and AddressSanitizer finds their null pointers.
+    cmake_path(RELATIVE_PATH CMAKE_CURRENT_SOURCE_DIR BASE_DIRECTORY ${PROJECT_SOURCE_DIR} OUTPUT_VARIABLE folder)
+    if(TESSERA_SANITIZE MATCHES "undefined" AND folder MATCHES "^(src|studio|cli)")
+      target_compile_options(${archive} PRIVATE -fno-sanitize=null,alignment)
+    endif()
   endif()
+  list(TRANSFORM MODULE_SOURCES PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/)
+  target_sources(${archive} PRIVATE ${MODULE_SOURCES})
+  target_include_directories(${archive} PUBLIC ${above})
+  if(archive STREQUAL tessera_${name})
+    target_link_libraries(${archive} PUBLIC ${MODULE_PUBLIC} PRIVATE ${MODULE_PRIVATE})
+  else()
+    set_target_properties(${archive} PROPERTIES UNITY_BUILD_BATCH_SIZE 0)
+    add_library(tessera_${name} INTERFACE)
+    target_link_libraries(tessera_${name} INTERFACE ${archive} ${MODULE_PUBLIC})
+    set(others ${MODULE_PUBLIC} ${MODULE_PRIVATE})
+    list(REMOVE_ITEM others ${siblings})
+    target_link_libraries(${archive} PRIVATE ${others})
+    get_target_property(home ${archive} SOURCE_DIR)
+    get_directory_property(options COMPILE_OPTIONS)
+    get_directory_property(options_of_group DIRECTORY ${home} COMPILE_OPTIONS)
+    if(NOT options STREQUAL options_of_group)
+      message(FATAL_ERROR "${name} has the compile options '${options}', its group '${options_of_group}'")
+    endif()
+  endif()
+  set_target_properties(tessera_${name} PROPERTIES TESSERA_ARCHIVE ${archive})
 endfunction()
 
 # tessera_gtest(NAME SOURCES ... LIBRARIES ... [LABELS ...] [TIMEOUT s] [LOCK name] [WHOLE] [JUDGED])

@@ -256,7 +256,7 @@ namespace {
                     function.name, comment_text(function.says));
     const std::uint32_t line = std::max(function.expression->span.line, 1U);
     const auto marker = [&](std::uint32_t number) {
-      return fmt::format("#line {} {}\n", number, quoted(project_.spec_path));
+      return fmt::format("#line {} {}\n", number, string_literal(project_.spec_path));
     };
     // There is no line 0 for the head of an expression on line 1.
     out += line > 1 ? marker(line - 1) + head : head + marker(line);

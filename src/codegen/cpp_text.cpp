@@ -95,7 +95,7 @@ std::string duration(spec::Duration value) {
   return fmt::format("{}ns", value.count());
 }
 
-std::string quoted(std::string_view text) {
+std::string string_literal(std::string_view text) {
   std::string out = "\"";
   for (const char character : text) {
     const auto byte = static_cast<unsigned char>(character);

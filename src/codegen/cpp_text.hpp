@@ -29,7 +29,7 @@ void add_headers(const spec::Type& type, std::set<std::string>& headers);
 [[nodiscard]] std::string duration(spec::Duration value);
 
 /// "\"text\"", escaped.
-[[nodiscard]] std::string quoted(std::string_view text);
+[[nodiscard]] std::string string_literal(std::string_view text);
 
 /// `text` as it may stand in a one-line comment.
 [[nodiscard]] std::string comment_text(std::string_view text);

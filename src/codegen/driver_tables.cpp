@@ -24,10 +24,10 @@ std::string option_text(const std::string& name, const spec::DriverOption& optio
       const std::string text = fmt::format("{}", value);
       return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
     }
-    std::string operator()(const std::string& value) const { return quoted(value); }
+    std::string operator()(const std::string& value) const { return string_literal(value); }
   };
   return fmt::format("{{\"{}\", {}{}}}", name, std::visit(Text{}, option.value),
-                     option.unit.empty() ? "" : ", " + quoted(option.unit));
+                     option.unit.empty() ? "" : ", " + string_literal(option.unit));
 }
 
 /// "forward -0.5 0.5; horn", as the runtime reads it.
@@ -65,20 +65,20 @@ class Writer {
     const bool reads = model_.subsystem(driver.instance).kind == spec::SubsystemKind::receptor;
     if (driver.kind == topic_kind) return topic_row(path, driver, reads);
     if (driver.panel) return panel_row(path, driver);
-    headers_.insert(quoted("drivers.hpp"));
+    headers_.insert(string_literal("drivers.hpp"));
     const std::string device = alias(driver.target());
     const std::string make = fmt::format("tessera::make_driver<tessera::{}, {}, {}>",
                                          reads ? "RealReceptor" : "RealEffector", value(driver), device);
     return fmt::format(
-        "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target(), quoted(project_.at(driver.span)),
-        options(driver),
+        "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target(),
+        string_literal(project_.at(driver.span)), options(driver),
         reads ? make + ", nullptr" : fmt::format("nullptr, {}, tessera::is_guarded<{}>", make, device));
   }
 
   /// Those that write can be given to the guardian process, except for replies: their clients asked a process
   /// that has died.
   std::string topic_row(const std::string& path, const spec::Driver& driver, bool reads) {
-    headers_.insert(quoted("tessera/ros2.hpp"));
+    headers_.insert(string_literal("tessera/ros2.hpp"));
     spec::Driver with_topic = driver;
     with_topic.options["topic"] = spec::DriverOption{driver.target(), ""};
     const std::string make =
@@ -87,24 +87,25 @@ class Writer {
     const bool is_server = role != driver.options.end() &&
                            role->second.value == decltype(role->second.value)(std::string("server"));
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, "ros2",
-                       quoted(project_.at(driver.span)), options(with_topic),
+                       string_literal(project_.at(driver.span)), options(with_topic),
                        reads ? make + ", nullptr" : "nullptr, " + make + (is_server ? "" : ", true"));
   }
 
   std::string panel_row(const std::string& path, const spec::Driver& driver) {
-    headers_.insert(quoted("tessera/panel.hpp"));
+    headers_.insert(string_literal("tessera/panel.hpp"));
     spec::Driver with_controls = driver;
     with_controls.options["controls"] = spec::DriverOption{controls_text(*driver.panel), ""};
     with_controls.options["stale"] =
         spec::DriverOption{std::chrono::duration<double>(driver.panel->stale).count(), "s"};
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, tessera::panel_receptor<{}>, nullptr}},\n", path,
-                       "panel", quoted(project_.at(driver.span)), options(with_controls), value(driver));
+                       "panel", string_literal(project_.at(driver.span)), options(with_controls),
+                       value(driver));
   }
 
   /// The type that the driver reads or writes.
   std::string value(const spec::Driver& driver) {
     const Unit& unit = unit_of(driver.instance);
-    headers_.insert(quoted(unit_header(unit)));
+    headers_.insert(string_literal(unit_header(unit)));
     if (!driver.real.valid()) return fmt::format("::{}::Real", unit_namespace(model_, unit));
     const spec::Type& type = unit.subsystem->real[driver.real].type;
     std::set<std::string_view> hidden;  // qualified, since it stands in our namespace

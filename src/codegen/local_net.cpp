@@ -129,7 +129,7 @@ class Extraction {
         return {};
       case net::Operation::Kind::transition_function:
         return fmt::format("tessera::calls({})",
-                           quoted(subsystem_.behaviours[place.operation.behaviour].name));
+                           string_literal(subsystem_.behaviours[place.operation.behaviour].name));
       case net::Operation::Kind::next_iteration:
         return "tessera::counts()";
       case net::Operation::Kind::write:
@@ -145,7 +145,7 @@ class Extraction {
     // Each side of a channel between processes has a memory of its own, which is all that it sees.
     const bool crosses = model_.crosses_processes(model_.channels[operation.channel]);
     const std::string slot = crosses || operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
-    return fmt::format("tessera::{}({}{})", what, quoted(port(operation.channel, sends)), slot);
+    return fmt::format("tessera::{}({}{})", what, string_literal(port(operation.channel, sends)), slot);
   }
 
   void add_transition(TransitionId id) {
@@ -182,7 +182,7 @@ class Extraction {
         return fmt::format("tessera::if_next({})", condition.entry.value());
       case net::Condition::Kind::elapsed:
         if (net_.channel_of(id).valid()) return "tessera::if_elapsed";
-        return fmt::format("tessera::if_elapsed_at({})", quoted(port(condition.channel, sends)));
+        return fmt::format("tessera::if_elapsed_at({})", string_literal(port(condition.channel, sends)));
     }
     return {};
   }
@@ -193,8 +193,9 @@ class Extraction {
     const net::BehaviourId behaviour =
         step == Step::leave ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
     std::string text = fmt::format("tessera::Step::{}", name_of(step));
-    if (behaviour.valid()) text += ", " + quoted(subsystem_.behaviours[behaviour].name);
-    if (transition.block.valid()) text += ", " + quoted(port(net_.parts()[transition.block].channel, sends));
+    if (behaviour.valid()) text += ", " + string_literal(subsystem_.behaviours[behaviour].name);
+    if (transition.block.valid())
+      text += ", " + string_literal(port(net_.parts()[transition.block].channel, sends));
     return '{' + text + '}';
   }
 
@@ -210,7 +211,7 @@ class Extraction {
       const auto found = std::ranges::lower_bound(places_, arc.place);
       LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
       place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes",
-                               quoted(subsystem_.behaviours[place.behaviour].name));
+                               string_literal(subsystem_.behaviours[place.behaviour].name));
     }
   }
 

@@ -19,22 +19,22 @@ struct Row {
 
 std::string list(const std::vector<std::string>& names) {
   std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + quoted(name);
+  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + string_literal(name);
   return '{' + out + '}';
 }
 
-Row row(const LocalNet::Place& place) { return {place.behaviour, {quoted(place.name), place.does}}; }
+Row row(const LocalNet::Place& place) { return {place.behaviour, {string_literal(place.name), place.does}}; }
 
 Row row(const LocalNet::Transition& transition) {
   return {transition.behaviour,
-          {quoted(transition.name), list(transition.inputs), list(transition.outputs),
+          {string_literal(transition.name), list(transition.inputs), list(transition.outputs),
            transition.guard.empty() ? "{}" : transition.guard, transition.role}};
 }
 
 Row row(const LocalNet::Port& port) {
   return {{},
-          {quoted(port.name), port.sends ? "tessera::Side::send" : "tessera::Side::receive",
-           quoted(port.buffer)}};
+          {string_literal(port.name), port.sends ? "tessera::Side::send" : "tessera::Side::receive",
+           string_literal(port.buffer)}};
 }
 
 /// Rows of one group stand together, groups in the order of the specification.
@@ -124,7 +124,8 @@ std::string behaviours_table(const spec::Subsystem& subsystem) {
   std::vector<Row> rows;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
     rows.push_back(
-        {{}, {quoted(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
+        {{},
+         {string_literal(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
   const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
   std::string short_form;
   for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);
@@ -175,7 +176,7 @@ std::string net_definitions(const NetVariants& variants) {
     const std::string ports = variants.nets[variant].ports.empty() ? "{}" : "ports" + suffix;
     out += fmt::format(
         "const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}, {2}, {3}}};\n",
-        suffix, ports, quoted(variants.nets[variant].in), quoted(variants.nets[variant].out));
+        suffix, ports, string_literal(variants.nets[variant].in), string_literal(variants.nets[variant].out));
   }
   return out;
 }

@@ -144,7 +144,9 @@ File subsystem_source(const Project& project, const Unit& unit, const NetVariant
   const bool times = needs_literals(*unit.subsystem);
   if (times || !conditions.declaration().empty()) headers.insert("<chrono>");
   const std::string space = generated_namespace(unit);
-  return {source_name(unit), fmt::format(R"({0}{1}{2}{3}namespace {4} {{
+  return {
+      source_name(unit),
+      fmt::format(R"({0}{1}{2}{3}namespace {4} {{
 namespace {{
 
 namespace yours = ::{5};
@@ -157,12 +159,11 @@ namespace yours = ::{5};
 
 }}  // namespace {4}
 {10})",
-                                         project.banner(), include_block(headers),
-                                         include_block({quoted("subsystems.hpp"), quoted(unit_header(unit))}),
-                                         conditions.declaration(), space, unit_namespace(project.model, unit),
-                                         times ? "using namespace std::chrono_literals;\n" : "", body,
-                                         net_tables(project, unit, variants), net_definitions(variants),
-                                         conditions.definitions())};
+                  project.banner(), include_block(headers),
+                  include_block({string_literal("subsystems.hpp"), string_literal(unit_header(unit))}),
+                  conditions.declaration(), space, unit_namespace(project.model, unit),
+                  times ? "using namespace std::chrono_literals;\n" : "", body,
+                  net_tables(project, unit, variants), net_definitions(variants), conditions.definitions())};
 }
 
 }  // namespace tessera::codegen

@@ -122,8 +122,9 @@ std::string channel_rows(const spec::Model& model, const Numbered<spec::ChannelI
 std::string verdict_rows(const verify::Report& report) {
   std::string rows;
   for (const verify::PropertyResult& property : report.properties)
-    rows += fmt::format("    {{{}, \"{}\", {}}},\n", quoted(property.name),
-                        verdicts[static_cast<std::size_t>(property.verdict)], quoted(property.method));
+    rows +=
+        fmt::format("    {{{}, \"{}\", {}}},\n", string_literal(property.name),
+                    verdicts[static_cast<std::size_t>(property.verdict)], string_literal(property.method));
   return rows;
 }
 
@@ -132,8 +133,8 @@ std::string process_tables(const spec::Model& model) {
   if (!model.deployment) return {};
   std::string rows, numbers;
   for (const spec::Process& process : model.deployment->processes)
-    rows += fmt::format("    {{{}, {}, {}}},\n", quoted(process.name), quoted(process.host),
-                        quoted(process.interface));
+    rows += fmt::format("    {{{}, {}, {}}},\n", string_literal(process.name), string_literal(process.host),
+                        string_literal(process.interface));
   for (const spec::Instance& instance : model.instances)
     numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", model.agents[instance.agent].process.value);
   return table("Process", "processes", rows) +
@@ -207,7 +208,7 @@ File system_source(const Project& project, const Numbered<spec::ChannelId, Chann
   const verify::Report& report = project.net.report();
   const DriverTables drivers = driver_tables(project);
   std::set<std::string> project_headers = drivers.headers;
-  project_headers.insert(quoted("subsystems.hpp"));
+  project_headers.insert(string_literal("subsystems.hpp"));
   return {"system.cpp",
           fmt::format(R"({0}#include "system.hpp"
 

@@ -98,7 +98,7 @@ std::string visible(std::string_view text) {
   return result;
 }
 
-std::string quoted(std::string_view word) {
+std::string in_quotes(std::string_view word) {
   constexpr std::size_t longest = 70;
   constexpr std::size_t kept = 60;
   if (word.size() <= longest) return "'" + visible(word) + "'";

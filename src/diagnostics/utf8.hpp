@@ -35,9 +35,6 @@ struct Glyph {
 [[nodiscard]] std::string visible(std::string_view text);
 
 /// `word` in quotes for a message: visible and, if long, shortened.
-[[nodiscard]] std::string quoted(std::string_view word);
-// Exact matches, so that argument-dependent lookup never prefers std::quoted of <iomanip>.
-[[nodiscard]] inline std::string quoted(const std::string& word) { return quoted(std::string_view(word)); }
-[[nodiscard]] inline std::string quoted(const char* word) { return quoted(std::string_view(word)); }
+[[nodiscard]] std::string in_quotes(std::string_view word);
 
 }  // namespace tessera::diagnostics

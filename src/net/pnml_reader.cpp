@@ -15,7 +15,7 @@
 namespace tessera::net {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 using pugi::xml_node;
 
 /// The name without a namespace prefix.
@@ -124,7 +124,8 @@ class Reader {
   xml_node only_net(const pugi::xml_document& document) {
     const xml_node root = document.document_element();
     if (local_name(root) != "pnml") {
-      out_.error("E422", positions_.of(root), "this is not PNML: the root element is " + quoted(root.name()),
+      out_.error("E422", positions_.of(root),
+                 "this is not PNML: the root element is " + in_quotes(root.name()),
                  "a PNML file starts with <pnml>");
       return {};
     }
@@ -151,7 +152,7 @@ class Reader {
                           contains_ignoring_case(type, "coloured");
     out_.error("E423", positions_.of(net),
                std::string(coloured ? "this is a coloured net" : "this is not a place/transition net") +
-                   ": its type is " + quoted(type),
+                   ": its type is " + in_quotes(type),
                coloured ? "unfold it to a place/transition net first" : "");
     return false;
   }
@@ -212,7 +213,7 @@ class Reader {
       return;
     }
     if (!elements_.emplace(id, element).second)
-      out_.error("E424", positions_.of(node), "the id " + quoted(id) + " is given twice");
+      out_.error("E424", positions_.of(node), "the id " + in_quotes(id) + " is given twice");
   }
 
   static std::string label(const xml_node& node, std::string_view name) {
@@ -234,7 +235,7 @@ class Reader {
       return value;
     const xml_node at = text.first_child() ? text.first_child() : text;
     out_.error("E425", positions_.of(at),
-               std::string(what) + " " + quoted(digits) + " is not a whole number from " +
+               std::string(what) + " " + in_quotes(digits) + " is not a whole number from " +
                    std::to_string(least) + " to " + std::to_string(largest_pnml_number));
     return missing;
   }
@@ -261,7 +262,8 @@ class Reader {
     if (const xml_node type = child(arc, "type")) {
       const std::string_view value = type.attribute("value").value();
       if (!value.empty() && value != "normal") {
-        out_.error("E423", positions_.of(type), "place/transition nets have no " + quoted(value) + " arcs");
+        out_.error("E423", positions_.of(type),
+                   "place/transition nets have no " + in_quotes(value) + " arcs");
         return;
       }
     }
@@ -288,8 +290,9 @@ class Reader {
     const std::string_view id = arc.attribute(side).value();
     const auto found = elements_.find(std::string(id));
     if (found == elements_.end() || found->second.kind == Element::Kind::other) {
-      out_.error("E426", positions_.of(arc),
-                 "the " + std::string(side) + " of this arc, " + quoted(id) + ", is no place or transition");
+      out_.error(
+          "E426", positions_.of(arc),
+          "the " + std::string(side) + " of this arc, " + in_quotes(id) + ", is no place or transition");
       return std::nullopt;
     }
     return resolved(found->second);
@@ -326,8 +329,9 @@ class Reader {
     const Reference& reference = references_[element.index];
     const auto target = elements_.find(reference.target);
     if (target == elements_.end() || target->second.kind == Element::Kind::other) {
-      out_.error("E427", reference.span,
-                 "this reference leads to " + quoted(reference.target) + ", which is no place or transition");
+      out_.error(
+          "E427", reference.span,
+          "this reference leads to " + in_quotes(reference.target) + ", which is no place or transition");
       return std::nullopt;
     }
     const auto of_place = [](const Element& one) {

@@ -24,7 +24,8 @@ void check_version(const Section& file, Diagnostics& out) {
   if (version == nullptr) return;
   const Node* text = text_of(*version->value, version->span, "'tessera'", out, "write tessera: 1");
   if (text != nullptr && (text->text != "1" || text->quoted)) {
-    out.error("E108", text->span, "version " + diagnostics::quoted(text->text) + " of the format is unknown",
+    out.error("E108", text->span,
+              "version " + diagnostics::in_quotes(text->text) + " of the format is unknown",
               "this program reads version 1: write tessera: 1");
   }
 }

@@ -33,10 +33,11 @@ TEST(Utf8, ControlCharactersAreSpelledOut) {
 }
 
 TEST(Utf8, LongWordsAreShortened) {
-  const std::string word = quoted(std::string(1000, 'x'));
+  const std::string word = in_quotes(std::string(1000, 'x'));
   EXPECT_LT(word.size(), 80U);
   EXPECT_TRUE(word.ends_with("...'"));
-  EXPECT_FALSE(first_invalid_byte(quoted("x" + std::string(59, 'y') + std::string(200, '\xc3'))).has_value());
+  EXPECT_FALSE(
+      first_invalid_byte(in_quotes("x" + std::string(59, 'y') + std::string(200, '\xc3'))).has_value());
 }
 
 }  // namespace

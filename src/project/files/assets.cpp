@@ -45,7 +45,7 @@ bool check_file(const std::string& name, std::string_view what, const std::strin
   const fs::path shipped = Installation::find().share / folder;
   const std::string where =
       fs::path(name).is_absolute() ? "" : fmt::format(" in {} or {}", project.string(), shipped.string());
-  out.error("E310", at, fmt::format("there is no {} {}{}", what, diagnostics::quoted(name), where),
+  out.error("E310", at, fmt::format("there is no {} {}{}", what, diagnostics::in_quotes(name), where),
             what_is_there(name, project, shipped));
   return false;
 }

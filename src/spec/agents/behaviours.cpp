@@ -14,7 +14,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// Names that the generated code uses beside the transition functions.
 constexpr std::array generated =
@@ -50,7 +50,7 @@ class BehaviourReader {
       out_.error("E106", entry.span, "behaviour name 'end' is reserved", "'next: end' ends the subsystem");
     } else if (std::find(generated.begin(), generated.end(), entry.key) != generated.end()) {
       out_.error("E106", entry.span,
-                 "behaviour name " + quoted(entry.key) + " is taken by the generated code");
+                 "behaviour name " + in_quotes(entry.key) + " is taken by the generated code");
     } else {
       check_name(entry.key, entry.span, "behaviour", out_);
     }
@@ -79,7 +79,7 @@ class BehaviourReader {
     for (const Expression& error : behaviour.error.expressions) {
       for (const Expression& terminal : behaviour.terminal.expressions) {
         if (error.name.empty() || error.name != terminal.name) continue;
-        out_.error("E107", error.span, "condition " + quoted(error.name) + " is both terminal and error",
+        out_.error("E107", error.span, "condition " + in_quotes(error.name) + " is both terminal and error",
                    "'when: " + error.name + "' could mean either; rename one");
       }
     }
@@ -126,7 +126,7 @@ class BehaviourReader {
     std::vector<std::string> names{"end"};
     for (const auto& [name, index] : by_name_) names.push_back(name);
     std::sort(names.begin(), names.end());
-    out_.error("E101", text->span, "unknown behaviour " + quoted(text->text),
+    out_.error("E101", text->span, "unknown behaviour " + in_quotes(text->text),
                did_you_mean(text->text, names));
   }
 
@@ -135,7 +135,7 @@ class BehaviourReader {
                                                     const std::string& what) {
     if (entry == nullptr) return std::nullopt;
     std::vector<BufferId> listed;
-    for (const Node* item : items_of(*entry->value, entry->span, quoted(entry->key), out_)) {
+    for (const Node* item : items_of(*entry->value, entry->span, in_quotes(entry->key), out_)) {
       const Node* text = text_of(*item, entry->span, "an " + what, out_);
       if (text == nullptr) continue;
       const auto found = std::find_if(buffers.begin(), buffers.end(),
@@ -146,7 +146,7 @@ class BehaviourReader {
       }
       const BufferId index{static_cast<std::uint32_t>(found - buffers.begin())};
       if (std::find(listed.begin(), listed.end(), index) != listed.end()) {
-        out_.error("E107", text->span, what + " " + quoted(text->text) + " is listed twice");
+        out_.error("E107", text->span, what + " " + in_quotes(text->text) + " is listed twice");
       } else {
         listed.push_back(index);
       }
@@ -160,10 +160,11 @@ class BehaviourReader {
     for (const Field& field : buffers) names.push_back(field.name);
     const bool other = holds(others, text.text);
     const bool is_output = what == "output";
-    out_.error("E101", text.span,
-               other ? quoted(text.text) + " is no " + what : "unknown " + what + " " + quoted(text.text),
-               other ? std::string("list it under '") + (is_output ? "receive" : "send") + "'"
-                     : did_you_mean(text.text, names));
+    out_.error(
+        "E101", text.span,
+        other ? in_quotes(text.text) + " is no " + what : "unknown " + what + " " + in_quotes(text.text),
+        other ? std::string("list it under '") + (is_output ? "receive" : "send") + "'"
+              : did_you_mean(text.text, names));
   }
 
   Transfer read_transfer(const Entry* entry) {
@@ -171,7 +172,7 @@ class BehaviourReader {
     const Node* text = text_of(*entry->value, entry->span, "transfer", out_, "write sequential or parallel");
     if (text == nullptr || text->text == "sequential") return Transfer::sequential;
     if (text->text != "parallel") {
-      out_.error("E104", text->span, "transfer must be sequential or parallel, not " + quoted(text->text),
+      out_.error("E104", text->span, "transfer must be sequential or parallel, not " + in_quotes(text->text),
                  did_you_mean(text->text, {"sequential", "parallel"}));
     }
     return Transfer::parallel;

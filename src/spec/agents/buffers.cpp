@@ -10,7 +10,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 Field read_cell(const Entry& entry, const Types& types, Diagnostics& out) {
   Field cell{entry.key, Types::unknown(), {}, entry.span};
@@ -58,7 +58,7 @@ void check_distinct(const std::vector<const std::vector<Field>*>& scope, Diagnos
     for (const Field& field : *fields) {
       const auto [first, added] = lines.emplace(field.name, field.span.line);
       if (added) continue;
-      out.error("E107", field.span, "the name " + quoted(field.name) + " is taken",
+      out.error("E107", field.span, "the name " + in_quotes(field.name) + " is taken",
                 "a transition function sees both; the first is on line " + std::to_string(first->second));
     }
   }

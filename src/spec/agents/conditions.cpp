@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// Words with a special meaning in `when` or `next`.
 constexpr std::array reserved = std::to_array<std::string_view>({"error", "terminal", "end"});
@@ -52,7 +52,8 @@ const Node* read_expression(const Node& node, Span at, Expression& expression, D
   const Node* text = text_of(node, at, "a condition", out, condition_hint);
   if (text == nullptr) return nullptr;
   const bool is_old = is_old_boolean(*text);
-  if (is_old) out.error("E104", text->span, quoted(text->text) + " is no condition", "write true or false");
+  if (is_old)
+    out.error("E104", text->span, in_quotes(text->text) + " is no condition", "write true or false");
   expression.span = text->span;
   warn_of_quotes(*text, out);
   const std::optional<bool> known = constant(*text);
@@ -73,7 +74,7 @@ void read_named(const Entry& condition, Condition& result, const ConditionScope&
   std::vector<std::string> names;
   for (const Entry& entry : condition.value->entries) names.push_back(entry.key);
   if (condition.value->entries.empty()) {
-    out.error("E104", condition.span, quoted(condition.key) + " needs at least one named expression",
+    out.error("E104", condition.span, in_quotes(condition.key) + " needs at least one named expression",
               condition_hint);
     // an unknown condition, so that no further mistake follows from it
     result.expressions.push_back({{}, {}, condition.span});
@@ -81,7 +82,7 @@ void read_named(const Entry& condition, Condition& result, const ConditionScope&
   for (const Entry& entry : condition.value->entries) {
     check_name(entry.key, entry.span, "condition", out);
     if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
-      out.error("E106", entry.span, "condition name " + quoted(entry.key) + " is reserved");
+      out.error("E106", entry.span, "condition name " + in_quotes(entry.key) + " is reserved");
     }
     result.expressions.push_back(checked_expression(*entry.value, entry.span, entry.key, scope, names, out));
   }
@@ -152,7 +153,7 @@ When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& sc
     when.kind = When::Kind::named_error;
     when.expression = error;
   } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {
-    out.error("E101", expression.span, "unknown condition " + quoted(word), hint_for(word, of));
+    out.error("E101", expression.span, "unknown condition " + in_quotes(word), hint_for(word, of));
     when.kind = When::Kind::expression;
   } else {
     when.kind = When::Kind::expression;

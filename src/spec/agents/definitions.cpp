@@ -10,7 +10,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 void read_group(const Entry* section, SubsystemKind kind, const SystemScope& around, Definition& definition,
                 Diagnostics& out) {
@@ -23,7 +23,7 @@ void read_group(const Entry* section, SubsystemKind kind, const SystemScope& aro
       out.error("E106", entry.span,
                 std::string(name_of(kind)) + " name 'control' is reserved for the control subsystem");
     } else if (check_name(entry.key, entry.span, name_of(kind), out) && first != known.end()) {
-      out.error("E107", entry.span, "subsystem " + quoted(entry.key) + " exists already",
+      out.error("E107", entry.span, "subsystem " + in_quotes(entry.key) + " exists already",
                 "the first is on line " + std::to_string(first->span.line));
     }
     definition.subsystems.push_back(read_subsystem(entry, kind, around, out));
@@ -39,7 +39,7 @@ Definition read_definition(const Entry& entry, bool is_template, const SystemSco
   Definition definition{entry.key, {}, is_template, entry.span};
   for (const char* key : {"count", "ring"}) {
     if (const Entry* misplaced = section.find(key)) {
-      out.error("E103", misplaced->span, quoted(key) + " needs 'use'",
+      out.error("E103", misplaced->span, in_quotes(key) + " needs 'use'",
                 "put the agent under 'templates' and write { use: NAME, count: 50 }");
     }
   }
@@ -116,7 +116,7 @@ DefinitionId Templates::find(const Node& name, Diagnostics& out) {
     return found->second.definition;
   }
   one_is_unknown_ = true;
-  out.error("E101", name.span, "unknown template " + quoted(name.text), did_you_mean(name.text, order_));
+  out.error("E101", name.span, "unknown template " + in_quotes(name.text), did_you_mean(name.text, order_));
   return {};
 }
 
@@ -124,7 +124,8 @@ void Templates::complain_about_unused(Diagnostics& out) const {
   if (one_is_unknown_) return;  // the unknown name may mean this template
   for (const std::string& name : order_) {
     const Template& one = by_name_.at(name);
-    if (!one.used) out.warning("W319", one.entry->span, "template " + quoted(name) + " is used by no agent");
+    if (!one.used)
+      out.warning("W319", one.entry->span, "template " + in_quotes(name) + " is used by no agent");
   }
 }
 

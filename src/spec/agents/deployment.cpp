@@ -19,7 +19,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* agents_hint = "name agents: base, robot[3] or robot[*]";
 
@@ -127,7 +127,7 @@ class DeploymentReader {
       const auto index =
           closed ? read_index(text.substr(bracket + 1, text.size() - bracket - 2)) : std::nullopt;
       if (!index || index->kind != Selector::Kind::all) {
-        out_.error("E112", entry.span, quoted(entry.key) + " names no processes",
+        out_.error("E112", entry.span, in_quotes(entry.key) + " names no processes",
                    "write " + key.name + ", or " + key.name + "[*] for one process per member of a fleet");
         return std::nullopt;
       }
@@ -135,7 +135,7 @@ class DeploymentReader {
     if (!check_name(key.name, entry.span, "process", out_)) return std::nullopt;
     const auto [first, added] = lines_.emplace(key.name, entry.span.line);
     if (added) return key;
-    out_.error("E107", entry.span, "the name of process " + quoted(key.name) + " is taken",
+    out_.error("E107", entry.span, "the name of process " + in_quotes(key.name) + " is taken",
                "by the process on line " + std::to_string(first->second));
     return std::nullopt;
   }
@@ -144,7 +144,7 @@ class DeploymentReader {
     const Node* text = text_of(*entry.value, entry.span, what, out_, "a name or an address");
     if (text == nullptr) return {};
     if (is_network_name(text->text)) return text->text;
-    out_.error("E104", text->span, quoted(text->text) + " is no " + what,
+    out_.error("E104", text->span, in_quotes(text->text) + " is no " + what,
                "a name or an address: letters, digits and . - _ :");
     return {};
   }
@@ -173,7 +173,7 @@ class DeploymentReader {
       const auto index =
           all.ends_with(']') ? read_index(all.substr(bracket + 1, all.size() - bracket - 2)) : std::nullopt;
       if (!index || index->kind == Selector::Kind::variable) {
-        out_.error("E112", text->span, quoted(text->text) + " names no agents", agents_hint);
+        out_.error("E112", text->span, in_quotes(text->text) + " names no agents", agents_hint);
         return std::nullopt;
       }
       selection.selector = *index;
@@ -210,7 +210,7 @@ class DeploymentReader {
     for (const Selection& selection : selections) {
       if (!selection.whole_fleet())
         return out_.error("E307", selection.span,
-                          quoted(key.name + "[*]") + " stands for one process per member of a fleet",
+                          in_quotes(key.name + "[*]") + " stands for one process per member of a fleet",
                           "name whole fleets here: robot[*]");
       if (selection.group->count != count)
         return out_.error("E307", selection.span,
@@ -238,7 +238,7 @@ class DeploymentReader {
     for (const AgentId agent : agents) {
       const auto [first, added] = taken_.emplace(agent, at.line);
       if (added) continue;
-      out_.error("E315", at, "agent " + quoted(model_.agents[agent].path) + " is in a process already",
+      out_.error("E315", at, "agent " + in_quotes(model_.agents[agent].path) + " is in a process already",
                  first->second == at.line ? "name it once"
                                           : "see line " + std::to_string(first->second) + ": name it once");
       return false;
@@ -284,7 +284,7 @@ class DeploymentReader {
       if (!told.emplace(channel.span.line, true).second) continue;
       out_.error("E316", channel.span,
                  "a channel between processes cannot have the communication model " +
-                     quoted(model_.models[channel.model].name),
+                     in_quotes(model_.models[channel.model].name),
                  "its sides share one memory: put both agents into one process, or use `send` and `receive`");
     }
   }

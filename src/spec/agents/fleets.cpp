@@ -11,7 +11,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr std::uint32_t largest_fleet = 100'000;
 
@@ -24,7 +24,7 @@ std::uint32_t read_count(const Entry& entry, Diagnostics& out) {
   if (stop == end && error == std::errc() && count >= 1 && count <= largest_fleet && !text->quoted)
     return count;
   out.error("E206", text->span,
-            "count must be a whole number between 1 and 100000, not " + quoted(text->text));
+            "count must be a whole number between 1 and 100000, not " + in_quotes(text->text));
   return 1;
 }
 
@@ -107,7 +107,7 @@ void check_clashes(const Model& model, const std::vector<Structure>& structures,
   const auto check = [&](const std::string& name, Span span, const std::string& what) {
     const auto clash = types.find(name);
     if (clash == types.end()) return;
-    out.error("E107", span, what + " " + quoted(name) + " has the name of a type",
+    out.error("E107", span, what + " " + in_quotes(name) + " has the name of a type",
               "the type is on line " + std::to_string(clash->second->span.line) +
                   "; begin types with a capital letter");
   };
@@ -127,7 +127,7 @@ void check_definitions(const Model& model, Diagnostics& out) {
   for (const Definition& definition : model.definitions) {
     const auto [first, added] = spans.emplace(definition.name, definition.span);
     if (added) continue;
-    out.error("E107", definition.span, "agent " + quoted(definition.name) + " has the name of a template",
+    out.error("E107", definition.span, "agent " + in_quotes(definition.name) + " has the name of a template",
               "the template is on line " + std::to_string(first->second.line));
   }
 }

@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* limits_hint = "for example left: { min: -10, max: 10, per_second: 50 }";
 constexpr std::uint64_t most_elements = 256;
@@ -76,14 +76,14 @@ class LimitReader {
     }
     if (Types::is_unknown(*target.type)) return std::nullopt;
     if (holds_numbers(*target.type)) return target;
-    out_.error("E211", entry.span, quoted(entry.key) + " holds no numbers that could be limited",
+    out_.error("E211", entry.span, in_quotes(entry.key) + " holds no numbers that could be limited",
                "a limit is for a number, or for a short array of numbers");
     return std::nullopt;
   }
 
   bool step(const Entry& entry, const std::string& name, Target& target) {
     if (target.type->kind != Type::Kind::structure || target.type->extent > 0) {
-      out_.error("E101", entry.span, quoted(entry.key) + " leads through something that has no fields");
+      out_.error("E101", entry.span, in_quotes(entry.key) + " leads through something that has no fields");
       return false;
     }
     const std::vector<Field>& fields = types_.structures()[target.type->structure].fields;
@@ -100,7 +100,7 @@ class LimitReader {
                                 const std::vector<Field>& known) {
     std::vector<std::string> names;
     for (const Field& one : known) names.push_back(one.name);
-    out_.error("E101", entry.span, "unknown " + what + " " + quoted(name), did_you_mean(name, names));
+    out_.error("E101", entry.span, "unknown " + what + " " + in_quotes(name), did_you_mean(name, names));
     return std::nullopt;
   }
 
@@ -120,14 +120,15 @@ class LimitReader {
     if (text == nullptr) return std::nullopt;
     const auto quantity = split_quantity(text->text);
     if (!quantity) {
-      out_.error("E205", text->span, entry->key + " must be a number, not " + quoted(text->text));
+      out_.error("E205", text->span, entry->key + " must be a number, not " + in_quotes(text->text));
       return std::nullopt;
     }
     if (quantity->unit.empty() || quantity->unit == type.unit) return quantity->number;
-    out_.error(
-        "E208", text->span, "unit " + quoted(quantity->unit) + " where the type is " + types_.spelled(type),
-        entry->key == "per_second" ? "per_second has the unit of the buffer: 50 means 50 of it a second"
-                                   : "units are compared as they are written");
+    out_.error("E208", text->span,
+               "unit " + in_quotes(quantity->unit) + " where the type is " + types_.spelled(type),
+               entry->key == "per_second"
+                   ? "per_second has the unit of the buffer: 50 means 50 of it a second"
+                   : "units are compared as they are written");
     return std::nullopt;
   }
 
@@ -137,7 +138,7 @@ class LimitReader {
     if (text == nullptr) return;
     limit.fault = text->text == "fault";
     if (limit.fault || text->text == "clamp") return;
-    out_.error("E104", text->span, "beyond must be clamp or fault, not " + quoted(text->text),
+    out_.error("E104", text->span, "beyond must be clamp or fault, not " + in_quotes(text->text),
                did_you_mean(text->text, {"clamp", "fault"}));
   }
 
@@ -146,7 +147,7 @@ class LimitReader {
       return other.real == limit.real && other.field == limit.field;
     });
     if (twice != limits_.end())
-      out_.error("E107", entry.span, quoted(entry.key) + " is limited twice",
+      out_.error("E107", entry.span, in_quotes(entry.key) + " is limited twice",
                  "the first is on line " + std::to_string(twice->span.line));
     if (section.find("min") == nullptr && section.find("max") == nullptr &&
         section.find("per_second") == nullptr)
@@ -176,9 +177,9 @@ class LimitReader {
       number = quantity->number;
     }
     if (number >= limit.minimum.value_or(number) && number <= limit.maximum.value_or(number)) return;
-    const std::string text = safe == nullptr ? "0, the default," : quoted(safe->text);
+    const std::string text = safe == nullptr ? "0, the default," : in_quotes(safe->text);
     out_.error("E211", safe == nullptr ? entry.span : safe->span,
-               "the safe command " + text + " is outside the limits of " + quoted(entry.key),
+               "the safe command " + text + " is outside the limits of " + in_quotes(entry.key),
                "a safe command within the limits stands under `safe`");
   }
 

@@ -11,7 +11,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// Elements of an array: it is stored in place, and given on a command line.
 constexpr std::uint64_t largest_array = 256;
@@ -26,7 +26,7 @@ Type shown_type(const Node& value, Diagnostics& out) {
   } else if (const auto quantity = split_quantity(value.text)) {
     type.unit = quantity->unit;
   } else {
-    out.error("E203", value.span, quoted(value.text) + " is no number, true or false",
+    out.error("E203", value.span, in_quotes(value.text) + " is no number, true or false",
               is_old_boolean(value) ? "write true or false" : "put text in quotes");
     return Types::unknown();
   }
@@ -71,12 +71,12 @@ class LongForm {
     if (Types::is_unknown(type_)) return;
     if (type_.kind == Type::Kind::structure || (type_.extent > 0 && type_.kind == Type::Kind::string)) {
       out_.error("E203", at,
-                 "parameter " + quoted(name) + " must be a number, bool, string, or an array of numbers",
+                 "parameter " + in_quotes(name) + " must be a number, bool, string, or an array of numbers",
                  "give every field a parameter of its own");
     } else if (type_.extent > largest_array) {
       out_.error(
           "E204", at,
-          "parameter " + quoted(name) + " has more than " + std::to_string(largest_array) + " elements",
+          "parameter " + in_quotes(name) + " has more than " + std::to_string(largest_array) + " elements",
           "a transition function can read a large table from a file");
     } else {
       return;
@@ -101,10 +101,10 @@ class LongForm {
     const Node* text = text_of(*unit->value, unit->span, "a unit", out_);
     if (text == nullptr) return;
     if (!is_number()) {
-      out_.error("E201", text->span, "unit " + quoted(text->text) + " on a type that is no number");
+      out_.error("E201", text->span, "unit " + in_quotes(text->text) + " on a type that is no number");
     } else if (!type_.unit.empty() && type_.unit != text->text) {
       out_.error("E208", text->span,
-                 "unit " + quoted(text->text) + " where the type is " + types_.spelled(type_),
+                 "unit " + in_quotes(text->text) + " where the type is " + types_.spelled(type_),
                  "give the unit once");
     } else {
       type_.unit = text->text;
@@ -141,7 +141,7 @@ class LongForm {
   void check_value(const Node& node) {
     const double value = split_quantity(node.text)->number;
     if ((!minimum_ || value >= *minimum_) && (!maximum_ || value <= *maximum_)) return;
-    out_.error("E204", node.span, "the default " + quoted(node.text) + " is outside min .. max");
+    out_.error("E204", node.span, "the default " + in_quotes(node.text) + " is outside min .. max");
   }
 
   Section section_;

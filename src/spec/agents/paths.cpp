@@ -11,7 +11,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* path_hint = "a buffer is named AGENT.SUBSYSTEM.BUFFER, for example robot.control.line";
 
@@ -81,19 +81,19 @@ std::optional<BufferPath> split(const Node& text, std::size_t offset, std::size_
     const std::string_view index = rest.substr(1, close - 1);
     const auto selector = read_index(index);
     path.index_span = span(index);
-    if (!selector) return fail(index, quoted(index) + " is not an index", index_hint);
+    if (!selector) return fail(index, in_quotes(index) + " is not an index", index_hint);
     path.selector = *selector;
     rest.remove_prefix(close + 1);
   }
   const std::size_t dot = rest.empty() ? std::string_view::npos : rest.find('.', 1);
   const bool has_buffer = dot != std::string_view::npos;
   if (!rest.starts_with('.') || (needs_buffer && !has_buffer)) {
-    return fail(all, quoted(all) + " does not name a buffer", path_hint);
+    return fail(all, in_quotes(all) + " does not name a buffer", path_hint);
   }
   const std::string_view subsystem = rest.substr(1, dot - 1);
   const std::string_view buffer = has_buffer ? rest.substr(dot + 1) : rest.substr(rest.size());
   for (const std::string_view part : {agent, subsystem, has_buffer ? buffer : subsystem}) {
-    if (!is_identifier(part)) return fail(all, quoted(all) + " does not name a buffer", path_hint);
+    if (!is_identifier(part)) return fail(all, in_quotes(all) + " does not name a buffer", path_hint);
   }
   path.agent = agent;
   path.subsystem = subsystem;
@@ -123,7 +123,7 @@ PathLookup::PathLookup(const Model& model, const AgentGroups& groups) : model_(m
 const AgentGroup* PathLookup::find_group(const std::string& agent, Span span, Diagnostics& out) const {
   const auto group = groups_.find(agent);
   if (group != groups_.end()) return &group->second;
-  out.error("E101", span, "unknown agent " + quoted(agent), did_you_mean(agent, names_));
+  out.error("E101", span, "unknown agent " + in_quotes(agent), did_you_mean(agent, names_));
   return nullptr;
 }
 
@@ -131,18 +131,18 @@ bool PathLookup::check_index(const Selector& selector, const AgentGroup& group, 
                              Span index_span, Diagnostics& out) {
   if (group.fleet && selector.kind == Selector::Kind::plain) {
     out.error("E112", agent_span,
-              quoted(group.name) + " is a fleet of " + std::to_string(group.count) + " agents",
+              in_quotes(group.name) + " is a fleet of " + std::to_string(group.count) + " agents",
               "say which: " + group.name + "[0], " + group.name + "[i] or " + group.name + "[*]");
     return false;
   }
   if (!group.fleet && selector.kind != Selector::Kind::plain) {
-    out.error("E112", index_span, quoted(group.name) + " is one agent, not a fleet",
+    out.error("E112", index_span, in_quotes(group.name) + " is one agent, not a fleet",
               "write " + group.name + " without an index, or give it a 'count'");
     return false;
   }
   if (selector.kind == Selector::Kind::constant && (selector.number < 0 || selector.number >= group.count)) {
     out.error("E303", index_span,
-              "there is no agent " + std::to_string(selector.number) + " in fleet " + quoted(group.name),
+              "there is no agent " + std::to_string(selector.number) + " in fleet " + in_quotes(group.name),
               "its agents are numbered 0 to " + std::to_string(group.count - 1));
     return false;
   }
@@ -162,7 +162,7 @@ bool PathLookup::find(const BufferPath& path, PathTarget& target, KnownUpTo& kno
   if (subsystem == subsystems.end()) {
     std::vector<std::string> names;
     for (const Subsystem& one : subsystems) names.push_back(one.name);
-    out.error("E101", path.subsystem_span, "unknown subsystem " + quoted(path.subsystem),
+    out.error("E101", path.subsystem_span, "unknown subsystem " + in_quotes(path.subsystem),
               did_you_mean(path.subsystem, names));
     return false;
   }
@@ -186,13 +186,13 @@ void PathLookup::complain_about_buffer(const BufferPath& path, const PathTarget&
     const bool here = std::any_of(other.fields.begin(), other.fields.end(),
                                   [&path](const Field& one) { return one.name == path.buffer; });
     if (!here) continue;
-    out.error("E304", path.buffer_span, quoted(path.buffer) + " is no " + what,
+    out.error("E304", path.buffer_span, in_quotes(path.buffer) + " is no " + what,
               "it is " + std::string(other.is));
     return;
   }
   std::vector<std::string> names;
   for (const Field& field : buffers) names.push_back(field.name);
-  out.error("E101", path.buffer_span, "unknown " + what + " " + quoted(path.buffer),
+  out.error("E101", path.buffer_span, "unknown " + what + " " + in_quotes(path.buffer),
             did_you_mean(path.buffer, names));
 }
 

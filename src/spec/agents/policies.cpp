@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// The index of the word among the choices; the first one after an error, if it is none of them.
 std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_view> choices,
@@ -26,7 +26,7 @@ std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_vi
   if (text == nullptr) return 0;
   const auto found = std::ranges::find(words, text->text);
   if (found != words.end()) return static_cast<std::size_t>(found - words.begin());
-  out.error("E104", text->span, entry.key + " must be " + either + ", not " + quoted(text->text),
+  out.error("E104", text->span, entry.key + " must be " + either + ", not " + in_quotes(text->text),
             did_you_mean(text->text, words));
   return 0;
 }
@@ -42,7 +42,7 @@ std::optional<std::uint32_t> read_whole(const Entry& entry, std::uint32_t least,
   if (problem == std::errc{} && behind == end && value >= least && value <= most) return value;
   out.error("E204", text->span,
             entry.key + " must be a whole number from " + std::to_string(least) + " to " +
-                std::to_string(most) + ", not " + quoted(text->text));
+                std::to_string(most) + ", not " + in_quotes(text->text));
   return std::nullopt;
 }
 

@@ -17,7 +17,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// A key that only some kinds of subsystems have.
 struct SpecialKey {
@@ -37,7 +37,7 @@ void check_kind(const Section& section, SubsystemKind kind, Diagnostics& out) {
         kind == SubsystemKind::effector || (kind == SubsystemKind::receptor && key.receptors);
     if (entry == nullptr || allowed) continue;
     out.error("E110", entry->span,
-              quoted(key.name) + " belongs to " + std::string(key.owners) + ", this is a " +
+              in_quotes(key.name) + " belongs to " + std::string(key.owners) + ", this is a " +
                   std::string(name_of(kind)) + (kind == SubsystemKind::control ? " subsystem" : ""));
   }
 }
@@ -52,7 +52,7 @@ std::vector<std::string> read_safe(const Entry* entry, const std::vector<Field>&
     if (buffer == real.end()) {
       std::vector<std::string> names;
       for (const Field& one : real) names.push_back(one.name);
-      out.error("E101", value.span, "unknown real buffer " + quoted(value.key),
+      out.error("E101", value.span, "unknown real buffer " + in_quotes(value.key),
                 did_you_mean(value.key, names));
       continue;
     }
@@ -70,7 +70,8 @@ BehaviourId read_start(const Entry* entry, const std::vector<Behaviour>& behavio
   for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
   const auto found = std::find(names.begin(), names.end(), text->text);
   if (found != names.end()) return {static_cast<std::uint32_t>(found - names.begin())};
-  out.error("E101", text->span, "unknown behaviour " + quoted(text->text), did_you_mean(text->text, names));
+  out.error("E101", text->span, "unknown behaviour " + in_quotes(text->text),
+            did_you_mean(text->text, names));
   return {0};
 }
 
@@ -80,7 +81,8 @@ void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parame
     const auto outer = std::find_if(system.begin(), system.end(),
                                     [&](const Parameter& one) { return one.name == parameter.name; });
     if (outer == system.end()) continue;
-    out.error("E107", parameter.span, "parameter " + quoted(parameter.name) + " is one of the system already",
+    out.error("E107", parameter.span,
+              "parameter " + in_quotes(parameter.name) + " is one of the system already",
               "the first is on line " + std::to_string(outer->span.line));
   }
 }
@@ -92,11 +94,11 @@ void read_stale(const Entry* stale, Subsystem& subsystem, Diagnostics& out) {
     subsystem.stale = read_duration(*stale->value, stale->span, "stale", out);
   } else if (subsystem.kind == SubsystemKind::effector && !subsystem.real.empty() &&
              !subsystem.inputs.empty()) {
-    out.warning(
-        "W324", subsystem.span,
-        "effector " + quoted(subsystem.name) + " goes on with its last command when no values come any more",
-        "'stale: 500 ms' gives the safe command when an input has had no valid value for so long; "
-        "'stale: never' says that it shall go on");
+    out.warning("W324", subsystem.span,
+                "effector " + in_quotes(subsystem.name) +
+                    " goes on with its last command when no values come any more",
+                "'stale: 500 ms' gives the safe command when an input has had no valid value for so long; "
+                "'stale: never' says that it shall go on");
   }
 }
 

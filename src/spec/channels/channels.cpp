@@ -11,7 +11,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* channel_hint =
     "write AGENT.SUBSYSTEM.OUTPUT -> AGENT.SUBSYSTEM.INPUT, or a map { from, to, send, receive, model, "
@@ -85,7 +85,7 @@ class ChannelReader {
   std::optional<BufferPath> read_path(const Section& section, std::string_view key) {
     const Entry* entry = section.require(key, channel_hint);
     const Node* text =
-        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, quoted(key), out_, channel_hint);
+        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, in_quotes(key), out_, channel_hint);
     return text == nullptr ? std::nullopt : split_part(*text, 0, text->text.size());
   }
 
@@ -99,11 +99,11 @@ class ChannelReader {
   Mode read_mode(const Entry* entry) {
     if (entry == nullptr) return Mode::non_blocking;
     const Node* text =
-        text_of(*entry->value, entry->span, quoted(entry->key), out_, "write blocking or non_blocking");
+        text_of(*entry->value, entry->span, in_quotes(entry->key), out_, "write blocking or non_blocking");
     if (text == nullptr || text->text == "non_blocking") return Mode::non_blocking;
     if (text->text != "blocking") {
       out_.error("E104", text->span,
-                 quoted(entry->key) + " must be blocking or non_blocking, not " + quoted(text->text),
+                 in_quotes(entry->key) + " must be blocking or non_blocking, not " + in_quotes(text->text),
                  did_you_mean(text->text, {"blocking", "non_blocking"}));
     }
     return Mode::blocking;
@@ -112,7 +112,8 @@ class ChannelReader {
   void read_model(const Section& section, const Entry& entry, Channel& channel) {
     for (const std::string_view key : {"send", "receive"})
       if (const Entry* mode = section.find(key))
-        out_.error("E309", mode->span, quoted(key) + " beside 'model'", "the model says how both sides wait");
+        out_.error("E309", mode->span, in_quotes(key) + " beside 'model'",
+                   "the model says how both sides wait");
     const Node* name = text_of(*entry.value, entry.span, "'model'", out_, "the name of an entry of 'models'");
     if (name == nullptr) return;
     channel.model = models_.find(*name, out_);
@@ -127,7 +128,7 @@ class ChannelReader {
       const Entry* entry = section.find(key);
       if (entry != nullptr && !has)
         out_.error("E306", entry->span,
-                   quoted(key) + " where " + who + " of model " + quoted(name.text) + " waits for it",
+                   in_quotes(key) + " where " + who + " of model " + in_quotes(name.text) + " waits for it",
                    "write it at a transition as when: elapsed");
     };
     refuse("timeout", sends || receives, "no side");
@@ -138,7 +139,8 @@ class ChannelReader {
     const auto receive = read_timeout(section, "receive_timeout");
     const auto require = [&](bool has, const std::string& side) {
       if (!has || section.find("timeout") != nullptr || section.find(side + "_timeout") != nullptr) return;
-      out_.error("E309", name.span, quoted(side) + " of model " + quoted(name.text) + " needs a timeout",
+      out_.error("E309", name.span,
+                 in_quotes(side) + " of model " + in_quotes(name.text) + " needs a timeout",
                  "write timeout: 200 ms, or " + side + "_timeout: 200 ms");
     };
     require(sends, "send");
@@ -157,7 +159,7 @@ class ChannelReader {
     const auto needs_blocking = [&](std::string_view key, bool blocks, const std::string& problem) {
       const Entry* entry = section.find(key);
       if (entry == nullptr || blocks) return;
-      out_.error("E306", entry->span, quoted(key) + " where " + problem,
+      out_.error("E306", entry->span, in_quotes(key) + " where " + problem,
                  "a side that does not block never waits; write " +
                      std::string(key == "send_timeout" ? "send" : "receive") + ": blocking");
     };
@@ -253,7 +255,7 @@ class ChannelReader {
       const Channel& first = model_.channels[source->second];
       const std::string name = model_.instance_path(channel.to.instance) + "." + to.buffer;
       out_.error("E301", to.whole,
-                 "input " + quoted(name) + " has two sources: " + source_name(first) + " and " +
+                 "input " + in_quotes(name) + " has two sources: " + source_name(first) + " and " +
                      source_name(channel),
                  first.span.line == channel.span.line
                      ? "an input has one source; give every agent an input of its own"

@@ -10,7 +10,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 using Transition = ModelSide::Transition;
 
 constexpr const char* transition_hint = "write NAME: { from: [in, empty], to: [work] }";
@@ -43,27 +43,27 @@ class ModelSideReader {
       if (entry.key == "in" || entry.key == "out") {
         seen[entry.key == "in" ? ModelSide::in : ModelSide::out] = true;
         if (read_operation(entry))
-          out_.error("E120", entry.span, quoted(entry.key) + " has no operation",
+          out_.error("E120", entry.span, in_quotes(entry.key) + " has no operation",
                      "write and read in a place between 'in' and 'out'");
         continue;
       }
       check_name(entry.key, entry.span, "place", out_);
       if (std::ranges::find(around_.shared, entry.key, &SharedPlace::name) != around_.shared.end())
-        out_.error("E107", entry.span, "place " + quoted(entry.key) + " is shared already",
+        out_.error("E107", entry.span, "place " + in_quotes(entry.key) + " is shared already",
                    "a place belongs to one side, or to both under 'shared'");
       side_.places.push_back({entry.key, read_operation(entry), entry.span});
     }
     for (const std::uint32_t place : {ModelSide::in, ModelSide::out})
       if (!seen[place])
         out_.error("E103", section.span,
-                   quoted(entry_.key) + " of model " + quoted(around_.name) + " has no place " +
-                       quoted(side_.places[place].name),
+                   in_quotes(entry_.key) + " of model " + in_quotes(around_.name) + " has no place " +
+                       in_quotes(side_.places[place].name),
                    "every side begins in 'in' and ends in 'out'");
     const bool works = std::ranges::any_of(
         side_.places, [](const ModelSide::Place& place) { return place.slot.has_value(); });
     if (!works && !misplaced_)
       out_.error("E103", section.span,
-                 "no place of " + quoted(entry_.key) + " of model " + quoted(around_.name) + " has " +
+                 "no place of " + in_quotes(entry_.key) + " of model " + in_quotes(around_.name) + " has " +
                      (sends_ ? "'write'" : "'read'"),
                  sends_ ? "write work: { write: 1 }" : "write work: { read: 1 }");
   }
@@ -74,20 +74,21 @@ class ModelSideReader {
     const std::string_view own = sends_ ? "write" : "read", other = sends_ ? "read" : "write";
     if (const Entry* wrong = place.find(other)) {
       misplaced_ = true;
-      out_.error("E120", wrong->span, quoted(entry_.key) + " of a model cannot " + std::string(other),
+      out_.error("E120", wrong->span, in_quotes(entry_.key) + " of a model cannot " + std::string(other),
                  "places of 'send' write, places of 'receive' read");
     }
     const Entry* operation = place.find(own);
     if (operation == nullptr) return std::nullopt;
     misplaced_ = true;
     const Node* text =
-        text_of(*operation->value, operation->span, quoted(operation->key), out_, "the slot, from 1");
+        text_of(*operation->value, operation->span, in_quotes(operation->key), out_, "the slot, from 1");
     if (text == nullptr) return std::nullopt;
     std::uint32_t slot = 0;
     const char* end = text->text.data() + text->text.size();
     const auto [at, error] = std::from_chars(text->text.data(), end, slot);
     if (at == end && error == std::errc() && slot >= 1 && slot <= around_.slots) return slot - 1;
-    out_.error("E121", text->span, "model " + quoted(around_.name) + " has no slot " + quoted(text->text),
+    out_.error("E121", text->span,
+               "model " + in_quotes(around_.name) + " has no slot " + in_quotes(text->text),
                around_.slots == 1 ? "it has slot 1; 'slots: 2' gives it another"
                                   : "its slots are 1 to " + std::to_string(around_.slots));
     return std::nullopt;
@@ -122,7 +123,7 @@ class ModelSideReader {
     if (text == nullptr || text->text == "elapsed") return true;
     Hint hint = did_you_mean(text->text, {"elapsed"});
     if (hint.empty()) hint = "elapsed: the timeout of the channel has passed";
-    out_.error("E104", text->span, "'when' must be elapsed, not " + quoted(text->text), hint);
+    out_.error("E104", text->span, "'when' must be elapsed, not " + in_quotes(text->text), hint);
     return true;
   }
 
@@ -130,7 +131,7 @@ class ModelSideReader {
   bool read_ends(const Entry& entry, const Transition& transition, std::uint32_t& own,
                  std::vector<std::uint32_t>& shared) {
     std::vector<const Node*> names{entry.value};
-    if (!entry.value->is_scalar()) names = items_of(*entry.value, entry.span, quoted(entry.key), out_);
+    if (!entry.value->is_scalar()) names = items_of(*entry.value, entry.span, in_quotes(entry.key), out_);
     std::uint32_t count = 0;
     bool good = true;
     for (const Node* name : names) {
@@ -147,7 +148,7 @@ class ModelSideReader {
         good = false;
       } else if (std::ranges::find(shared, *place) != shared.end()) {
         out_.error("E107", text->span,
-                   "two arcs join " + quoted(text->text) + " and " + quoted(transition.name));
+                   "two arcs join " + in_quotes(text->text) + " and " + in_quotes(transition.name));
       } else {
         shared.push_back(*place);
       }
@@ -155,8 +156,8 @@ class ModelSideReader {
     if (good && count != 1)
       out_.error(
           "E122", entry.span,
-          "transition " + quoted(transition.name) + (entry.key == "from" ? " takes " : " gives ") +
-              std::to_string(count) + " places of " + quoted(entry_.key) + ", not one",
+          "transition " + in_quotes(transition.name) + (entry.key == "from" ? " takes " : " gives ") +
+              std::to_string(count) + " places of " + in_quotes(entry_.key) + ", not one",
           "a side has one token: a transition takes one of its places and gives one, besides shared ones");
     return good && count == 1;
   }
@@ -177,8 +178,8 @@ class ModelSideReader {
     for (const ModelSide::Place& place : side_.places) known.push_back(place.name);
     for (const SharedPlace& place : around_.shared) known.push_back(place.name);
     out_.error("E101", text.span,
-               "unknown place " + quoted(text.text) + " in " + quoted(entry_.key) + " of model " +
-                   quoted(around_.name),
+               "unknown place " + in_quotes(text.text) + " in " + in_quotes(entry_.key) + " of model " +
+                   in_quotes(around_.name),
                did_you_mean(text.text, known));
   }
 
@@ -192,7 +193,7 @@ class ModelSideReader {
       out_.error("E123", entry_.span, "no way leads from 'in' to 'out'",
                  "transitions lead from place to place: { from: [in], to: [work] }");
     for (std::uint32_t place = ModelSide::out + 1; place < side_.places.size(); ++place) {
-      const std::string name = "place " + quoted(side_.places[place].name);
+      const std::string name = "place " + in_quotes(side_.places[place].name);
       if (!reached[place]) out_.error("E123", side_.places[place].span, "no way leads from 'in' to " + name);
       if (!leaves[place])
         out_.error("E123", side_.places[place].span, "no way leads from " + name + " to 'out'");

@@ -15,25 +15,26 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* model_hint = "a model has slots, shared, send and receive; see docs/specification.md";
 
 /// A whole number of at most `most`. Errors: E203, E204.
 std::uint32_t read_number(const Entry& entry, std::uint32_t least, std::uint32_t most, Diagnostics& out) {
-  const Node* text = text_of(*entry.value, entry.span, quoted(entry.key), out);
+  const Node* text = text_of(*entry.value, entry.span, in_quotes(entry.key), out);
   if (text == nullptr) return least;
   std::uint32_t value = 0;
   const char* end = text->text.data() + text->text.size();
   const auto [at, error] = std::from_chars(text->text.data(), end, value);
   if (at != end || error != std::errc()) {
-    out.error("E203", text->span, quoted(entry.key) + " must be a whole number, not " + quoted(text->text));
+    out.error("E203", text->span,
+              in_quotes(entry.key) + " must be a whole number, not " + in_quotes(text->text));
     return least;
   }
   if (value >= least && value <= most) return value;
   out.error("E204", text->span,
-            quoted(entry.key) + " must be " + std::to_string(least) + (most == least + 1 ? " or " : " to ") +
-                std::to_string(most));
+            in_quotes(entry.key) + " must be " + std::to_string(least) +
+                (most == least + 1 ? " or " : " to ") + std::to_string(most));
   return least;
 }
 
@@ -42,12 +43,12 @@ void read_shared(const Entry& section, CommunicationModel& model, Diagnostics& o
   for (const Entry& entry : entries_of(*section.value, section.span, "shared", out)) {
     check_name(entry.key, entry.span, "place", out);
     if (entry.key == "in" || entry.key == "out")
-      out.error("E107", entry.span, quoted(entry.key) + " belongs to each side and cannot be shared");
+      out.error("E107", entry.span, in_quotes(entry.key) + " belongs to each side and cannot be shared");
     model.shared.push_back({entry.key, read_number(entry, 0, 1, out), entry.span});
   }
   if (model.shared.size() > most_shared_places)
     out.error("E124", section.span,
-              "model " + quoted(model.name) + " has " + std::to_string(model.shared.size()) +
+              "model " + in_quotes(model.name) + " has " + std::to_string(model.shared.size()) +
                   " shared places; a channel has room for " + std::to_string(most_shared_places));
 }
 
@@ -61,7 +62,7 @@ void check_needs(const ModelSide& side, const Entry& entry, const CommunicationM
   }
   if (needs.size() > most_needs)
     out.error("E124", entry.span,
-              quoted(entry.key) + " of model " + quoted(model.name) + " takes " +
+              in_quotes(entry.key) + " of model " + in_quotes(model.name) + " takes " +
                   std::to_string(needs.size()) + " different sets of shared places; a channel has room for " +
                   std::to_string(most_needs));
 }
@@ -74,7 +75,7 @@ void warn_of_unused_places(const CommunicationModel& model, Diagnostics& out) {
   for (std::uint32_t place = 0; place < model.shared.size(); ++place)
     if (!used.contains(place))
       out.warning("W320", model.shared[place].span,
-                  "no transition uses shared place " + quoted(model.shared[place].name));
+                  "no transition uses shared place " + in_quotes(model.shared[place].name));
 }
 
 CommunicationModel read_model(const Entry& entry, Diagnostics& out) {
@@ -126,7 +127,7 @@ CommunicationModelId CommunicationModels::find(const Node& name, Diagnostics& ou
   std::vector<std::string> names;
   for (const Known& one : known_) names.push_back(one.name);
   const Hint hint = did_you_mean(name.text, names);
-  out.error("E101", name.span, "unknown model " + quoted(name.text),
+  out.error("E101", name.span, "unknown model " + in_quotes(name.text),
             hint.empty()
                 ? "models of your own stand under 'models'; the others are chosen by send and receive"
                 : hint);
@@ -137,7 +138,7 @@ void CommunicationModels::complain_about_unused(const Model& model, Diagnostics&
   if (one_is_unknown_) return;
   for (const Known& one : known_)
     if (!one.used && one.id.valid())
-      out.warning("W321", model.models[one.id].span, "no channel uses model " + quoted(one.name));
+      out.warning("W321", model.models[one.id].span, "no channel uses model " + in_quotes(one.name));
 }
 
 }  // namespace tessera::spec

@@ -9,7 +9,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// Instances that share a complaint about one line of the file.
 struct Shared {
@@ -115,7 +115,7 @@ class WiringCheck {
   void report_unfed() {
     for (const auto& [input, shared] : unfed_) {
       out_.error("E302", input->span,
-                 "input " + quoted(input->name) + " of " + model_.instance_path(shared.first) +
+                 "input " + in_quotes(input->name) + " of " + model_.instance_path(shared.first) +
                      others(shared) + " has no source",
                  "add a channel that leads to " + model_.instance_path(shared.first) + "." + input->name);
     }
@@ -126,7 +126,7 @@ class WiringCheck {
       const auto& [shared, read] = entry;
       if (read) continue;
       out_.warning("W316", output->span,
-                   "output " + quoted(output->name) + " of " + model_.instance_path(shared.first) +
+                   "output " + in_quotes(output->name) + " of " + model_.instance_path(shared.first) +
                        others(shared) + " is not read");
     }
   }
@@ -138,7 +138,7 @@ class WiringCheck {
           excuses_.agents.contains(model_.instances[shared.first].agent))
         continue;
       out_.error("E305", behaviour->span,
-                 "behaviour " + quoted(behaviour->name) + " of " + model_.instance_path(shared.first) +
+                 "behaviour " + in_quotes(behaviour->name) + " of " + model_.instance_path(shared.first) +
                      others(shared) + " never waits: time would stand still",
                  "give the subsystem a rate, or the behaviour a blocking channel or 'takes: 3 ms'");
     }
@@ -160,7 +160,7 @@ class WiringCheck {
                                     [&](const Behaviour& one) { return is_listed(one.*list, buffer); });
       if (used) continue;
       out_.warning("W317", buffers[buffer].span,
-                   what + " " + quoted(buffers[buffer].name) + " is " + verb + " by no behaviour",
+                   what + " " + in_quotes(buffers[buffer].name) + " is " + verb + " by no behaviour",
                    "list it under '" + std::string(what == "input" ? "receive" : "send") +
                        "' of a behaviour, or remove it");
     }

@@ -12,7 +12,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 using Is = Value::Kind;
 using Status = std::pair<std::string_view, Is>;
 
@@ -136,7 +136,7 @@ void ConditionNames::read_word(std::size_t at) {
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
   } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text)) {
-    const std::string home = other_home(word.text), name = quoted(word.text);
+    const std::string home = other_home(word.text), name = in_quotes(word.text);
     const bool is_of_cpp = may_be_of_cpp(word.text, scope_.types);
     const std::string says = is_of_cpp ? name + " is a name of C++, not " + home : "unknown name " + name;
     if (!is_of_cpp || !home.empty()) out_.error("E101", span_of(word), says, hint_for_word(word.text));
@@ -247,7 +247,7 @@ void ConditionNames::unknown_name(const Token& name, const Root& root) {
   const std::string home = other_home(name.text);
   if (!home.empty()) hint = "write " + home;
   if (hint.empty()) hint = "this subsystem has no " + root.what + (root.what == "memory" ? "" : "s");
-  out_.error("E101", span_of(name), "unknown " + root.what + " " + quoted(name.text), std::move(hint));
+  out_.error("E101", span_of(name), "unknown " + root.what + " " + in_quotes(name.text), std::move(hint));
 }
 
 Value ConditionNames::value_of(const Type& type) const {
@@ -339,7 +339,7 @@ void ConditionNames::unknown_member(const Token& member, const Value& value, con
   else if (value.kind == Is::array && value.type.kind == Type::Kind::structure)
     hint = "choose an element: " + path + "[0]." + std::string(member.text);
   out_.error("E101", span_of(member),
-             path + " has no field " + quoted(member.text) + ": it is " + in_words(value, scope_.types),
+             path + " has no field " + in_quotes(member.text) + ": it is " + in_words(value, scope_.types),
              std::move(hint));
 }
 

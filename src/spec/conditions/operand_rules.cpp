@@ -12,7 +12,7 @@ namespace tessera::spec {
 
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 using Is = Value::Kind;
 
 /// For a number where a duration belongs. It may have letters that are no unit: "500msec".
@@ -33,8 +33,8 @@ Value ConditionOperators::combine(const Token& mark, const Value& left, const Va
 }
 
 Value ConditionOperators::combine_logical(const Token& mark, const Value& left, const Value& right) {
-  need_truth(left, quoted(mark.text));
-  need_truth(right, quoted(mark.text));
+  need_truth(left, in_quotes(mark.text));
+  need_truth(right, in_quotes(mark.text));
   Value both;
   both.kind = Is::boolean;
   return both;
@@ -121,7 +121,7 @@ void ConditionOperators::hint_at_minutes(const Value& left, const Value& right) 
     const std::string text = text_of(other);
     if (one.kind != Is::duration || !other.literal || other.kind != Is::unknown || !text.ends_with('m'))
       continue;
-    mistakes_.back().message = described(one) + ", " + quoted(text) + " is a length";
+    mistakes_.back().message = described(one) + ", " + in_quotes(text) + " is a length";
     mistakes_.back().hint = fmt::format("write {} min", text.substr(0, text.find_last_not_of(" m") + 1));
   }
 }
@@ -138,8 +138,8 @@ bool ConditionOperators::check_units(const Token& mark, const Value& left, const
                      !left.type.unit.empty() && !right.type.unit.empty();
   if (!known || left.type.unit == right.type.unit) return true;
   mistakes_.push_back({true, "W325", positions_.part(mark.position, mark.text.size()),
-                       fmt::format("{} is in {}, {} is in {}", quoted(text_of(left)), left.type.unit,
-                                   quoted(text_of(right)), right.type.unit),
+                       fmt::format("{} is in {}, {} is in {}", in_quotes(text_of(left)), left.type.unit,
+                                   in_quotes(text_of(right)), right.type.unit),
                        "units are compared as they are written; numbers are not converted"});
   return false;
 }
@@ -150,7 +150,7 @@ Value ConditionOperators::add(const Token& mark, const Value& left, const Value&
   if (left.is_compound() || right.is_compound()) {
     if (left.kind != Is::text && right.kind != Is::text)
       mistake("E212", left.is_compound() ? left : right,
-              quoted(mark.text) + " needs numbers; " + described(left.is_compound() ? left : right));
+              in_quotes(mark.text) + " needs numbers; " + described(left.is_compound() ? left : right));
     return result;
   }
   const bool durations = left.kind == Is::duration || right.kind == Is::duration;
@@ -178,7 +178,7 @@ Value ConditionOperators::multiply(const Token& mark, const Value& left, const V
   if (left.kind == Is::unknown || right.kind == Is::unknown) return result;
   if (left.is_compound() || right.is_compound()) {
     const Value& compound = left.is_compound() ? left : right;
-    mistake("E212", compound, quoted(mark.text) + " needs numbers; " + described(compound));
+    mistake("E212", compound, in_quotes(mark.text) + " needs numbers; " + described(compound));
     return result;
   }
   if (left.is_plain() && right.is_plain()) result.kind = Is::number;
@@ -206,7 +206,7 @@ std::string ConditionOperators::text_of(const Value& value) const {
 }
 
 std::string ConditionOperators::described(const Value& value) const {
-  return quoted(text_of(value)) + " is " + in_words(value, scope_.types);
+  return in_quotes(text_of(value)) + " is " + in_words(value, scope_.types);
 }
 
 }  // namespace tessera::spec

@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 using Is = Value::Kind;
 
 /// Brackets may be nested so deep; what is deeper is left to the compiler.
@@ -68,11 +68,11 @@ Value ConditionOperators::give_up() {
 /// The expression is understood up to here, and something else than an operator follows.
 void ConditionOperators::misspelt() {
   if (token().is("=>") || token().is("=<")) {
-    mistake_at(token(), "E209", quoted(token().text) + " is no operator",
+    mistake_at(token(), "E209", in_quotes(token().text) + " is no operator",
                token().is("=>") ? "write >=" : "write <=");
   } else if (at_ > 0 && begins_operand(token()) && !tokens_[at_ - 1].is(")")) {
     // "and" and "or" in words are operators of C++, others are not.
-    mistake_at(token(), "E209", "an operator is missing before " + quoted(token().text),
+    mistake_at(token(), "E209", "an operator is missing before " + in_quotes(token().text),
                token().is("is") ? "compare with ==" : "join two conditions by && or ||");
   } else {
     give_up();
@@ -106,7 +106,7 @@ Value ConditionOperators::read(int least) {
   if (given_up_) return {};
   const bool assigns = token().is_one_of({"=", "+=", "-=", "*=", "/=", "%=", "&=", "|=", "^="});
   if (assigns && least <= assignment && left.declared) {
-    mistake_at(token(), "E209", "a condition changes nothing, but " + quoted(token().text) + " assigns",
+    mistake_at(token(), "E209", "a condition changes nothing, but " + in_quotes(token().text) + " assigns",
                token().is("=") ? "write == to compare" : "a transition function can change memory");
     ++at_;
     read(assignment);
@@ -168,10 +168,10 @@ Value ConditionOperators::read_prefix() {
   Value value = read(11);  // binds closer than every operator between two operands
   if (given_up_) return {};
   if (mark.is("!") || mark.is("not")) {
-    need_truth(value, quoted(mark.text));
+    need_truth(value, in_quotes(mark.text));
     value = Value{Is::boolean, false, false, false, {}, mark.position, value.end};
   } else if (value.is_compound() || value.kind == Is::time) {
-    mistake("E212", value, quoted(mark.text) + " needs a number; " + described(value));
+    mistake("E212", value, in_quotes(mark.text) + " needs a number; " + described(value));
     value.kind = Is::unknown;
   } else {
     value.kind = value.kind == Is::boolean ? Is::number : value.kind;

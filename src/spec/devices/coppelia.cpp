@@ -10,7 +10,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 std::uint16_t read_port(const Entry& entry, std::uint16_t otherwise, Diagnostics& out) {
   const Node* text = text_of(*entry.value, entry.span, "the port", out);
@@ -19,7 +19,8 @@ std::uint16_t read_port(const Entry& entry, std::uint16_t otherwise, Diagnostics
   const char* end = text->text.data() + text->text.size();
   const auto [behind, problem] = std::from_chars(text->text.data(), end, port);
   if (problem == std::errc{} && behind == end && port > 0) return port;
-  out.error("E204", text->span, "the port must be a whole number from 1 to 65535, not " + quoted(text->text),
+  out.error("E204", text->span,
+            "the port must be a whole number from 1 to 65535, not " + in_quotes(text->text),
             "CoppeliaSim listens at 23000, unless it is told otherwise");
   return otherwise;
 }
@@ -32,7 +33,7 @@ void read_host(const Entry& entry, CoppeliaServer& server, Diagnostics& out) {
     server.host = text->text;
     return;
   }
-  out.error("E105", text->span, quoted(text->text) + " is no name and no address of a host",
+  out.error("E105", text->span, in_quotes(text->text) + " is no name and no address of a host",
             "for example host: localhost, or host: 192.168.0.7");
 }
 
@@ -62,7 +63,7 @@ void refuse_beside_coppelia(const Section& simulation, Diagnostics& out) {
                                   {"checks", "remove it"},
                                   {"measures", "remove it"}})
     if (const Entry* entry = simulation.find(key))
-      out.error("E102", entry->span, "only worlds of MuJoCo have " + quoted(key), hint);
+      out.error("E102", entry->span, "only worlds of MuJoCo have " + in_quotes(key), hint);
 }
 
 }  // namespace tessera::spec

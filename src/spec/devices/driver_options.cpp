@@ -12,7 +12,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// Units that may follow a number without a blank. After a blank, every word that begins
 /// with a letter may be a unit.
@@ -42,15 +42,16 @@ bool is_unit(const Quantity& quantity) {
 
 std::optional<DriverOption> world_value(const Node& node, const Entry& entry, Diagnostics& out) {
   if (!node.is_scalar() || node.text.empty()) {
-    out.error("E104", entry.span,
-              "option " + quoted(entry.key) + " must be a number, a name, true or false, or a list of them",
-              "for example { scan: laser, from: -135 deg, to: 135 deg, reach: 4 m }");
+    out.error(
+        "E104", entry.span,
+        "option " + in_quotes(entry.key) + " must be a number, a name, true or false, or a list of them",
+        "for example { scan: laser, from: -135 deg, to: 135 deg, reach: 4 m }");
     return std::nullopt;
   }
   if (node.quoted) return DriverOption{node.text, ""};
   if (is_true(node) || is_false(node)) return DriverOption{is_true(node), ""};
   if (!split_quantity(node.text)) return DriverOption{node.text, ""};
-  const auto quantity = read_any_quantity(node, entry.span, "option " + quoted(entry.key), out);
+  const auto quantity = read_any_quantity(node, entry.span, "option " + in_quotes(entry.key), out);
   if (!quantity) return std::nullopt;
   return DriverOption{quantity->number, std::string(quantity->unit)};
 }
@@ -61,7 +62,8 @@ std::optional<DriverOption> read_class_option(const Entry& entry, Diagnostics& o
   check_name(entry.key, entry.span, "option", out);
   const Node& node = *entry.value;
   if (!node.is_scalar()) {
-    out.error("E104", entry.span, "option " + quoted(entry.key) + " must be a number, a text, true or false",
+    out.error("E104", entry.span,
+              "option " + in_quotes(entry.key) + " must be a number, a text, true or false",
               "for example { cpp: Motor, pin: 4, device: /dev/ttyUSB0, inverted: true }");
     return std::nullopt;
   }

@@ -18,7 +18,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* driver_hint = "for example { reflectance: eye_left, noise: 0.01 }";
 
@@ -73,7 +73,7 @@ class DriverReader {
     driver.real = {};
     if (!subsystem.real.empty()) return true;
     out_.error("E210", driver.span,
-               quoted(path.subsystem) + " has no real buffers that a driver could serve");
+               in_quotes(path.subsystem) + " has no real buffers that a driver could serve");
     return false;
   }
 
@@ -135,7 +135,7 @@ class DriverReader {
     const Hint guess = did_you_mean(stranger->key, names);
     std::string list = "there are ";
     for (const std::string& name : names) list += (&name == &names.front() ? "" : ", ") + name;
-    out_.error("E101", stranger->span, "unknown driver " + quoted(stranger->key),
+    out_.error("E101", stranger->span, "unknown driver " + in_quotes(stranger->key),
                guess.empty() ? list : guess);
   }
 
@@ -143,18 +143,20 @@ class DriverReader {
     if (kind.lists && key.value->is_sequence()) {
       for (const Node* item : key.value->items) add_target(*item, key, kind, driver);
       if (key.value->items.empty())
-        out_.error("E104", key.span, quoted(key.key) + " needs a name", "name " + std::string(kind.target));
+        out_.error("E104", key.span, in_quotes(key.key) + " needs a name",
+                   "name " + std::string(kind.target));
       return;
     }
     add_target(*key.value, key, kind, driver);
     if (kind.name == "cpp" && !driver.targets.empty() && !is_class_name(driver.target())) {
-      out_.error("E105", driver.targets[0].span, quoted(driver.target()) + " does not name a C++ class",
+      out_.error("E105", driver.targets[0].span, in_quotes(driver.target()) + " does not name a C++ class",
                  "for example LightSensor or robot::LightSensor");
     }
   }
 
   void add_target(const Node& node, const Entry& key, const DriverKind& kind, Driver& driver) {
-    if (const Node* text = text_of(node, key.span, quoted(key.key), out_, "name " + std::string(kind.target)))
+    if (const Node* text =
+            text_of(node, key.span, in_quotes(key.key), out_, "name " + std::string(kind.target)))
       driver.targets.push_back({text->text, text->span});
   }
 
@@ -163,17 +165,17 @@ class DriverReader {
     std::string problem;
     const bool right_side = subsystem.kind == SubsystemKind::effector ? kind.effectors : kind.receptors;
     if (devices_ == Devices::real && kind.simulated_only) {
-      problem = "driver " + quoted(kind.name) + " is part of the simulated world";
+      problem = "driver " + in_quotes(kind.name) + " is part of the simulated world";
     } else if (!right_side) {
-      problem = "driver " + quoted(kind.name) + " does not fit " +
+      problem = "driver " + in_quotes(kind.name) + " does not fit " +
                 (subsystem.kind == SubsystemKind::effector ? "an effector" : "a receptor");
     } else if (devices_ == Devices::simulated && kind.is_topic()) {
-      problem = "driver " + quoted(kind.name) + " belongs to the real robot";
+      problem = "driver " + in_quotes(kind.name) + " belongs to the real robot";
     } else if ((kind.simulated_only || kind.is_topic() || kind.is_panel()) && !driver.real.valid()) {
-      problem = "driver " + quoted(kind.name) + " serves one real buffer, not a whole subsystem";
+      problem = "driver " + in_quotes(kind.name) + " serves one real buffer, not a whole subsystem";
     } else if (driver.real.valid() &&
                !has_values_of(kind, subsystem.real[driver.real].type, lookup_.model())) {
-      problem = "driver " + quoted(kind.name) + " needs " + std::string(description_of(kind.values));
+      problem = "driver " + in_quotes(kind.name) + " needs " + std::string(description_of(kind.values));
     } else {
       return true;
     }

@@ -18,7 +18,7 @@ using ControlKind = PanelControl::Kind;
 
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* panel_hint =
     "for example { panel: { turn: { stick_x: [-2, 2] }, forward: { stick_y: [-0.5, 0.5] }, horn: button } }";
@@ -131,7 +131,7 @@ class PanelReader {
       hint.text = "there are ";
       for (const std::string& name : names) hint.text += (&name == &names.front() ? "" : ", ") + name;
     }
-    out_.error("E101", entry.span, "the real buffer has no number or bool " + quoted(entry.key), hint);
+    out_.error("E101", entry.span, "the real buffer has no number or bool " + in_quotes(entry.key), hint);
   }
 
   /// at: of the field.
@@ -162,7 +162,7 @@ class PanelReader {
       names.emplace_back(name);
     }
     const Hint guess = did_you_mean(text, names);
-    out_.error("E101", at, "unknown control " + quoted(text),
+    out_.error("E101", at, "unknown control " + in_quotes(text),
                guess.empty() ? "there are button, switch, slider, stick_x and stick_y" : guess);
     return std::nullopt;
   }
@@ -188,11 +188,12 @@ class PanelReader {
     if (text == nullptr) return std::nullopt;
     const auto quantity = split_quantity(text->text);
     if (!quantity) {
-      out_.error("E205", text->span, "a limit of a range must be a number, not " + quoted(text->text));
+      out_.error("E205", text->span, "a limit of a range must be a number, not " + in_quotes(text->text));
       return std::nullopt;
     }
     if (!quantity->unit.empty() && quantity->unit != type.unit) {
-      out_.error("E208", text->span, "unit " + quoted(quantity->unit) + " where the type is " + spelled(type),
+      out_.error("E208", text->span,
+                 "unit " + in_quotes(quantity->unit) + " where the type is " + spelled(type),
                  "units are compared as they are written");
       return std::nullopt;
     }
@@ -200,7 +201,7 @@ class PanelReader {
     if (quantity->number >= least && quantity->number <= most &&
         (!is_whole(type) || quantity->number == std::floor(quantity->number)))
       return quantity->number;
-    out_.error("E213", text->span, quoted(text->text) + " is no value of type " + spelled(type));
+    out_.error("E213", text->span, in_quotes(text->text) + " is no value of type " + spelled(type));
     return std::nullopt;
   }
 
@@ -208,8 +209,8 @@ class PanelReader {
     PanelControl one{.kind = kind, .field = field.field, .unit = field.type.unit};
     if (one.is_number() == is_bool(field.type)) {
       out_.error("E213", at,
-                 "a " + std::string(name_of(kind)) + " does not fit " + quoted(field.field) + ", which is " +
-                     spelled(field.type),
+                 "a " + std::string(name_of(kind)) + " does not fit " + in_quotes(field.field) +
+                     ", which is " + spelled(field.type),
                  is_bool(field.type) ? "a bool has a button or a switch"
                                      : "a number has a slider, stick_x or stick_y");
       return;
@@ -236,7 +237,7 @@ class PanelReader {
     const auto other = std::ranges::find(controls_, one.kind, &PanelControl::kind);
     if (other == controls_.end()) return true;
     out_.error("E213", at,
-               "a panel has one " + std::string(name_of(one.kind)) + ", and " + quoted(other->field) +
+               "a panel has one " + std::string(name_of(one.kind)) + ", and " + in_quotes(other->field) +
                    " has it already",
                "a second stick is the panel of a second real buffer");
     return false;

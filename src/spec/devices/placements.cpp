@@ -15,7 +15,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 using Point = std::array<double, 3>;
 
 constexpr std::uint32_t most_things = 10'000;
@@ -89,7 +89,8 @@ class PlacementReader {
         selector =
             read_index(std::string_view(entry.key).substr(bracket + 1, entry.key.size() - bracket - 2));
       if (!selector || selector->kind == Selector::Kind::variable) {
-        out_.error("E112", entry.span, quoted(entry.key) + " names no agents", "write robot[3] or robot[*]");
+        out_.error("E112", entry.span, in_quotes(entry.key) + " names no agents",
+                   "write robot[3] or robot[*]");
         return std::nullopt;
       }
     }
@@ -104,7 +105,7 @@ class PlacementReader {
     members.is_agent = true;
     if (const Entry* count = section.find("count"))
       out_.error("E107", count->span,
-                 quoted(members.name) + " names agents, whose number is given under `agents`",
+                 in_quotes(members.name) + " names agents, whose number is given under `agents`",
                  "leave out `count`");
     if (!PathLookup::check_index(selector.value_or(Selector{}), group, entry.span, entry.span, out_))
       return std::nullopt;
@@ -120,7 +121,7 @@ class PlacementReader {
     if (!check_name(members.name, entry.span, "placed model", out_)) return std::nullopt;
     if (!selector) {
       if (const Entry* count = section.find("count"))
-        out_.error("E112", count->span, "several things are named " + quoted(members.name + "[*]"));
+        out_.error("E112", count->span, "several things are named " + in_quotes(members.name + "[*]"));
       return members;
     }
     const Entry* const count = section.find("count");
@@ -129,7 +130,7 @@ class PlacementReader {
       for (const auto& [name, group] : lookup_.groups()) names.push_back(name);
       std::ranges::sort(names);
       const Hint near = did_you_mean(members.name, names);
-      out_.error("E101", entry.span, "there are no agents " + quoted(members.name),
+      out_.error("E101", entry.span, "there are no agents " + in_quotes(members.name),
                  near.empty() ? "things that are no agents are named " + members.name + "[*], with a `count`"
                               : near);
       return std::nullopt;
@@ -169,18 +170,18 @@ class PlacementReader {
 
   void read_vary(const Entry& vary, ModelPlacement& placement) {
     for (const Entry& entry : entries_of(*vary.value, vary.span, "vary", out_)) {
-      const auto& ends = items_of(*entry.value, entry.span, quoted(entry.key), out_);
+      const auto& ends = items_of(*entry.value, entry.span, in_quotes(entry.key), out_);
       if (!entry.value->is_sequence()) continue;
       if (ends.size() != 2) {
-        out_.error("E104", entry.span, quoted(entry.key) + " needs the least and the most",
+        out_.error("E104", entry.span, in_quotes(entry.key) + " needs the least and the most",
                    "for example box.mass: [0.04, 0.06]");
         continue;
       }
-      const auto least = read_any_quantity(*ends[0], entry.span, quoted(entry.key), out_);
-      const auto most = read_any_quantity(*ends[1], entry.span, quoted(entry.key), out_);
+      const auto least = read_any_quantity(*ends[0], entry.span, in_quotes(entry.key), out_);
+      const auto most = read_any_quantity(*ends[1], entry.span, in_quotes(entry.key), out_);
       if (!least || !most) continue;
       if (least->number > most->number)
-        out_.error("E206", entry.span, "the least of " + quoted(entry.key) + " is more than the most");
+        out_.error("E206", entry.span, "the least of " + in_quotes(entry.key) + " is more than the most");
       placement.vary.emplace(entry.key, std::pair(least->number, most->number));
     }
   }

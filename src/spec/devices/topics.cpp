@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* topic_hint = "for example { ros2: /cmd_vel, type: geometry_msgs/msg/Twist }";
 constexpr const char* service_hint =
@@ -72,7 +72,7 @@ class TopicReader {
     if (text == nullptr) return;
     const auto name = ros2::full_message_name(text->text);
     if (!name)
-      out_.error("E105", text->span, quoted(text->text) + " is no name of a message",
+      out_.error("E105", text->span, in_quotes(text->text) + " is no name of a message",
                  "for example geometry_msgs/msg/Twist");
     put(*entry, name.value_or(""));
   }
@@ -82,7 +82,7 @@ class TopicReader {
     const Node* const name = type == nullptr ? nullptr : text_of(*type->value, type->span, "the type", out_);
     if (name != nullptr) {
       if (!ros2::full_service_name(name->text))
-        out_.error("E105", name->span, quoted(name->text) + " is no name of a service",
+        out_.error("E105", name->span, in_quotes(name->text) + " is no name of a service",
                    "for example std_srvs/srv/SetBool");
       put(*type, name->text);
     }
@@ -90,7 +90,7 @@ class TopicReader {
     const Node* const text = role == nullptr ? nullptr : text_of(*role->value, role->span, "the role", out_);
     if (text == nullptr) return;
     if (text->text != "client" && text->text != "server")
-      out_.error("E204", text->span, "the role must be client or server, not " + quoted(text->text),
+      out_.error("E204", text->span, "the role must be client or server, not " + in_quotes(text->text),
                  service_hint);
     if (const Entry* const wait = section_.find("wait"); wait != nullptr && text->text == "server")
       out_.error("E102", wait->span, "a server has no 'wait'", "it answers clients whenever they come");
@@ -117,7 +117,7 @@ class TopicReader {
 
   bool check_path(const std::string& path, const Span& at) {
     if (is_field_path(path)) return true;
-    out_.error("E105", at, quoted(path) + " is no name of a field", "for example linear.x");
+    out_.error("E105", at, in_quotes(path) + " is no name of a field", "for example linear.x");
     return false;
   }
 
@@ -150,7 +150,7 @@ class TopicReader {
         entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the node", out_);
     if (text == nullptr) return;
     if (!ros2::is_node_name(with_agent_number(text->text, 0)))
-      out_.error("E105", text->span, quoted(text->text) + " is no name of a node",
+      out_.error("E105", text->span, in_quotes(text->text) + " is no name of a node",
                  "letters, digits and single underscores, for example base_driver");
     put(*entry, text->text);
   }
@@ -161,7 +161,7 @@ class TopicReader {
     const Node* const text = text_of(*entry.value, entry.span, "qos", out_);
     if (text == nullptr) return;
     if (text->text != "sensor" && text->text != "default")
-      out_.error("E204", text->span, "qos must be default or sensor, not " + quoted(text->text),
+      out_.error("E204", text->span, "qos must be default or sensor, not " + in_quotes(text->text),
                  "or its parts: qos: { reliability: best_effort, durability: volatile, depth: 5 }");
     put(entry, text->text);
   }
@@ -178,7 +178,7 @@ class TopicReader {
         if (text->text != first && text->text != second)
           out_.error(
               "E204", text->span,
-              std::string(key) + " must be " + first + " or " + second + ", not " + quoted(text->text));
+              std::string(key) + " must be " + first + " or " + second + ", not " + in_quotes(text->text));
         add(text->text);
       }
     if (const Entry* depth = policies.find("depth"))
@@ -195,7 +195,7 @@ class TopicReader {
     if (problem == std::errc() && behind == end && number >= least && number <= most) return number;
     out_.error("E204", text->span,
                std::string(what) + " must be a whole number from " + std::to_string(least) + " to " +
-                   std::to_string(most) + ", not " + quoted(text->text));
+                   std::to_string(most) + ", not " + in_quotes(text->text));
     return std::nullopt;
   }
 

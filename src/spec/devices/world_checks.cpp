@@ -14,7 +14,7 @@ namespace tessera::spec {
 namespace {
 
 using checks::Check;
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr std::array all_times{Check::When::never, Check::When::always, Check::When::at_end,
                                Check::When::eventually};
@@ -44,7 +44,7 @@ const Entry* claim_of(const Section& section, Span at, Check::When& when, Diagno
     const Entry* entry = section.find(checks::name_of(one));
     if (entry == nullptr) continue;
     if (found != nullptr) {
-      out.error("E107", entry->span, quoted(entry->key) + " beside " + quoted(found->key),
+      out.error("E107", entry->span, in_quotes(entry->key) + " beside " + in_quotes(found->key),
                 "write two checks");
       return nullptr;
     }
@@ -76,7 +76,7 @@ std::optional<WorldCheck> read_check(const Node& node, Span at, Diagnostics& out
   const Entry* claim = claim_of(section, at, check.check.when, out);
   check.check.within_s = read_within(section, check.check.when, out);
   if (claim == nullptr) return std::nullopt;
-  const Node* text = text_of(*claim->value, claim->span, quoted(claim->key), out, check_hint);
+  const Node* text = text_of(*claim->value, claim->span, in_quotes(claim->key), out, check_hint);
   if (text == nullptr) return std::nullopt;
   check.span = text->span;
   check.check.name = claim->key + " " + text->text;
@@ -102,7 +102,7 @@ std::vector<WorldCheck> read_world_checks(const Entry* entry, Diagnostics& out) 
     const bool taken = std::ranges::any_of(
         all, [&](const WorldCheck& other) { return other.check.name == one->check.name; });
     if (taken)
-      out.error("E308", one->span, "there is a check " + quoted(one->check.name) + " already",
+      out.error("E308", one->span, "there is a check " + in_quotes(one->check.name) + " already",
                 "give it another name");
     else
       all.push_back(*std::move(one));
@@ -114,7 +114,7 @@ std::vector<WorldMeasure> read_world_measures(const Entry* entry, Diagnostics& o
   std::vector<WorldMeasure> all;
   if (entry == nullptr) return all;
   for (const Entry& one : entries_of(*entry->value, entry->span, "measures", out)) {
-    const Node* text = text_of(*one.value, one.span, quoted(one.key), out,
+    const Node* text = text_of(*one.value, one.span, in_quotes(one.key), out,
                                "for example nearest: \"distance(robot[*], robot[*])\"");
     if (text == nullptr) continue;
     if (auto number = parsed(*text, checks::parse_number, out)) {

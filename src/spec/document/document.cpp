@@ -196,7 +196,7 @@ class TreeBuilder final : public YAML::EventHandler {
                  key.is_null() ? "YAML reads NULL, null and ~ as nothing: choose another name"
                                : "write { and [ in a value in quotes");
     } else if (const auto [first, added] = frame.lines.emplace(key.text, key.span.line); !added) {
-      out_.error("E009", key.span, "duplicate key " + diagnostics::quoted(key.text),
+      out_.error("E009", key.span, "duplicate key " + diagnostics::in_quotes(key.text),
                  "the first one is on line " + std::to_string(first->second) + "; keep one of them");
     } else {
       frame.key_usable = true;

@@ -74,7 +74,7 @@ bool is_keyword(std::string_view word) { return contains(keywords, word); }
 
 bool check_name(std::string_view name, diagnostics::Span span, std::string_view what,
                 diagnostics::Diagnostics& out) {
-  const std::string subject = std::string(what) + " name " + diagnostics::quoted(name);
+  const std::string subject = std::string(what) + " name " + diagnostics::in_quotes(name);
   if (name.empty()) {
     out.error("E105", span, "a " + std::string(what) + " needs a name");
   } else if (!is_identifier(name)) {
@@ -102,7 +102,7 @@ bool check_name(std::string_view name, diagnostics::Span span, std::string_view 
 bool check_system_name(std::string_view name, diagnostics::Span span, diagnostics::Diagnostics& out) {
   if (!check_name(name, span, "system", out)) return false;
   if (!is_global_name(name)) return true;
-  out.error("E106", span, "system name " + diagnostics::quoted(name) + " is taken by the C or C++ library",
+  out.error("E106", span, "system name " + diagnostics::in_quotes(name) + " is taken by the C or C++ library",
             with_agent_number(name));
   return false;
 }

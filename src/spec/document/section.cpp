@@ -9,7 +9,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 /// The position for a complaint about a value: the value itself if it is text, else its key.
 Span span_of(const Node& node, Span at) { return node.is_scalar() ? node.span : at; }
@@ -19,7 +19,7 @@ std::string found(const Node& node) {
     case Node::Kind::null:
       return "nothing";
     case Node::Kind::scalar:
-      return quoted(node.text);
+      return in_quotes(node.text);
     case Node::Kind::sequence:
       return "a list";
     case Node::Kind::map:
@@ -63,7 +63,7 @@ Section::Section(const Node& node, Span at, std::string what, std::initializer_l
     Hint hint = did_you_mean(entry.key, known);
     if (entry.key == "<<") hint = "merge keys are not read; use a template of agents or an alias";
     if (hint.empty()) hint = what_ + " has " + list_of(known);
-    out.error("E102", entry.span, "unknown key " + quoted(entry.key), hint);
+    out.error("E102", entry.span, "unknown key " + in_quotes(entry.key), hint);
   }
 }
 

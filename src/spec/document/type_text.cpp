@@ -10,7 +10,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr std::uint64_t largest_capacity = 1U << 20U;
 constexpr std::uint64_t largest_extent = 1U << 28U;
@@ -82,7 +82,7 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   const std::size_t begin = cursor.position();
   parts.name = cursor.take_word();
   parts.name_span = text.part(begin, std::max<std::size_t>(parts.name.size(), 1));
-  if (!is_identifier(parts.name)) return fail("E201", quoted(text.text) + " is not a type");
+  if (!is_identifier(parts.name)) return fail("E201", in_quotes(text.text) + " is not a type");
   if (cursor.take("<=")) {
     const auto capacity = cursor.take_number();
     if (!capacity) return fail("E201", "a number must follow '<='");
@@ -105,7 +105,7 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   parts.unit_span = text.part(cursor.position(), std::max<std::size_t>(unit.size(), 1));
   const bool attached = !unit.empty() && cursor.position() > 0 && text.text[cursor.position() - 1] != ' ' &&
                         text.text[cursor.position() - 1] != ']';
-  if (attached || !is_unit(unit)) return fail("E201", quoted(unit) + " is not a unit");
+  if (attached || !is_unit(unit)) return fail("E201", in_quotes(unit) + " is not a unit");
   return parts;
 }
 

@@ -9,7 +9,7 @@ namespace tessera::spec {
 namespace {
 
 using diagnostics::Diagnostics;
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 bool asks_for_error(const Next& entry) {
   return entry.when.kind == When::Kind::error || entry.when.kind == When::Kind::named_error;
@@ -48,7 +48,7 @@ void check_entries(const Behaviour& behaviour, const Endings& endings, Diagnosti
     if (endings.none_possible(ending)) open.push_back(ending);
   if (!open.empty())
     out.warning("W312", next.back().span,
-                "behaviour " + quoted(behaviour.name) + " may end (" + in_words(open) +
+                "behaviour " + in_quotes(behaviour.name) + " may end (" + in_words(open) +
                     ") with no entry of 'next' to take",
                 "end the list with an entry without 'when'");
 }
@@ -57,19 +57,19 @@ void check_errors(const Behaviour& behaviour, Diagnostics& out) {
   const bool routed = std::any_of(behaviour.next.begin(), behaviour.next.end(), asks_for_error);
   if (!never(behaviour.error) && !routed) {
     out.warning("W313", behaviour.error.span,
-                "no entry of 'next' asks for the error of behaviour " + quoted(behaviour.name),
+                "no entry of 'next' asks for the error of behaviour " + in_quotes(behaviour.name),
                 "route it: next: [{ to: NAME, when: error }, ...]; else an error ends the subsystem and "
                 "stops the system");
   }
   if (behaviour.next_given && never(behaviour.terminal) && never(behaviour.error) && !routed) {
     out.warning("W315", behaviour.next.front().span,
-                "behaviour " + quoted(behaviour.name) +
+                "behaviour " + in_quotes(behaviour.name) +
                     " ends only if its code, a device or its watchdog fails: its 'next' is used only then",
                 "give it a 'terminal' condition; or say { to: NAME, when: error } if that is meant");
   }
   if (always(behaviour.error) && behaviour.terminal.kind == Condition::Kind::expressions) {
     out.warning("W323", behaviour.terminal.span,
-                "the terminal condition of behaviour " + quoted(behaviour.name) +
+                "the terminal condition of behaviour " + in_quotes(behaviour.name) +
                     " is never asked: its error condition always holds",
                 "an error comes before a terminal condition");
   }
@@ -107,8 +107,9 @@ void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
   for (const BehaviourId i : seen.ids()) {
     const Behaviour& behaviour = subsystem.behaviours[i];
     if (seen[i]) continue;
-    out.warning("W311", behaviour.span, "behaviour " + quoted(behaviour.name) + " is never entered",
-                "no chain of 'next' leads to it from " + quoted(subsystem.behaviours[subsystem.start].name));
+    out.warning(
+        "W311", behaviour.span, "behaviour " + in_quotes(behaviour.name) + " is never entered",
+        "no chain of 'next' leads to it from " + in_quotes(subsystem.behaviours[subsystem.start].name));
   }
 }
 

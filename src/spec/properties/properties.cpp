@@ -11,7 +11,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr std::array property_kinds{Property::Kind::never, Property::Kind::always, Property::Kind::reachable,
                                     Property::Kind::always_reachable, Property::Kind::leads_to};
@@ -42,7 +42,7 @@ Text read_leads_to(const Entry& entry, Diagnostics& out) {
     if (from == nullptr || to == nullptr) return {};
     return {from->text + " => " + to->text, whole(from, out), whole(to, out)};
   }
-  const Node* text = text_of(value, entry.span, quoted(entry.key), out, property_hint);
+  const Node* text = text_of(value, entry.span, in_quotes(entry.key), out, property_hint);
   if (text == nullptr) return {};
   const std::size_t arrow = text->text.find("=>");
   if (arrow == std::string::npos) {
@@ -55,7 +55,7 @@ Text read_leads_to(const Entry& entry, Diagnostics& out) {
 
 Text read_text(const Entry& entry, Diagnostics& out) {
   if (entry.key == "leads_to") return read_leads_to(entry, out);
-  const Node* text = text_of(*entry.value, entry.span, quoted(entry.key), out, property_hint);
+  const Node* text = text_of(*entry.value, entry.span, in_quotes(entry.key), out, property_hint);
   return {text == nullptr ? std::string() : text->text, whole(text, out), {}};
 }
 
@@ -101,7 +101,7 @@ std::vector<Property> read_properties(const Entry* entry, const Model& model, co
     if (!property) continue;
     const auto [first, added] = lines.emplace(property->name, property->span.line);
     if (!added) {
-      out.error("E107", property->span, "property " + quoted(property->name) + " exists already",
+      out.error("E107", property->span, "property " + in_quotes(property->name) + " exists already",
                 "the first is on line " + std::to_string(first->second));
     }
     properties.push_back(std::move(*property));

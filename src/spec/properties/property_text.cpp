@@ -10,7 +10,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr const char* formula_hint = "combine paths by and, or, not, (...): robot.control.follow and not ...";
 constexpr const char* element_hint =
@@ -80,10 +80,10 @@ class PropertyTextReader {
     for (const auto& [symbol, meant] :
          {std::pair{"&&", "and"}, {"||", "or"}, {"!", "not"}, {"&", "and"}, {"|", "or"}})
       if (left.starts_with(symbol))
-        return fail("E114", at_, std::string_view(symbol).size(), quoted(symbol) + " is not known here",
+        return fail("E114", at_, std::string_view(symbol).size(), in_quotes(symbol) + " is not known here",
                     std::string("write ") + meant);
     const std::string_view found = word().empty() ? left.substr(0, 1) : word();
-    return fail("E114", at_, found.size(), "unexpected " + quoted(found), formula_hint);
+    return fail("E114", at_, found.size(), "unexpected " + in_quotes(found), formula_hint);
   }
 
   using Rule = std::optional<Formula> (PropertyTextReader::*)(std::uint32_t);
@@ -122,7 +122,7 @@ class PropertyTextReader {
          {std::pair{"any", Formula::Kind::some}, {"all", Formula::Kind::every}})
       if (take_word(quantifier)) {
         if (!take("("))
-          return fail("E114", from, 3, quoted(next) + " needs brackets",
+          return fail("E114", from, 3, in_quotes(next) + " needs brackets",
                       std::string(quantifier) + "(robot[*].control.follow)");
         return around(kind, from, bracketed(depth + 1));
       }
@@ -168,7 +168,7 @@ class PropertyTextReader {
     path.agent = agent;
     path.agent_span = text_.part(from, agent.size());
     if (!is_identifier(agent))
-      return fail("E112", from, agent.size(), quoted(agent) + " does not name an agent", element_hint);
+      return fail("E112", from, agent.size(), in_quotes(agent) + " does not name an agent", element_hint);
     at_ += agent.size();
     if (!index(path)) return std::nullopt;
     while (at_ < end_ && text_.text[at_] == '.') {
@@ -194,7 +194,7 @@ class PropertyTextReader {
     path.index_span = text_.part(at_ + 1, std::max<std::size_t>(inside.size(), 1));
     const std::optional<Selector> selector = read_index(inside);
     if (!selector)
-      return fail("E112", at_ + 1, inside.size(), quoted(inside) + " is not an index", index_hint), false;
+      return fail("E112", at_ + 1, inside.size(), in_quotes(inside) + " is not an index", index_hint), false;
     path.selector = *selector;
     at_ = close + 1;
     return true;

@@ -14,7 +14,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 struct IntegerRange {
   std::int64_t lowest;
@@ -77,13 +77,13 @@ class Writer {
     const bool scalar = node.is_scalar();
     out_.error("E203", scalar ? node.span : at,
                what_ + " must be a value of type " + types_.spelled(type) +
-                   (scalar ? ", not " + quoted(node.text) : ""),
+                   (scalar ? ", not " + in_quotes(node.text) : ""),
                std::move(hint));
     return std::nullopt;
   }
 
   std::nullopt_t out_of_range(const Node& node, const Type& type) const {
-    out_.error("E204", node.span, quoted(node.text) + " is out of the range of " + types_.spelled(type));
+    out_.error("E204", node.span, in_quotes(node.text) + " is out of the range of " + types_.spelled(type));
     return std::nullopt;
   }
 
@@ -132,7 +132,8 @@ class Writer {
     for (const Field& field : shape.fields) names.push_back(field.name);
     for (const Entry& entry : node.entries) {
       if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
-      out_.error("E101", entry.span, "type " + quoted(shape.name) + " has no field " + quoted(entry.key),
+      out_.error("E101", entry.span,
+                 "type " + in_quotes(shape.name) + " has no field " + in_quotes(entry.key),
                  did_you_mean(entry.key, names));
     }
   }
@@ -153,7 +154,7 @@ class Writer {
     if (!quantity) return mismatch(node, at, type);
     if (!quantity->unit.empty() && quantity->unit != type.unit) {
       out_.error("E208", node.span,
-                 "unit " + quoted(quantity->unit) + " where the type is " + types_.spelled(type),
+                 "unit " + in_quotes(quantity->unit) + " where the type is " + types_.spelled(type),
                  "units are compared as they are written");
       return std::nullopt;
     }

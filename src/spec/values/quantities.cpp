@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 struct Unit {
   std::string_view name;
@@ -44,7 +44,7 @@ std::optional<double> read(const Node& node, Span at, std::string_view what, std
   const auto quantity = split_quantity(text->text);
   if (!quantity) {
     out.error("E205", text->span,
-              std::string(what) + " must be a number with a unit, not " + quoted(text->text),
+              std::string(what) + " must be a number with a unit, not " + in_quotes(text->text),
               "for example " + like);
     return std::nullopt;
   }
@@ -58,7 +58,7 @@ std::optional<double> read(const Node& node, Span at, std::string_view what, std
   const bool bare = quantity->unit.empty();
   out.error("E205", text->span,
             bare ? std::string(what) + " needs a unit"
-                 : "unknown unit " + quoted(quantity->unit) + " of " + std::string(what),
+                 : "unknown unit " + in_quotes(quantity->unit) + " of " + std::string(what),
             "write one of " + known + "; for example " + like);
   return std::nullopt;
 }
@@ -182,7 +182,7 @@ std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::st
   const auto quantity = text == nullptr ? std::nullopt : split_quantity(text->text);
   if (!quantity) {
     if (text != nullptr)
-      out.error("E205", text->span, std::string(what) + " must be a number, not " + quoted(text->text));
+      out.error("E205", text->span, std::string(what) + " must be a number, not " + in_quotes(text->text));
     return std::nullopt;
   }
   if (quantity->unit.empty()) return BaseQuantity{quantity->number, ""};
@@ -194,7 +194,7 @@ std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::st
       if (!unit.name.empty() && static_cast<unsigned char>(unit.name[0]) < 0x80)
         known += (known.empty() ? "" : ", ") + std::string(unit.name);
     }
-  out.error("E205", text->span, "unknown unit " + quoted(quantity->unit) + " of " + std::string(what),
+  out.error("E205", text->span, "unknown unit " + in_quotes(quantity->unit) + " of " + std::string(what),
             "write one of " + known);
   return std::nullopt;
 }
@@ -204,7 +204,7 @@ std::optional<double> read_number(const Node& node, Span at, std::string_view wh
   if (text == nullptr) return std::nullopt;
   const auto quantity = split_quantity(text->text);
   if (quantity && quantity->unit.empty() && !text->quoted) return quantity->number;
-  out.error("E205", text->span, std::string(what) + " must be a number, not " + quoted(text->text));
+  out.error("E205", text->span, std::string(what) + " must be a number, not " + in_quotes(text->text));
   return std::nullopt;
 }
 

@@ -13,7 +13,7 @@
 namespace tessera::spec {
 namespace {
 
-using diagnostics::quoted;
+using diagnostics::in_quotes;
 
 constexpr std::array scalars = std::to_array<std::string_view>(
     {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
@@ -79,9 +79,9 @@ void Types::read(const Entry* section, Diagnostics& out) {
   for (const Entry& entry : entries) {
     check_name(entry.key, entry.span, "type", out);
     if (is_built_in(entry.key)) {
-      out.error("E107", entry.span, "type " + quoted(entry.key) + " is built in");
+      out.error("E107", entry.span, "type " + in_quotes(entry.key) + " is built in");
     } else if (index_of(generated_types, entry.key)) {
-      out.error("E106", entry.span, "type name " + quoted(entry.key) + " is taken by the generated code");
+      out.error("E106", entry.span, "type name " + in_quotes(entry.key) + " is taken by the generated code");
     }
     by_name_.emplace(entry.key, structures_.next_id());
     known_names_.push_back(entry.key);
@@ -92,7 +92,7 @@ void Types::read(const Entry* section, Diagnostics& out) {
 }
 
 void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& out) const {
-  const std::string what = "type " + quoted(entry.key);
+  const std::string what = "type " + in_quotes(entry.key);
   const auto& fields = entries_of(*entry.value, entry.span, what, out);
   if (fields.empty() && (entry.value->is_map() || entry.value->is_null())) {
     out.error("E104", entry.span, what + " needs at least one field", "for example { value: float64 }");
@@ -100,10 +100,10 @@ void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& o
   for (const Entry& field : fields) {
     if (index_of(status_names, field.key)) {
       out.error("E106", field.span,
-                "field name " + quoted(field.key) + " is reserved for the status of a buffer",
+                "field name " + in_quotes(field.key) + " is reserved for the status of a buffer",
                 "for example '" + field.key + "_value'");
     } else if (field.key == entry.key) {
-      out.error("E107", field.span, "field " + quoted(field.key) + " has the name of its type",
+      out.error("E107", field.span, "field " + in_quotes(field.key) + " has the name of its type",
                 "begin types with a capital letter");
     } else {
       check_name(field.key, field.span, "field", out);
@@ -118,7 +118,7 @@ bool Types::sort(Diagnostics& out) {
     std::string names;
     for (const StructureId one : cycle) names += structures_[one].name + " -> ";
     const Structure& first = structures_[cycle.front()];
-    out.error("E202", first.span, "type " + quoted(first.name) + " contains itself: " + names + first.name,
+    out.error("E202", first.span, "type " + in_quotes(first.name) + " contains itself: " + names + first.name,
               "a structure has a fixed size, so it cannot hold one of its own kind");
   }
   if (!order.cycles.empty()) return false;
@@ -135,7 +135,7 @@ void Types::check_size(Diagnostics& out) const {
       size = std::min(size + bytes_of(field.type, sizes), largest_type + 1);
     }
     if (size > largest_type) {
-      out.error("E204", structure.span, "type " + quoted(structure.name) + " is larger than 256 MB");
+      out.error("E204", structure.span, "type " + in_quotes(structure.name) + " is larger than 256 MB");
       return;
     }
     sizes.push_back(size);
@@ -161,7 +161,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
     if (found == by_name_.end()) {
       const auto* const synonym = std::find_if(synonyms.begin(), synonyms.end(),
                                                [&](const Synonym& one) { return one.theirs == parts->name; });
-      out.error("E101", parts->name_span, "unknown type " + quoted(parts->name),
+      out.error("E101", parts->name_span, "unknown type " + in_quotes(parts->name),
                 synonym != synonyms.end() ? "here it is called " + std::string(synonym->ours)
                                           : did_you_mean(parts->name, known_names_));
       return unknown();
@@ -172,7 +172,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
     out.error("E201", text->span, "only a string has a '<=' capacity",
               "an array is written " + parts->name + "[8]");
   } else if (!type.unit.empty() && !has_unit(type)) {
-    out.error("E201", parts->unit_span, "unit " + quoted(type.unit) + " on a type that is no number");
+    out.error("E201", parts->unit_span, "unit " + in_quotes(type.unit) + " on a type that is no number");
   } else if (bytes_of(type, {}) > largest_type) {
     out.error("E204", text->span, "an array larger than 256 MB");
   } else {

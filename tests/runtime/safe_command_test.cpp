@@ -5,9 +5,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
+#include <functional>
 #include <stdexcept>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "drivers/effectors.hpp"
@@ -135,7 +137,7 @@ TEST(SafeCommand, ReachesTheOtherDevicesWhenADriverDoesNotReturn) {
   SteadyClock clock;
   Effectors effectors({{"robot.motor.first", 0, 1}, {"robot.motor.second", 1, 1}}, drivers,
                       bindings.real_outputs, control, clock);
-  std::thread own([&] { static_cast<void>(effectors.command(clock.now())); });
+  std::thread own([&] { static_cast<void>(effectors.command(clock.now(), control.interruptions())); });
   while (!its_stuck.entered) std::this_thread::yield();
   EXPECT_FALSE(effectors.make_safe({SafeReason::Kind::leaves}, Effectors::Busy::leaves_out));
   EXPECT_EQ(its_fine.writes, 1);
@@ -176,13 +178,60 @@ TEST(SafeCommand, OfTheGuardianIsFollowedByNoOtherCommand) {
   SteadyClock clock;
   Effectors effectors({{"robot.motor.first", 0, 1}, {"robot.motor.second", 1, 1}}, drivers,
                       bindings.real_outputs, control, clock);
-  EXPECT_EQ(effectors.command(clock.now()), Effectors::Answer::taken);
+  EXPECT_EQ(effectors.command(clock.now(), control.interruptions()), Effectors::Answer::taken);
   its_second.acted = &acted;
-  EXPECT_EQ(effectors.command(clock.now()), Effectors::Answer::withheld) << "the safe command must follow";
-  EXPECT_EQ(effectors.command(clock.now()), Effectors::Answer::withheld);
+  EXPECT_EQ(effectors.command(clock.now(), control.interruptions()), Effectors::Answer::withheld)
+      << "the safe command must follow";
+  EXPECT_EQ(effectors.command(clock.now(), control.interruptions()), Effectors::Answer::withheld);
   EXPECT_TRUE(effectors.make_safe({SafeReason::Kind::leaves}, Effectors::Busy::waits));
   EXPECT_EQ(its_first.values, (std::vector<double>{5, 5, -1}));
   EXPECT_EQ(its_second.values, its_first.values);
+}
+
+/// The subsystem's thread found its command good, and goes on when the interruption is over.
+TEST(SafeCommand, OfAnInterruptionIsFollowedByNoCommandFromBeforeIt) {
+  struct Written final : RealEffector {
+    std::function<void()> during = [] {};
+    std::vector<double> values;
+    bool write(std::span<const std::byte> value) override {
+      values.push_back(*reinterpret_cast<const double*>(value.data()));
+      std::exchange(during, [] {})();
+      return true;
+    }
+  };
+  Bindings bindings;
+  Output<double> command;
+  bindings.real_output("command", command, -1.0);
+  command = 5;
+  std::vector<std::unique_ptr<RealEffector>> drivers;
+  drivers.push_back(std::make_unique<Written>());
+  auto& driver = static_cast<Written&>(*drivers[0]);
+  RunControl control(1);
+  SteadyClock clock;
+  Effectors effectors({{"robot.motor", 0, 1}}, drivers, bindings.real_outputs, control, clock);
+  const std::array<std::function<void()>, 2> interruptions = {[&] {
+                                                                control.suspend();
+                                                                control.resume(clock.now());
+                                                              },
+                                                              [&] {
+                                                                control.begin_emergency("a person");
+                                                                control.end_emergency(clock.now());
+                                                              }};
+  for (const std::function<void()>& interrupt : interruptions) {
+    driver.values.clear();
+    RunControl::Interruptions before = control.interruptions();
+    interrupt();
+    EXPECT_EQ(effectors.command(clock.now(), before), Effectors::Answer::withheld);
+    EXPECT_EQ(driver.values, std::vector<double>{});
+    before = control.interruptions();
+    driver.during = interrupt;
+    EXPECT_EQ(effectors.command(clock.now(), before), Effectors::Answer::withheld)
+        << "the safe command must follow";
+    EXPECT_TRUE(effectors.owing());
+    EXPECT_TRUE(effectors.make_safe({SafeReason::Kind::suspended}, Effectors::Busy::waits));
+    EXPECT_EQ(effectors.command(clock.now(), control.interruptions()), Effectors::Answer::taken);
+    EXPECT_EQ(driver.values, (std::vector<double>{5, -1, 5}));
+  }
 }
 
 TEST(SafeCommand, StandsUntilEveryInputHasBeenValidOnce) {

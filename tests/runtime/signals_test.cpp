@@ -1,6 +1,7 @@
 #include "tessera/signals.hpp"
 
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <poll.h>
 #include <sched.h>
@@ -127,12 +128,14 @@ TEST(Signals, SuspensionMakesSafeFirstAndTheRunGoesOnWithNewValues) {
   const auto read = read_recording(recording, error);
   ASSERT_TRUE(read) << error;
   int suspended = 0, again = 0;
+  std::string told;
   for (const auto& [event, text] : read->entries) {
+    if (text.starts_with("robot.motor")) told += fmt::format("{} ns: {}\n", event.time_ns, text);
     suspended += text == "robot.motor.command: safe command: the run is suspended" ? 1 : 0;
     again += text == "robot.motor.command: commands go to it again" ? 1 : 0;
   }
-  EXPECT_EQ(suspended, 3);
-  EXPECT_EQ(again, 4) << "the first after the first value";
+  EXPECT_EQ(suspended, 3) << told;
+  EXPECT_EQ(again, 4) << "the first after the first value\n" << told;
 }
 
 TEST(Signals, SuspendedTimeIsNoTimeOfTheRun) {

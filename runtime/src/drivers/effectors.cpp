@@ -55,11 +55,12 @@ Effectors::Effectors(std::vector<Group> devices, std::span<const std::unique_ptr
 
 // -------------------------------------------------------------------------------------------- commands
 
-Effectors::Answer Effectors::command(Time now) {
+Effectors::Answer Effectors::command(Time now, const RunControl::Interruptions& before) {
+  const auto withheld = [&] { return control_.withholds_commands() || control_.interruptions() != before; };
   for (Device& device : devices()) {
     const Lock lock(device, Busy::waits);
     // Checked under the lock: the safe command of another thread is then the later one.
-    if (control_.withholds_commands()) return Answer::withheld;
+    if (withheld()) return Answer::withheld;
     device.safe = false;  // even if the driver does not return
     if (!write(device, now)) {
       refuser_ = device.its.name;
@@ -68,7 +69,7 @@ Effectors::Answer Effectors::command(Time now) {
     // A thread that withholds commands and then finds the device in use relies on
     // this thread to notice that.
     device.owes = false;
-    device.owes = control_.withholds_commands();
+    device.owes = withheld();
     if (device.standing.kind != SafeReason::Kind::none) device.since = now;
     device.standing = {};
     if (device.owes) return Answer::withheld;

@@ -60,10 +60,11 @@ class Effectors {
 
   [[nodiscard]] bool none() const { return drivers_.empty(); }
   enum class Answer : std::uint8_t { taken, refused, withheld };
-  /// Sends the outputs, one device after the other, up to the first that refuses. withheld: the run stops, or
-  /// began to stop while a driver was called: the safe command must follow.
+  /// Sends the outputs, one device after the other, up to the first that refuses. before: the interruptions of
+  /// the run when the outputs were found to be good. withheld: the run stops or is interrupted, or was since
+  /// then, or was while a driver was called: the safe command must follow.
   /// Passes on what a driver throws.
-  [[nodiscard]] Answer command(Time now);
+  [[nodiscard]] Answer command(Time now, const RunControl::Interruptions& before);
   /// The device that has refused a command last.
   [[nodiscard]] std::string_view refuser() const { return refuser_; }
 

@@ -41,7 +41,10 @@ class RunControl {
   }
 
   /// The process is about to be suspended: until resume, only safe commands go to devices.
-  void suspend() { suspended_.store(true, std::memory_order_seq_cst); }
+  void suspend() {
+    suspended_.store(true, std::memory_order_seq_cst);
+    suspensions_.fetch_add(1, std::memory_order_seq_cst);
+  }
   /// valid_from: effectors ignore values that were sent before.
   void resume(Time valid_from) {
     valid_from_.store(valid_from, std::memory_order_relaxed);
@@ -68,6 +71,16 @@ class RunControl {
   /// run has threads; `acted` must outlive them.
   void withhold_after(const std::atomic<bool>& acted) { acted_outside_ = &acted; }
 
+  /// How often so far only safe commands could go to devices for a time.
+  struct Interruptions {
+    std::uint32_t suspensions = 0, emergencies = 0;
+    [[nodiscard]] bool operator==(const Interruptions&) const = default;
+  };
+  /// Ask before a command is judged: if they are others when it is given, it is older than an interruption.
+  [[nodiscard]] Interruptions interruptions() const {
+    return {suspensions_.load(std::memory_order_seq_cst), emergencies()};
+  }
+
   /// Whether only safe commands may go to devices.
   [[nodiscard]] bool withholds_commands() const {
     return stopping() || suspended() || emergency() || (acted_outside_ != nullptr && acted_outside_->load());
@@ -84,7 +97,7 @@ class RunControl {
  private:
   void tell() const;
 
-  std::atomic<std::uint32_t> state_{0}, emergencies_{0};
+  std::atomic<std::uint32_t> state_{0}, emergencies_{0}, suspensions_{0};
   std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
   const std::atomic<bool>* acted_outside_ = nullptr;  // in memory that is shared with another process
   std::atomic<int> news_{-1};

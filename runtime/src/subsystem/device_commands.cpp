@@ -67,19 +67,16 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
       const auto end = fmt::format_to_n(room.data(), room.size(), "output '{}' is not finite", output.name);
       return Failure{Fault::not_finite, {room.data(), std::min(end.size, room.size())}};
     }
+  const RunControl::Interruptions before = control_.interruptions();
   if (const SafeReason why = why_hold(now); why.kind != SafeReason::Kind::none) {
     hold(why, place);
     return std::nullopt;
   }
   if (const std::optional<Failure> failure = keep_limits(now, room)) return failure;
   const bool was_held = std::exchange(held_, SafeReason{}).kind != SafeReason::Kind::none;
-  switch (effectors_.command(now)) {
+  switch (effectors_.command(now, before)) {
     case Effectors::Answer::withheld:
-      // In the remaining case the run stops, or will stop because the guardian has acted.
-      give_safe_command({control_.stopping()    ? SafeReason::Kind::leaves
-                         : control_.emergency() ? SafeReason::Kind::emergency
-                         : control_.suspended() ? SafeReason::Kind::suspended
-                                                : SafeReason::Kind::leaves});
+      give_safe_command({why_withheld(before)});
       break;
     case Effectors::Answer::refused:
       return refusal(room);
@@ -150,6 +147,15 @@ void DeviceCommands::try_again(Time now) {
   } else if (now - refused_since_ > Effectors::patience) {
     reports_.fail_run("a real effector refuses its safe command");
   }
+}
+
+/// before: the interruptions of the run before the command, which may have begun and ended since.
+SafeReason::Kind DeviceCommands::why_withheld(const RunControl::Interruptions& before) const {
+  const RunControl::Interruptions now = control_.interruptions();
+  if (control_.stopping()) return SafeReason::Kind::leaves;
+  if (now.emergencies != before.emergencies || control_.emergency()) return SafeReason::Kind::emergency;
+  if (now.suspensions != before.suspensions || control_.suspended()) return SafeReason::Kind::suspended;
+  return SafeReason::Kind::leaves;  // the run will stop, because the guardian has acted
 }
 
 SafeReason DeviceCommands::why_hold(Time now) const {

@@ -82,6 +82,7 @@ class DeviceCommands {
  private:
   [[nodiscard]] Failure refusal(std::span<char> room) const;
   [[nodiscard]] std::optional<Failure> keep_limits(Time now, std::span<char> room);
+  [[nodiscard]] SafeReason::Kind why_withheld(const RunControl::Interruptions& before) const;
   [[nodiscard]] SafeReason why_hold(Time now) const;
   void hold(const SafeReason& why, std::string_view place);
   void report_hold(const SafeReason& why, std::string_view place);

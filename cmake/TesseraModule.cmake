@@ -63,9 +63,9 @@ macro(tessera_test_headers)
   endif()
 endmacro()
 
-# Groups of modules that unity builds compile as one source, because they spend their time in the same headers and
-# templates. The modules of a group are optimised alike. For the others, it would save nothing; and a library that
-# controllers load links `checks`, and would load all that its group needs.
+# Unity builds compile the modules of a group as one source, because they spend their time in the same headers and
+# templates. They are optimised alike. For nets and search, it would save nothing. `checks` is in no group: controllers
+# load a library that links it, and would load what the rest of the group needs.
 set(TESSERA_MODULES_OF_specification diagnostics spec language)
 set(TESSERA_MODULES_OF_command codegen drawing replay statistics report project language_server server cli)
 

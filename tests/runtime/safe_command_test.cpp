@@ -209,22 +209,24 @@ TEST(SafeCommand, OfAnInterruptionIsFollowedByNoCommandFromBeforeIt) {
   RunControl control(1);
   SteadyClock clock;
   Effectors effectors({{"robot.motor", 0, 1}}, drivers, bindings.real_outputs, control, clock);
-  const std::array<std::function<void()>, 2> interruptions = {[&] {
-                                                                control.suspend();
-                                                                control.resume(clock.now());
-                                                              },
-                                                              [&] {
-                                                                control.begin_emergency("a person");
-                                                                control.end_emergency(clock.now());
-                                                              }};
-  for (const std::function<void()>& interrupt : interruptions) {
+  struct Interruption {
+    std::function<void()> begin, end;
+  };
+  const std::array<Interruption, 2> interruptions = {
+      Interruption{[&] { control.suspend(); }, [&] { control.resume(clock.now()); }},
+      Interruption{[&] { control.begin_emergency("a person"); },
+                   [&] { control.end_emergency(clock.now()); }}};
+  for (const auto& [begin, end] : interruptions) {
     driver.values.clear();
     RunControl::Interruptions before = control.interruptions();
-    interrupt();
+    begin();
+    const RunControl::Interruptions meanwhile = control.interruptions();
+    end();
     EXPECT_EQ(effectors.command(clock.now(), before), Effectors::Answer::withheld);
+    EXPECT_EQ(effectors.command(clock.now(), meanwhile), Effectors::Answer::withheld);
     EXPECT_EQ(driver.values, std::vector<double>{});
     before = control.interruptions();
-    driver.during = interrupt;
+    driver.during = [&begin, &end] { begin(), end(); };
     EXPECT_EQ(effectors.command(clock.now(), before), Effectors::Answer::withheld)
         << "the safe command must follow";
     EXPECT_TRUE(effectors.owing());

@@ -32,6 +32,7 @@ bool RunControl::end_emergency(Time valid_from) {
     const std::lock_guard lock(emergency_mutex_);
     if (!emergency_.load(std::memory_order_relaxed)) return false;
     valid_from_.store(valid_from, std::memory_order_relaxed);
+    emergencies_over_.fetch_add(1, std::memory_order_seq_cst);
     emergency_.store(false, std::memory_order_seq_cst);
   }
   tell();

@@ -41,13 +41,11 @@ class RunControl {
   }
 
   /// The process is about to be suspended: until resume, only safe commands go to devices.
-  void suspend() {
-    suspended_.store(true, std::memory_order_seq_cst);
-    suspensions_.fetch_add(1, std::memory_order_seq_cst);
-  }
+  void suspend() { suspended_.store(true, std::memory_order_seq_cst); }
   /// valid_from: effectors ignore values that were sent before.
   void resume(Time valid_from) {
     valid_from_.store(valid_from, std::memory_order_relaxed);
+    suspensions_over_.fetch_add(1, std::memory_order_seq_cst);
     suspended_.store(false, std::memory_order_seq_cst);
   }
   [[nodiscard]] bool suspended() const { return suspended_.load(std::memory_order_seq_cst); }
@@ -71,14 +69,16 @@ class RunControl {
   /// run has threads; `acted` must outlive them.
   void withhold_after(const std::atomic<bool>& acted) { acted_outside_ = &acted; }
 
-  /// How often so far only safe commands could go to devices for a time.
+  /// How many times in which only safe commands could go to devices are over.
   struct Interruptions {
     std::uint32_t suspensions = 0, emergencies = 0;
     [[nodiscard]] bool operator==(const Interruptions&) const = default;
   };
-  /// Ask before a command is judged: if they are others when it is given, it is older than an interruption.
+  /// Ask before a command is judged. If more are over when it is given, it is from before the end of one. Their
+  /// ends are counted, not their beginnings, because a command may also be judged during an interruption.
   [[nodiscard]] Interruptions interruptions() const {
-    return {suspensions_.load(std::memory_order_seq_cst), emergencies()};
+    return {suspensions_over_.load(std::memory_order_seq_cst),
+            emergencies_over_.load(std::memory_order_seq_cst)};
   }
 
   /// Whether only safe commands may go to devices.
@@ -97,7 +97,7 @@ class RunControl {
  private:
   void tell() const;
 
-  std::atomic<std::uint32_t> state_{0}, emergencies_{0}, suspensions_{0};
+  std::atomic<std::uint32_t> state_{0}, emergencies_{0}, suspensions_over_{0}, emergencies_over_{0};
   std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
   const std::atomic<bool>* acted_outside_ = nullptr;  // in memory that is shared with another process
   std::atomic<int> news_{-1};

@@ -54,7 +54,7 @@ class Scanner {
       const std::size_t end = source_.find("*/", at_ + 2);
       at_ = end == std::string_view::npos ? source_.size() : end + 2;
     } else if (c == '"' || c == '\'') {
-      in_quotes(c);
+      quoted(c);
     } else if (c == 'R' && peek(1) == '"') {
       raw();
     } else if (starts_name(c)) {
@@ -74,7 +74,7 @@ class Scanner {
     while (at_ < source_.size() && source_[at_] != '\n') at_ += source_[at_] == '\\' ? 2 : 1;
   }
 
-  void in_quotes(char quote) {
+  void quoted(char quote) {
     std::size_t end = at_ + 1;
     while (end < source_.size() && source_[end] != quote && source_[end] != '\n')
       end += source_[end] == '\\' ? 2 : 1;

@@ -216,17 +216,17 @@ TEST(SafeCommand, OfAnInterruptionIsFollowedByNoCommandFromBeforeIt) {
       Interruption{[&] { control.suspend(); }, [&] { control.resume(clock.now()); }},
       Interruption{[&] { control.begin_emergency("a person"); },
                    [&] { control.end_emergency(clock.now()); }}};
-  for (const auto& [begin, end] : interruptions) {
+  for (const Interruption& interruption : interruptions) {
     driver.values.clear();
     RunControl::Interruptions before = control.interruptions();
-    begin();
+    interruption.begin();
     const RunControl::Interruptions meanwhile = control.interruptions();
-    end();
+    interruption.end();
     EXPECT_EQ(effectors.command(clock.now(), before), Effectors::Answer::withheld);
     EXPECT_EQ(effectors.command(clock.now(), meanwhile), Effectors::Answer::withheld);
     EXPECT_EQ(driver.values, std::vector<double>{});
     before = control.interruptions();
-    driver.during = [&begin, &end] { begin(), end(); };
+    driver.during = [&interruption] { interruption.begin(), interruption.end(); };
     EXPECT_EQ(effectors.command(clock.now(), before), Effectors::Answer::withheld)
         << "the safe command must follow";
     EXPECT_TRUE(effectors.owing());

@@ -333,7 +333,7 @@ TEST(BlockedTerminal, HoldsUpNeitherWatchdogNorStaleNorTheEnd) {
   };
   motor.route = [](const ScriptState&, bool) { return 0; };
   control.call = [&](ScriptState&) {
-    // Before, a busy machine may be late with the arm: it would never be commanded.
+    // Not after a fixed time: on a busy machine, the arm may not have been commanded by then.
     if (arm_goes) throw std::runtime_error("blind");
   };
   arm.call = [](ScriptState& state) { state.command = 6; };

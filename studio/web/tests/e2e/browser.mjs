@@ -13,6 +13,7 @@ const args = [
   "--disable-background-networking",
   "--disable-component-update",
   "--disable-sync",
+  ...(process.env.CHROMIUM_FLAGS ?? "").split(" ").filter(Boolean),
 ];
 
 export const launch = () => chromium.launch({ executablePath, args, headless: true });

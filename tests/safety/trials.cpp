@@ -9,6 +9,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
+#include <memory>
 #include <mutex>
 #include <random>
 #include <thread>
@@ -77,12 +78,31 @@ struct Times {
   return robot.is_safe() ? "" : "the last command is not the safe one";
 }
 
-[[nodiscard]] Result try_once(const Case& one, std::mt19937& random) {
+void print_line(const std::string& line) {
+  fmt::print("{}", line);
+  std::fflush(stdout);
+  if (const char* const file = std::getenv("TESSERA_SAFETY_TABLE"); file != nullptr)
+    std::ofstream(file, std::ios::app) << line;
+}
+
+[[nodiscard]] std::unique_ptr<RobotProcess> start(const Case& one) {
   std::vector<std::string> command = one.command;
   if (command.empty()) command = {project().controller.string(), "run"};
   command.insert(command.end(), one.arguments.begin(), one.arguments.end());
-  RobotProcess robot(command, one.output, one.environment);
-  if (!robot.await_driving()) return {"it does not drive" + description(robot)};
+  return std::make_unique<RobotProcess>(command, one.output, one.environment);
+}
+
+[[nodiscard]] Result try_once(const Case& one, std::mt19937& random) {
+  // On a machine that pauses, the watchdogs of a robot stop it rightly before the trial begins: another one is started.
+  std::unique_ptr<RobotProcess> started = start(one);
+  bool drives = started->await_driving();
+  for (int further = 0; !drives && further < 2; ++further) {
+    print_line(one.name + ": started again, since it did not drive" + description(*started));
+    started = start(one);
+    drives = started->await_driving();
+  }
+  RobotProcess& robot = *started;
+  if (!drives) return {"it does not drive" + description(robot)};
   pass_random_time(robot, random);
   Times times{.event_ns = one.strike(robot)};
   std::string failure = see_it_through(one, robot, times);
@@ -99,13 +119,6 @@ struct Figures {
   std::vector<double> latencies_ms;
   std::vector<std::string> failures;
 };
-
-void print_line(const std::string& line) {
-  fmt::print("{}", line);
-  std::fflush(stdout);
-  if (const char* const file = std::getenv("TESSERA_SAFETY_TABLE"); file != nullptr)
-    std::ofstream(file, std::ios::app) << line;
-}
 
 void judge(const Case& one, Figures& figures) {
   std::vector<double>& all = figures.latencies_ms;

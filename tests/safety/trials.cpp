@@ -97,7 +97,7 @@ void print_line(const std::string& line) {
   std::unique_ptr<RobotProcess> started = start(one);
   bool drives = started->await_driving();
   for (int further = 0; !drives && further < 2; ++further) {
-    print_line(one.name + ": started again, since it did not drive" + description(*started));
+    print_line(one.name + ": started again, since it did not drive" + description(*started) + "\n");
     started = start(one);
     drives = started->await_driving();
   }

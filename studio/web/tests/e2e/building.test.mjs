@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, draftText, example, judges, middleOf, onPage, tab, until } from "./page.mjs";
+import { button, draftText, drawn, example, judges, middleOf, onPage, tab, until } from "./page.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "studio-building-"));
 after(() => rmSync(parent, { recursive: true, force: true }));
@@ -142,7 +142,12 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         if (most) await fill(of.getByLabel(`Most of ${name}`), most);
       };
       const nothing = () => page.locator(".react-flow__pane").click({ position: { x: 8, y: 8 } });
-      const head = (path) => page.locator(`.subsystem-head[data-path="${path}"]`).click();
+      /** Selects a subsystem. Its box may still be moving to make space for a new buffer, so that a click can miss it. */
+      const head = (path) => {
+        const one = page.locator(`.subsystem-head[data-path="${path}"]`);
+        const isSelected = async () => (await one.getAttribute("aria-pressed")) === "true";
+        return until(page, async () => (await one.click(), await drawn(page), await isSelected()), `${path} is selected`);
+      };
       const chip = (path) => page.locator(`.chip[data-path="${path}"]`).click();
       const buffer = async (subsystem, what, fresh, name, type) => {
         await head(subsystem);

@@ -12,6 +12,7 @@
 #include <memory>
 #include <mutex>
 #include <random>
+#include <stdexcept>
 #include <thread>
 
 #include "../environment.hpp"
@@ -31,6 +32,7 @@ constexpr milliseconds still{150};              // for so long must devices stay
 struct Result {
   std::string failure;  // empty: none
   double latency_ms = 0;
+  unsigned started_again = 0;
 };
 
 [[nodiscard]] std::string description(const RobotProcess& robot) {
@@ -92,17 +94,22 @@ void print_line(const std::string& line) {
   return std::make_unique<RobotProcess>(command, one.output, one.environment);
 }
 
-[[nodiscard]] Result try_once(const Case& one, std::mt19937& random) {
-  // On a machine that pauses, the watchdogs of a robot stop it rightly before the trial begins: another one is started.
-  std::unique_ptr<RobotProcess> started = start(one);
-  bool drives = started->await_driving();
-  for (int further = 0; !drives && further < 2; ++further) {
-    print_line(one.name + ": started again, since it did not drive" + description(*started) + "\n");
-    started = start(one);
-    drives = started->await_driving();
+/// A robot that drives. On a machine that pauses, the watchdogs of a robot stop it rightly before the trial begins:
+/// then another one is started, and \p started_again counts it.
+[[nodiscard]] std::unique_ptr<RobotProcess> driving(const Case& one, unsigned& started_again) {
+  for (;; ++started_again) {
+    std::unique_ptr<RobotProcess> robot = start(one);
+    if (robot->await_driving()) return robot;
+    const std::string what = "it does not drive" + description(*robot) + "\n";
+    if (started_again == 2) throw std::runtime_error(what);
+    print_line(one.name + " is started again: " + what);
   }
+}
+
+[[nodiscard]] Result try_once(const Case& one, std::mt19937& random) {
+  unsigned started_again = 0;
+  const std::unique_ptr<RobotProcess> started = driving(one, started_again);
   RobotProcess& robot = *started;
-  if (!drives) return {"it does not drive" + description(robot)};
   pass_random_time(robot, random);
   Times times{.event_ns = one.strike(robot)};
   std::string failure = see_it_through(one, robot, times);
@@ -112,12 +119,13 @@ void print_line(const std::string& line) {
   if (failure.empty() && robot.text().find(one.says) == std::string::npos)
     failure = fmt::format("'{}' is not on the terminal", one.says);
   if (!failure.empty()) return {failure + description(robot)};
-  return {"", std::max(0.0, static_cast<double>(times.safe_ns - times.event_ns) * 1e-6)};
+  return {"", std::max(0.0, static_cast<double>(times.safe_ns - times.event_ns) * 1e-6), started_again};
 }
 
 struct Figures {
   std::vector<double> latencies_ms;
   std::vector<std::string> failures;
+  std::size_t started_again = 0;
 };
 
 void judge(const Case& one, Figures& figures) {
@@ -132,6 +140,7 @@ void judge(const Case& one, Figures& figures) {
                          one.name, all.size() + figures.failures.size(), at(0.5), at(1), one.bar.count(),
                          late, figures.failures.size()));
   if (!figures.failures.empty()) ADD_FAILURE() << one.name << ": " << figures.failures.front();
+  EXPECT_LE(figures.started_again, 1 + runs() / 10) << one.name << ": robots stopped before their trials";
   const bool strict = std::getenv("TESSERA_SAFETY_STRICT") != nullptr;
   EXPECT_TRUE(late == 0 || !strict) << one.name;
 }
@@ -157,6 +166,7 @@ void try_all(const std::vector<Case>& cases) {
       }
       const std::lock_guard lock(writing);
       if (++done % 100 == 0) fmt::print("{} of {} trials\n", done, all), std::fflush(stdout);
+      figures[index].started_again += result.started_again;
       if (result.failure.empty())
         figures[index].latencies_ms.push_back(result.latency_ms);
       else

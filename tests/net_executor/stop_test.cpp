@@ -69,7 +69,7 @@ void stop_at_random_moments(ExecutableNet net, std::uint64_t stops) {
   Stopper stopper(*executor);
   Random random(1);
   std::uint64_t firings = 0;
-  // On a busy machine, many runs are stopped before they fire; then there are more of them.
+  // On a busy machine, many runs are stopped before a transition fires: further runs make up for them.
   for (std::uint64_t stop = 0; stop < stops || (firings <= stops && stop < 100 * stops); ++stop) {
     stopper.stop_after(static_cast<std::int32_t>(random() % 20'000));
     const NetExecutor::Outcome outcome = executor->run();

@@ -80,13 +80,6 @@ struct Times {
   return robot.is_safe() ? "" : "the last command is not the safe one";
 }
 
-void print_line(const std::string& line) {
-  fmt::print("{}", line);
-  std::fflush(stdout);
-  if (const char* const file = std::getenv("TESSERA_SAFETY_TABLE"); file != nullptr)
-    std::ofstream(file, std::ios::app) << line;
-}
-
 [[nodiscard]] std::unique_ptr<RobotProcess> start(const Case& one) {
   std::vector<std::string> command = one.command;
   if (command.empty()) command = {project().controller.string(), "run"};
@@ -94,15 +87,15 @@ void print_line(const std::string& line) {
   return std::make_unique<RobotProcess>(command, one.output, one.environment);
 }
 
-/// A robot that drives. On a machine that pauses, the watchdogs of a robot stop it rightly before the trial begins:
-/// then another one is started, and \p started_again counts it.
+/// A robot that drives. If the machine pauses, the watchdogs rightly stop the robot before its trial begins. Then
+/// another one is started, twice at most, and \p started_again counts that.
 [[nodiscard]] std::unique_ptr<RobotProcess> driving(const Case& one, unsigned& started_again) {
   for (;; ++started_again) {
     std::unique_ptr<RobotProcess> robot = start(one);
     if (robot->await_driving()) return robot;
-    const std::string what = "it does not drive" + description(*robot) + "\n";
+    const std::string what = "it does not drive" + description(*robot);
     if (started_again == 2) throw std::runtime_error(what);
-    print_line(one.name + " is started again: " + what);
+    fmt::print("{}: {}\n--- another one is started\n", one.name, what);
   }
 }
 
@@ -127,6 +120,13 @@ struct Figures {
   std::vector<std::string> failures;
   std::size_t started_again = 0;
 };
+
+void print_line(const std::string& line) {
+  fmt::print("{}", line);
+  std::fflush(stdout);
+  if (const char* const file = std::getenv("TESSERA_SAFETY_TABLE"); file != nullptr)
+    std::ofstream(file, std::ios::app) << line;
+}
 
 void judge(const Case& one, Figures& figures) {
   std::vector<double>& all = figures.latencies_ms;

@@ -145,8 +145,12 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       /** Selects a subsystem. Its box may still be moving to make space for a new buffer, so that a click can miss it. */
       const head = (path) => {
         const one = page.locator(`.subsystem-head[data-path="${path}"]`);
-        const isSelected = async () => (await one.getAttribute("aria-pressed")) === "true";
-        return until(page, async () => (await one.click(), await drawn(page), await isSelected()), `${path} is selected`);
+        const isSelected = async () => {
+          await one.click();
+          await drawn(page);
+          return (await one.getAttribute("aria-pressed")) === "true";
+        };
+        return until(page, isSelected, `${path} is selected`);
       };
       const chip = (path) => page.locator(`.chip[data-path="${path}"]`).click();
       const buffer = async (subsystem, what, fresh, name, type) => {

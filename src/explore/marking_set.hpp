@@ -7,7 +7,7 @@
 #include <optional>
 
 #include "explore/encoding.hpp"
-#include "explore/mapped_memory.hpp"
+#include "explore/zeroed_memory.hpp"
 
 namespace tessera::explore {
 
@@ -135,7 +135,7 @@ class MarkingSet {
   [[nodiscard]] Packed<W>* markings() const { return static_cast<Packed<W>*>(arena_.data()); }
   [[nodiscard]] Slot* table() const { return static_cast<Slot*>(table_.data()); }
 
-  MappedMemory arena_, table_;
+  ZeroedMemory arena_, table_;
   std::size_t size_ = 0;
   std::size_t capacity_ = 0;
   Slot index_mask_ = 0;

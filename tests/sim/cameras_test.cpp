@@ -22,6 +22,7 @@ namespace {
 /// A camera looks along the y axis at a red box, whose face is 1 m away, and at a wall 3 m away. A site is
 /// in front of it, and a range finder. A blue ball falls beside the box.
 constexpr const char* studio = R"(<mujoco model="studio">
+  <size njmax="400" nconmax="100"/>
   <asset><texture type="skybox" builtin="gradient" rgb1="0.4 0.6 0.8" rgb2="0 0 0" width="32" height="32"/></asset>
   <worldbody>
     <light pos="0 0 3"/>

@@ -20,6 +20,7 @@ using ::testing::HasSubstr;
 
 /// A red ball on a slide, which carries an invisible arm with a green ball at its end. A camera looks along y.
 constexpr const char* stage = R"(<mujoco model="stage">
+  <size njmax="400" nconmax="100"/>
   <worldbody>
     <light pos="0 -1 3" castshadow="false"/>
     <geom type="plane" size="5 5 0.1" rgba="0.9 0.9 0.9 1"/>

@@ -15,7 +15,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 /// Walls 1 m ahead and 2 m to the left of a robot, whose own wheel stands in the way.
-constexpr const char* room = R"(<mujoco><worldbody>
+constexpr const char* room = R"(<mujoco><size njmax="400" nconmax="100"/><worldbody>
     <geom name="ahead" type="box" pos="1.5 0 0" size="0.5 3 1"/>
     <geom name="left" type="plane" pos="0 2 0" zaxis="0 -1 0" size="5 5 0.1" group="2"/>
     <geom name="glass" type="box" pos="0 -0.5 0" size="3 0.1 1" rgba="1 1 1 0"/>

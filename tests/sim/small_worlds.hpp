@@ -15,6 +15,7 @@ namespace tessera::testing {
 
 /// A two-link arm with sensors, a box on a free joint, a lamp on a ball joint, a moving obstacle, a weld.
 inline constexpr const char* workshop = R"(<mujoco model="workshop">
+  <size njmax="400" nconmax="100"/>
   <option timestep="0.002"/>
   <worldbody>
     <geom name="floor" type="plane" size="5 5 0.1"/>

@@ -29,6 +29,7 @@ constexpr double eye_x_m = 1, eye_y_m = 0.7, eye_z_m = 1.5, fovy_deg = 60;
 /// A camera looks down at a grey floor from 1.5 m. A ball falls on the edge of a
 /// blue box.
 constexpr const char* hall_below = R"(<mujoco model="hall">
+  <size njmax="400" nconmax="100"/>
   <asset><texture name="blue" type="2d" builtin="flat" rgb1="0 0 1" width="5" height="3"/>
     <material name="blue" texture="blue"/></asset>
   <worldbody>

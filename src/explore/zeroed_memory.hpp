@@ -5,22 +5,23 @@
 
 namespace tessera::explore {
 
-/// Zeroed memory directly from the system. It grows without being copied and takes no RAM until it is used.
+/// Zeroed memory that grows. Much of it comes directly from the system: it grows without being copied, and takes no RAM
+/// until it is used.
 ///
 /// Throws std::bad_alloc. Threads: one at a time.
-class MappedMemory {
+class ZeroedMemory {
  public:
-  MappedMemory() = default;
-  MappedMemory(MappedMemory&& other) noexcept
+  ZeroedMemory() = default;
+  ZeroedMemory(ZeroedMemory&& other) noexcept
       : data_(std::exchange(other.data_, nullptr)), size_(std::exchange(other.size_, 0)) {}
-  MappedMemory& operator=(MappedMemory&& other) noexcept {
+  ZeroedMemory& operator=(ZeroedMemory&& other) noexcept {
     std::swap(data_, other.data_);
     std::swap(size_, other.size_);
     return *this;
   }
-  MappedMemory(const MappedMemory&) = delete;
-  MappedMemory& operator=(const MappedMemory&) = delete;
-  ~MappedMemory() { release(); }
+  ZeroedMemory(const ZeroedMemory&) = delete;
+  ZeroedMemory& operator=(const ZeroedMemory&) = delete;
+  ~ZeroedMemory() { release(); }
 
   /// Grows to at least `bytes` and keeps the contents; the memory may move.
   void grow(std::size_t bytes);

@@ -15,13 +15,14 @@ constexpr std::size_t most_of_heap = std::size_t{64} << 10U;
 
 bool on_heap(std::size_t size) { return size <= most_of_heap; }
 
-// Takes no RAM until it is used. Huge pages save most misses of the translation cache, but waste memory on small nets.
+// Huge pages save most misses of the translation cache, but waste memory on small nets.
 std::size_t size_for(std::size_t bytes) {
   if (on_heap(bytes)) return bytes;
   const std::size_t granule = bytes < huge_page ? 4096 : huge_page;
   return (bytes + granule - 1) / granule * granule;
 }
 
+// It takes no RAM until it is used.
 void* map(std::size_t size) {
   void* mapped =
       mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_NORESERVE, -1, 0);

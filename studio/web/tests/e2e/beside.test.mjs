@@ -23,7 +23,7 @@ async function twoRuns(page) {
   await fill(page, "For", "12s");
   await fill(page, "Speed", "20");
   await ended(page, "Run");
-  await fill(page, "Speed", "4"); // of a faster run, a busy page misses events, and compares nothing
+  await fill(page, "Speed", "4"); // a busy page misses events of a faster run, and does not compare it
   await page.getByRole("combobox", { name: "Track" }).selectOption("oval.png");
   await ended(page, "Recordings");
 }

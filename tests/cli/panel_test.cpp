@@ -41,7 +41,7 @@ TEST_F(TeleoperationInATerminal, MovesTheRobotAndIsInTheRecording) {
   EXPECT_LT(none, moves) << values;
   EXPECT_LT(moves, rests) << values;
   EXPECT_NE(rests, std::string::npos) << values;
-  EXPECT_EQ(values.find("0.25"), std::string::npos) << values;
+  EXPECT_EQ(values.find("forward: 0.25"), std::string::npos) << values;
   const project::Exit again = tessera("simulate tele --from tele.tsr");
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_NE(again.text.find("as recorded"), std::string::npos) << again.text;

@@ -36,7 +36,7 @@ void put_figures(std::string& html, const ReportInput& input) {
     const sim::LineMetrics& metrics = input.drive->metrics;
     if (!input.drive->line.points.empty()) put_figure(html, fmt::format("{:.2f}", metrics.laps), "laps");
     put_figure(html, fmt::format("{:.2f} s", metrics.line_lost_s),
-               fmt::format("line lost (longest {:.2f} s)", metrics.longest_loss_s));
+               fmt::format("line lost (longest {:.2f}\u00a0s)", metrics.longest_loss_s));
     if (!metrics.error_m.empty()) {
       put_figure(html, fmt::format("{:.1f} mm", metrics.mean_error_m * 1000), "mean error");
       put_figure(html, fmt::format("{:.1f} mm", metrics.max_error_m * 1000), "largest error");
@@ -46,7 +46,7 @@ void put_figures(std::string& html, const ReportInput& input) {
              input.recording.clock == "simulated" ? "simulated" : "run");
   if (input.wall_s > 0 && input.simulated_s > 0 && input.recording.clock == "simulated")
     put_figure(html, factor(input.simulated_s / input.wall_s),
-               fmt::format("real time ({:.2f} s)", input.wall_s));
+               fmt::format("real time ({:.2f}\u00a0s)", input.wall_s));
   put_figure(html, grouped(input.firings), "transitions fired");
   html += "</div>";
 }

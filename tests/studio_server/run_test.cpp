@@ -182,6 +182,21 @@ TEST_F(RunOfTheStudio, RefusesWhatItCannotStart) {
   EXPECT_EQ(control("1", {{"command", "stop"}}), 404);
 }
 
+TEST_F(RunOfTheStudio, OnlyOneRunAtATimeDrivesTheDevices) {
+  const json request{
+      {"kind", "run"}, {"world", get("/api/project").json().at("worlds").at(0).at("name")}, {"for", "1000s"}};
+  const std::string first = start(request);
+  ASSERT_FALSE(await_state(first, "running").is_null());
+  const Reply second = post("/api/runs", request);
+  EXPECT_EQ(second.status, 409);
+  EXPECT_THAT(second.body, HasSubstr("run " + first + " goes on"));
+  ASSERT_EQ(control(first, {{"command", "stop"}}), 200);
+  ASSERT_FALSE(await_state(first, "ended").is_null());
+  const std::string third = start(request);
+  ASSERT_EQ(control(third, {{"command", "stop"}}), 200);
+  EXPECT_FALSE(await_state(third, "ended").is_null());
+}
+
 TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoOfIt) {
   Elsewhere other({TESSERA_BINARY_DIR "/tessera", "run", (folder_ / "project").string(), "--world",
                    "--record-limit", "30kBx3"});

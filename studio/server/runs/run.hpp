@@ -68,6 +68,7 @@ class Run {
 
   enum class State : std::uint8_t { building, running, paused, ended, failed };
   [[nodiscard]] bool over() const;
+  [[nodiscard]] RunRequest::Kind kind() const { return request_.kind; }
   /// {"run", "state", "kind", ...}: docs/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
   /// The part of the net that it has reached so far: docs/studio.md.

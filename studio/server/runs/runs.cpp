@@ -1,5 +1,7 @@
 #include "server/runs/runs.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <charconv>
 #include <utility>
@@ -16,6 +18,13 @@ Runs::Started Runs::start(RunRequest request) {
   if (std::ranges::count_if(runs_, [](const auto& one) { return !one.second->over(); }) >=
       static_cast<std::ptrdiff_t>(most_running))
     return {{}, 429, "too much is running already", "stop a run"};
+  if (request.kind == RunRequest::Kind::run)
+    for (const auto& [number, run] : runs_)
+      if (run->kind() == RunRequest::Kind::run && !run->over())
+        return {{},
+                409,
+                fmt::format("run {} goes on, and only one run at a time can drive the devices", number),
+                "stop it first"};
   const auto old = std::ranges::find_if(runs_, [](const auto& one) { return one.second->over(); });
   if (runs_.size() >= most_kept && old != runs_.end()) {
     forgotten = std::move(old->second);

@@ -10,6 +10,7 @@ import {
 } from "@xyflow/react";
 import { useEffect, useMemo, useRef, type CSSProperties, type KeyboardEvent, type MouseEvent, type ReactNode } from "react";
 import { useStore, useStudio } from "../hooks/use";
+import { useLens } from "../hooks/use_lens";
 import type { Pane } from "../live/scene";
 import { stuck } from "../live/verifier";
 import { flagsOf } from "../model/flags";
@@ -70,7 +71,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     lead,
   );
 
-  const lens = useStore(studio.lens.store, (all) => all.shown);
+  const lens = useLens(net);
   const boxOf = (path: string) => {
     const page = net.pageByPath.get(path);
     const hidden = page === undefined || net.ancestry(page).some((at) => at !== 0 && at !== page && sheets.folded(at));
@@ -138,6 +139,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
         <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
         {root && (
           <LensOverlay
+            net={net}
             whole={{ x: 0, y: 0, width: root.width, height: root.height }}
             boxOf={boxOf}
             names={lens ? namesOf(net, sheets) : []}

@@ -1,8 +1,10 @@
 import { useReactFlow, useStore as useFlow, ViewportPortal, type ReactFlowState } from "@xyflow/react";
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
+import { useLens } from "../hooks/use_lens";
 import type { Stuck } from "../live/lens";
 import type { Box } from "../model/net/geometry";
+import type { NetModel } from "../model/net/net";
 import { around, arrows, grown, type Arrow } from "../model/structure/lens_layout";
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
@@ -12,22 +14,25 @@ const windowOf = (state: ReactFlowState) => [...state.transform, state.width, st
  * Greys everything except the subsystems of a standstill, and draws which of them waits for which. Flies to
  * them once on request.
  *
- * boxOf: the box of a subsystem; undefined: not drawn, or not yet. names: the boxes of other names, which
+ * net: the net of the drawing; the lens is only shown on its own. boxOf: the box of a subsystem; undefined: not drawn, or not yet. names: the boxes of other names, which
  * stay readable.
  */
 export function LensOverlay({
+  net,
   whole,
   boxOf,
   names,
   version,
 }: {
+  net: NetModel | null;
   whole: Box;
   boxOf: (path: string) => Box | undefined;
   names: readonly Box[];
   version: unknown;
 }) {
   const studio = useStudio();
-  const { shown, request } = useStore(studio.lens.store, (all) => all);
+  const shown = useLens(net);
+  const request = useStore(studio.lens.store, (all) => all.request);
   const flow = useReactFlow();
   const [x, y, zoom, width, height] = useFlow(windowOf).split(",").map(Number) as [number, number, number, number, number];
   const ready = useFlow((state) => state.width > 0);

@@ -1,6 +1,7 @@
 import type { NodeProps, Node } from "@xyflow/react";
 import { memo, useEffect, useRef, type CSSProperties } from "react";
 import { useStudio } from "../hooks/use";
+import { numbered } from "../live/breakpoints";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net/net";
 import type { Placed } from "../model/net/sheets";
@@ -39,7 +40,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
   useEffect(() => {
     const { store } = studio.runner;
     let last = store.get().breakpoints;
-    const now = () => ref.current && paint(ref.current, net, stage, last);
+    const now = () => ref.current && paint(ref.current, net, stage, numbered(net, last).found);
     now();
     const told = store.subscribe(() => {
       const { breakpoints } = store.get();

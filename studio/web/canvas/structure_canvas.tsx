@@ -14,6 +14,7 @@ import {
 } from "@xyflow/react";
 import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
+import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
 import { addAgent, addChannel, freeName, removeChannel } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
@@ -174,7 +175,8 @@ function Drawing() {
   const structure = useStructure();
   const complaints = useComplaints(structure);
   const selected = useStore(studio.view, (view) => view.selected);
-  const lens = useStore(studio.lens.store, (all) => all.shown);
+  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const lens = useLens(net);
   const drawn = useDrawn(structure);
   const { drawing } = drawn;
   const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
@@ -264,7 +266,13 @@ function Drawing() {
           connectionRadius={28}
         >
           <ChannelLayer structure={drawn.structure} drawing={drawing} look={{ selected, complaints, stuck }} />
-          <LensOverlay whole={whole} boxOf={boxOf} names={lens ? namesOf(drawn, detail, zoom) : none} version={drawing} />
+          <LensOverlay
+            net={net}
+            whole={whole}
+            boxOf={boxOf}
+            names={lens ? namesOf(drawn, detail, zoom) : none}
+            version={drawing}
+          />
           <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
           <Panel position="bottom-left">
             <Legend of="structure" />

@@ -33,7 +33,7 @@ interface File {
   revision: string;
 }
 
-const netOf = ({ net, net_hash }: Analysis) => (net ? new NetModel(net, net_hash ?? "") : null);
+const netOf = ({ net, net_hash }: Analysis, text: string) => (net ? new NetModel(net, net_hash ?? "", text) : null);
 
 /**
  * The specification in the editor: one text, its history, the server's results for
@@ -78,7 +78,7 @@ export class Draft {
     this.onDisk(file);
     const { text, base } = JSON.parse(sessionStorage.getItem(this.kept) ?? "{}") as { text?: string; base?: string };
     this.store.set({ text: file.text, loaded: true });
-    this.analysed(answer.analysis.diagnostics, netOf(answer.analysis));
+    this.analysed(answer.analysis.diagnostics, netOf(answer.analysis, file.text));
     if (text === undefined || text === file.text) return;
     const merged = merge(base ?? file.text, text, file.text);
     this.edit(merged ?? text, "reload");
@@ -134,7 +134,7 @@ export class Draft {
     const asked = ++this.asked;
     try {
       const analysis = await this.api.check(text);
-      if (asked === this.asked) this.analysed(analysis.diagnostics, netOf(analysis));
+      if (asked === this.asked) this.analysed(analysis.diagnostics, netOf(analysis, text));
     } catch (error) {
       if (asked === this.asked) this.store.set({ checking: false, notice: message(error) });
     }

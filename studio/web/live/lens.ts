@@ -1,12 +1,15 @@
 import { concernedIn, stuckIn, titleOf, waitsIn, type Wait } from "../model/causes";
 import type { Api } from "./api";
-import { message, type Draft } from "./draft";
+import type { NetModel } from "../model/net/net";
+import { message } from "./draft";
 import type { SubsystemAtEnd } from "./protocol";
 import { Store } from "./store";
 
 /** The subsystems of a standstill, for the drawings. */
 export interface Stuck {
   title: string;
+  /** The net in which they are stuck: in another one they may go on. */
+  net: NetModel | null;
   atEnd: readonly SubsystemAtEnd[];
   /** Subsystems that cannot go on. */
   stuck: readonly string[];
@@ -26,13 +29,10 @@ export interface LensState {
 export class Lens {
   readonly store = new Store<LensState>({ shown: null, request: 0, problem: "" });
 
-  constructor(
-    private readonly api: Api,
-    private readonly draft: Draft,
-  ) {}
+  constructor(private readonly api: Api) {}
 
-  show(atEnd: readonly SubsystemAtEnd[], title = titleOf(atEnd)): void {
-    const shown = { title, atEnd, stuck: stuckIn(atEnd), concerned: concernedIn(atEnd), waits: waitsIn(atEnd) };
+  show(net: NetModel | null, atEnd: readonly SubsystemAtEnd[], title = titleOf(atEnd)): void {
+    const shown = { title, net, atEnd, stuck: stuckIn(atEnd), concerned: concernedIn(atEnd), waits: waitsIn(atEnd) };
     this.store.set({ shown: atEnd.length > 0 ? shown : null, request: this.store.get().request + 1, problem: "" });
   }
 
@@ -41,11 +41,11 @@ export class Lens {
   }
 
   /** Requests the subsystems that cannot go on in a marking: of a run that has stopped, or stands still. */
-  async look(marking: Int32Array): Promise<void> {
+  async look(net: NetModel, marking: Int32Array): Promise<void> {
     const marked = [...marking.entries()].flatMap(([place, tokens]) => (tokens > 0 ? [{ place }] : []));
     try {
-      const { at_end: atEnd } = await this.api.waits(this.draft.store.get().text, marked);
-      if (atEnd.length > 0) return this.show(atEnd);
+      const { at_end: atEnd } = await this.api.waits(net.text, marked);
+      if (atEnd.length > 0) return this.show(net, atEnd);
       this.store.set({ shown: null, problem: "Nobody waits for another subsystem at this moment." });
     } catch (error) {
       this.store.set({ problem: message(error) });

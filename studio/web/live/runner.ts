@@ -1,4 +1,5 @@
 import { LiveArrays } from "./arrays";
+import { numbered, sameBreakpoint, titleOf, type NamedBreakpoint } from "./breakpoints";
 import { runningBehaviours } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
 import { bounded } from "../model/sorted";
@@ -6,7 +7,6 @@ import type { Api } from "./api";
 import type { Connection } from "./connection";
 import { message, type Draft } from "./draft";
 import type {
-  Breakpoint,
   ControlRequest,
   Events,
   FiringsEvent,
@@ -21,7 +21,7 @@ import type {
   SubsystemsEvent,
   ValuesEvent,
 } from "./protocol";
-import { idle, type RunnerState, type Wishes } from "./runner_state";
+import { goesOn, idle, type RunnerState, type Wishes } from "./runner_state";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
@@ -29,10 +29,6 @@ import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
 type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment">;
-
-export function sameBreakpoint(one: Breakpoint, other: Breakpoint): boolean {
-  return JSON.stringify(one) === JSON.stringify(other);
-}
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
@@ -63,14 +59,18 @@ export class Runner {
     private readonly draft: Draft,
     connection: Connection,
   ) {
-    const on = <Name extends RunEventName>(name: Name, take: (event: Events[Name]) => void) =>
+    const on = <Name extends RunEventName>(name: Name, take: (event: Events[Name]) => void, other: () => void = () => {}) =>
       connection.on(name, (event) => {
-        const mine = () => event.run === this.store.get().run && take(event);
-        if (this.asked > 0) this.held.push(mine);
-        else mine();
+        const handle = () => (event.run === this.store.get().run ? take(event) : other());
+        if (this.asked > 0) this.held.push(handle);
+        else handle();
       });
     for (const name of ["build", "log"] as const) on(name, (event) => this.said(event.line));
-    on("run", (event) => this.told(event));
+    on(
+      "run",
+      (event) => this.told(event),
+      () => void this.attach(),
+    );
     on("firings", (event) => this.fired(event));
     on("values", (event) => this.valued(event));
     on("parameters", ({ parameters }) => this.store.set({ parameters }));
@@ -101,15 +101,14 @@ export class Runner {
   }
 
   get active(): boolean {
-    return ["building", "running", "paused"].includes(this.store.get().state);
+    return goesOn(this.store.get().state);
   }
 
   async start(request: RunRequest): Promise<void> {
     const { net } = this.draft.store.get();
     if (!net) return;
     this.store.set({
-      ...idle,
-      breakpoints: this.store.get().breakpoints,
+      ...this.fresh(),
       state: "building",
       kind: request.kind,
       speed: isStarted(request) ? (request.speed ?? 1) : 1,
@@ -126,9 +125,16 @@ export class Runner {
         this.store.set({ state: "failed", problem: message(error), shown: false });
       }
     });
+    await this.attach();
   }
 
-  /** After a reload or a lost connection, follows a running controller again. */
+  /** Of a run that is not known yet. */
+  private fresh(): RunnerState {
+    const { breakpoints, others } = this.store.get();
+    return { ...idle, breakpoints, others };
+  }
+
+  /** After a reload, a lost connection or news of another run: follows a running controller, and lists the others. */
   private attach(): Promise<void> {
     return this.beforeEvents(async () => {
       const { run } = this.store.get();
@@ -136,6 +142,8 @@ export class Runner {
         const runs = await this.api.runs();
         // A run that is started meanwhile is followed instead.
         if (this.store.get().run === run && (run !== null || !this.active)) await this.followOneOf(runs);
+        const mine = this.store.get().run;
+        this.store.set({ others: runs.filter((one) => goesOn(one.state) && one.run !== mine) });
       } catch (error) {
         this.store.set({ problem: message(error) });
       }
@@ -143,23 +151,43 @@ export class Runner {
   }
 
   private async followOneOf(runs: readonly RunListed[]): Promise<void> {
-    const { net } = this.draft.store.get();
-    const own = this.active ? runs.find(({ run }) => run === this.store.get().run) : undefined;
-    const going = own ?? runs.find((run) => ["building", "running", "paused"].includes(run.state));
-    if (!going) {
-      if (this.active) this.store.set({ state: "ended", why: "the server was restarted" });
-      return;
-    }
-    const info = await this.api.run(going.run);
-    if (going.run !== this.store.get().run && net) {
-      if (!net.isNamed(info.net_hash)) {
-        this.store.set({ problem: "A run of another version of the specification goes on; this drawing cannot show it." });
-        return;
+    const { run, state } = this.store.get();
+    const own = this.active ? runs.find((one) => one.run === run) : undefined;
+    if (own) return this.told(await this.api.run(own.run));
+    if (this.active) return this.store.set({ state: "ended", why: "the server was restarted" });
+    const going = runs.find((one) => goesOn(one.state));
+    if (state === "idle" && going) this.take(await this.api.run(going.run));
+  }
+
+  /** Follows another run of the server instead. */
+  async follow(run: string): Promise<void> {
+    await this.beforeEvents(async () => {
+      try {
+        this.take(await this.api.run(run));
+      } catch (error) {
+        this.store.set({ problem: message(error) });
       }
-      this.store.set({ ...idle, run: info.run, state: info.state, kind: info.kind });
-      this.watch(net, info.track);
-    }
+    });
+    await this.attach();
+  }
+
+  /** A run can be stopped and controlled although its net is not that of the text, so that it is not drawn. */
+  private take(info: RunInfo): void {
+    const { net } = this.draft.store.get();
+    this.store.set({ ...this.fresh(), run: info.run, state: info.state, kind: info.kind, netHash: info.net_hash });
+    if (net?.isNamed(info.net_hash)) this.watch(net, info.track);
+    else this.track = null;
     this.told(info);
+  }
+
+  /** Stops a run of the server that this page does not follow. */
+  async stopOther(run: string): Promise<void> {
+    try {
+      await this.api.control(run, { command: "stop" });
+    } catch (error) {
+      this.store.set({ problem: message(error) });
+    }
+    await this.attach();
   }
 
   private watch(net: NetModel, floor: string | null | undefined): void {
@@ -173,7 +201,9 @@ export class Runner {
 
   /** Gives the run a pane of the drawing, or removes it. The run itself continues. */
   show(shown: boolean): void {
-    this.store.set({ shown: shown && this.track !== null });
+    const { run } = this.store.get();
+    if (shown && this.track === null && run !== null) void this.follow(run);
+    else this.store.set({ shown: shown && this.track !== null });
   }
 
   /** Called by an event, or with the whole state of the run. */
@@ -182,6 +212,7 @@ export class Runner {
     this.store.set({ state, why, outcome });
     this.setMarked(marking, firings);
     if ("values" in info) {
+      this.store.set({ netHash: info.net_hash });
       for (const take of this.informed) take(info);
       this.store.set({ parameters: info.parameters, panels: info.panels });
       this.counted(firings);
@@ -192,9 +223,7 @@ export class Runner {
     } else if (state === "ended" || state === "paused") void this.seePath();
     // A paused run has reported all its firings.
     if (this.track && (state === "ended" || state === "paused")) this.track.known = this.track.end;
-    const { breakpoints } = this.store.get();
-    if (state === "running" && breakpoints.length > 0)
-      void this.control({ command: "breakpoints", breakpoints: [...breakpoints] });
+    if (state === "running" && this.store.get().breakpoints.length > 0) void this.setBreakpoints();
   }
 
   /**
@@ -340,17 +369,25 @@ export class Runner {
     this.asking = false;
   }
 
-  toggleBreakpoint(wanted: Breakpoint): void {
+  toggleBreakpoint(wanted: NamedBreakpoint): void {
     const { breakpoints, state } = this.store.get();
     const others = breakpoints.filter((one) => !sameBreakpoint(one, wanted));
-    const next = others.length < breakpoints.length ? others : [...breakpoints, wanted];
-    this.store.set({ breakpoints: next });
-    if (state === "running" || state === "paused") void this.control({ command: "breakpoints", breakpoints: next });
+    this.store.set({ breakpoints: others.length < breakpoints.length ? others : [...breakpoints, wanted] });
+    if (state === "running" || state === "paused") void this.setBreakpoints();
+  }
+
+  /** In the numbers of the net that runs, which may not be that of the text. */
+  private async setBreakpoints(): Promise<void> {
+    if (!this.track) return;
+    const { found, lost } = numbered(this.track.net, this.store.get().breakpoints);
+    await this.control({ command: "breakpoints", breakpoints: found });
+    if (lost.length > 0 && this.store.get().problem === "")
+      this.store.set({ problem: `This run does not pause at ${lost.map(titleOf).join(", ")}: its net has no such element.` });
   }
 
   /** Closes the run. */
   close(): void {
     this.track = null;
-    this.store.set({ ...idle, breakpoints: this.store.get().breakpoints });
+    this.store.set(this.fresh());
   }
 }

@@ -1,4 +1,5 @@
-import type { Breakpoint, Outcome, PanelShown, ParameterShown, RunKind, RunState, StartRequest } from "./protocol";
+import type { NamedBreakpoint } from "./breakpoints";
+import type { Outcome, PanelShown, ParameterShown, RunKind, RunListed, RunState, StartRequest } from "./protocol";
 
 /** The settings of the form for the next run. */
 export interface Wishes {
@@ -27,12 +28,18 @@ export interface RunnerState {
   parameters: readonly ParameterShown[];
   panels: readonly PanelShown[];
   /** The points at which the run pauses. */
-  breakpoints: readonly Breakpoint[];
+  breakpoints: readonly NamedBreakpoint[];
   /** The request with which this page started it; null: it was started elsewhere. */
   request: StartRequest | null;
   /** Whether it has a pane of the drawing; a run continues without one, too. */
   shown: boolean;
+  /** The hash of its net; empty: not known yet. */
+  netHash: string;
+  /** The other runs of the server that go on. */
+  others: readonly RunListed[];
 }
+
+export const goesOn = (state: RunnerState["state"]): boolean => state === "building" || state === "running" || state === "paused";
 
 export const idle: RunnerState = {
   run: null,
@@ -49,4 +56,6 @@ export const idle: RunnerState = {
   breakpoints: [],
   request: null,
   shown: false,
+  netHash: "",
+  others: [],
 };

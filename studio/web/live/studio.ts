@@ -70,7 +70,7 @@ export class Studio {
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
-  readonly lens = new Lens(this.api, this.draft);
+  readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
   readonly runner = new Runner(this.api, this.draft, this.connection);
@@ -225,7 +225,7 @@ export class Studio {
   /** Shows the stuck subsystems if a violation names them. */
   private verified(verdicts: readonly Verdict[]): void {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
-    if (cause) this.lens.show(cause.atEnd, cause.title);
+    if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();
   }
 
@@ -245,6 +245,12 @@ export class Studio {
   async run(request: RunRequest): Promise<void> {
     this.play.stop();
     await this.runner.start(request);
+  }
+
+  /** Follows another run of the server. A game in play is closed. */
+  async followRun(run: string): Promise<void> {
+    this.play.stop();
+    await this.runner.follow(run);
   }
 
   /** Draws a run again whose pane was closed. */

@@ -22,7 +22,7 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
   const showRun = () => {
     if (!net || !withRun?.steps) return;
     studio.play.trace(net, withRun.steps, withRun.verdict.name, withRun.verdict.waits);
-    studio.lens.show(cause.atEnd, cause.title);
+    studio.lens.show(net, cause.atEnd, cause.title);
     studio.view.set({ view: "net", panel: "play" });
   };
   return (
@@ -60,7 +60,10 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
       {first!.hint && <p className="faint">{sentence(first!.hint)}</p>}
       <div className="buttons">
         {cause.atEnd.length > 0 && (
-          <button aria-pressed={shown} onClick={() => (shown ? studio.lens.close() : studio.lens.show(cause.atEnd, cause.title))}>
+          <button
+            aria-pressed={shown}
+            onClick={() => (shown ? studio.lens.close() : studio.lens.show(net, cause.atEnd, cause.title))}
+          >
             {shown ? "Close the lens" : "Show who is stuck"}
           </button>
         )}

@@ -1,8 +1,7 @@
 import { lazy, Suspense } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import type { Breakpoint } from "../live/protocol";
-import { sameBreakpoint } from "../live/runner";
+import { sameBreakpoint, type NamedBreakpoint } from "../live/breakpoints";
 import { layerTitle, operationText } from "../model/net/labels";
 import type { Element, NetModel } from "../model/net/net";
 import { findThing, type Thing } from "../model/structure/structure";
@@ -81,21 +80,20 @@ function ownerOf(thing: Thing | undefined, selected: string): string {
 
 /** The breakpoints of a run in simulated time. */
 function Breakpoints({ net, element, path }: { net: NetModel; element: Element; path: string }) {
-  if (element.kind === "place") return <BreakpointButton at={{ place: net.placeByName.get(path)! }} text="Pause a run here" />;
-  const transition = net.transitionByName.get(path);
-  if (element.kind !== "transition" || transition === undefined) return null;
+  if (element.kind === "place") return <BreakpointButton at={{ on: "place", path }} text="Pause a run here" />;
+  if (element.kind !== "transition" || net.transitionByName.get(path) === undefined) return null;
   const { condition } = net.page(element.page).transitions[element.index]!;
   return (
     <>
-      <BreakpointButton at={{ transition }} text="Pause a run when it fires" />
+      <BreakpointButton at={{ on: "transition", path }} text="Pause a run when it fires" />
       {condition !== null && condition.truth !== "always" && (
-        <BreakpointButton at={{ condition: transition }} text="Pause a run when its condition holds" />
+        <BreakpointButton at={{ on: "condition", path }} text="Pause a run when its condition holds" />
       )}
     </>
   );
 }
 
-function BreakpointButton({ at, text }: { at: Breakpoint; text: string }) {
+function BreakpointButton({ at, text }: { at: NamedBreakpoint; text: string }) {
   const studio = useStudio();
   const set = useStore(studio.runner.store, (all) => all.breakpoints.some((one) => sameBreakpoint(one, at)));
   return (

@@ -47,6 +47,8 @@ export class NetModel {
     net: FoldedNet,
     /** Its hash, if known. */
     readonly hash = "",
+    /** The specification that it was made of. */
+    readonly text = "",
   ) {
     this.elements = new FoldedElements(net);
     ({

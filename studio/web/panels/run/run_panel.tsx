@@ -1,12 +1,13 @@
 import { useState } from "react";
 import { useRunning } from "../../hooks/use_stage";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Breakpoint } from "../../live/protocol";
+import { titleOf } from "../../live/breakpoints";
+import { goesOn } from "../../live/runner_state";
 import { sentence } from "../../model/net/labels";
-import type { NetModel } from "../../model/net/net";
 import { Again } from "./again";
 import { Choice } from "../forms/field";
 import { Icon, IconButton } from "../icons";
+import { OtherRuns } from "./other_runs";
 import { OperatorPanels } from "./operator_panel";
 import { OutcomeOf } from "./outcome";
 import { reason, stateTitles } from "../pane_title";
@@ -16,7 +17,9 @@ import { StartForm } from "./start_form";
 export function RunPanel() {
   const studio = useStudio();
   const runner = useStore(studio.runner.store, (all) => all);
-  const active = ["building", "running", "paused"].includes(runner.state);
+  const net = useStore(studio.draft.store, (draft) => draft.net);
+  const active = goesOn(runner.state);
+  const drawn = studio.runner.track !== null || (net?.isNamed(runner.netHash) ?? false);
   return (
     <div className="run-panel">
       <h2 className="visually-hidden">Run</h2>
@@ -27,12 +30,14 @@ export function RunPanel() {
         </p>
       )}
       {runner.problem && <p className="problem-hint">{runner.problem}</p>}
-      {active && !runner.shown && (
+      {active && !drawn && <p className="faint">It runs another net than that of the text, so it is not drawn.</p>}
+      {active && drawn && !runner.shown && (
         <div className="buttons">
           <button onClick={() => studio.showRun()}>Show it in the drawing</button>
         </div>
       )}
       {active ? <Controls /> : <StartForm />}
+      <OtherRuns />
       <Again />
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
       {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}
@@ -133,12 +138,14 @@ function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: num
 function WhoWaits() {
   const studio = useStudio();
   const { shown, problem } = useStore(studio.lens.store, (all) => all);
+  const look = async () => {
+    const { track, stage } = studio.runner;
+    if (track) await studio.lens.look(track.net, stage.marking);
+  };
   return (
     <>
       <div className="buttons">
-        <button onClick={() => (shown ? studio.lens.close() : void studio.lens.look(studio.runner.stage.marking))}>
-          {shown ? "Close the lens" : "Who waits now?"}
-        </button>
+        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Close the lens" : "Who waits now?"}</button>
       </div>
       {problem && <p className="faint">{problem}</p>}
       {shown && (
@@ -176,17 +183,16 @@ function RunningNow() {
 function Breakpoints() {
   const studio = useStudio();
   const breakpoints = useStore(studio.runner.store, (all) => all.breakpoints);
-  const net = useStore(studio.draft.store, (draft) => draft.net);
-  if (breakpoints.length === 0 || !net) return null;
+  if (breakpoints.length === 0) return null;
   return (
     <>
       <h3>Breakpoints</h3>
       <ul className="choice-list">
         {breakpoints.map((breakpoint) => {
-          const { path, where } = placeOf(net, breakpoint);
+          const where = titleOf(breakpoint);
           return (
             <li key={where}>
-              <button className="choice" onClick={() => studio.flyTo(path)}>
+              <button className="choice" onClick={() => studio.flyTo(breakpoint.path)}>
                 {where}
               </button>
               <IconButton
@@ -200,17 +206,4 @@ function Breakpoints() {
       </ul>
     </>
   );
-}
-
-function placeOf(net: NetModel, breakpoint: Breakpoint): { path: string; where: string } {
-  if ("place" in breakpoint) {
-    const path = net.places.at(breakpoint.place)?.name ?? "";
-    return { path, where: path };
-  }
-  if ("transition" in breakpoint) {
-    const path = net.transitions.at(breakpoint.transition)?.name ?? "";
-    return { path, where: path };
-  }
-  const path = net.transitions.at(breakpoint.condition)?.name ?? "";
-  return { path, where: `condition of ${path}` };
 }

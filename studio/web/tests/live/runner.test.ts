@@ -2,8 +2,9 @@ import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Api } from "../../live/api";
 import type { Connection } from "../../live/connection";
 import type { Draft } from "../../live/draft";
-import type { RunInfo } from "../../live/protocol";
+import type { ControlRequest, RunInfo } from "../../live/protocol";
 import { Runner } from "../../live/runner";
+import { NetModel } from "../../model/net/net";
 import { lineFollower } from "../model/line_follower";
 
 const net = lineFollower();
@@ -18,8 +19,8 @@ beforeEach(() => {
   vi.stubGlobal("requestAnimationFrame", () => 1);
 });
 
-/** A runner that watches a run, and a function that sends it an event of the server. */
-async function watching() {
+/** A runner whose server has one run, and a function that sends an event of that run. */
+function served(drawn: NetModel | null = net) {
   const heard = new Map<string, (data: object) => void>();
   const connection = { on: (name: string, handler: (data: object) => void) => void heard.set(name, handler) };
   const info: RunInfo = {
@@ -47,16 +48,25 @@ async function watching() {
     outcome: null,
     track: null,
   };
+  const runs = [info];
+  const asked: [string, ControlRequest][] = [];
   const api = {
     start: async () => ({ run: "1" }),
-    run: async () => info,
-    runs: async () => [info],
+    run: async (run: string) => runs.find((one) => one.run === run)!,
+    runs: async () => runs,
     floor: async () => null,
+    control: async (run: string, request: ControlRequest) => void asked.push([run, request]),
   };
-  const draft = { store: { get: () => ({ net }) } };
+  const draft = { store: { get: () => ({ net: drawn }) } };
   const runner = new Runner(api as unknown as Api, draft as unknown as Draft, connection as unknown as Connection);
-  await runner.start({ kind: "simulate" });
-  return { runner, info, tell: (name: string, data: object) => heard.get(name)!({ run: "1", ...data }) };
+  return { runner, info, runs, api, asked, tell: (name: string, data: object) => heard.get(name)!({ run: "1", ...data }) };
+}
+
+/** The same after the page has started the run. */
+async function watching() {
+  const all = served();
+  await all.runner.start({ kind: "simulate" });
+  return all;
 }
 
 describe("Runner", () => {
@@ -106,5 +116,57 @@ describe("Runner", () => {
     await vi.waitFor(() => expect(runner.store.get().state).toBe("ended"));
     expect(runner.store.get().why).toBe("time is up");
     expect(runner.track!.firings).toBe(40);
+  });
+  it.each([
+    ["has errors", null],
+    ["has another net", Object.assign(lineFollower(), { hash: "b" })],
+  ])("stops a run that it finds, although the text %s", async (_, drawn) => {
+    const { runner, info, tell, asked } = served(drawn);
+    info.net_hash = "a";
+    tell("hello", {});
+    await vi.waitFor(() => expect(runner.store.get().run).toBe("1"));
+    expect(runner.track).toBeNull();
+    expect(runner.active).toBe(true);
+    await runner.control({ command: "stop" });
+    expect(asked).toEqual([["1", { command: "stop" }]]);
+  });
+  it("follows a run that another page starts, if it follows none", async () => {
+    const { runner, tell } = served();
+    tell("run", { state: "building" });
+    await vi.waitFor(() => expect(runner.store.get().run).toBe("1"));
+    expect(runner.store.get().shown).toBe(true);
+  });
+  it("lists the runs of other pages, and stops them", async () => {
+    const { runner, info, runs, tell, asked } = await watching();
+    runs.push({ ...info, run: "2", kind: "run" });
+    tell("run", { run: "2", state: "building" });
+    await vi.waitFor(() => expect(runner.store.get().others.map(({ run }) => run)).toEqual(["2"]));
+    expect(runner.store.get().run).toBe("1");
+    await runner.stopOther("2");
+    expect(asked).toEqual([["2", { command: "stop" }]]);
+    // The end of its own run changes nothing for the other one.
+    info.state = "ended";
+    tell("run", { state: "ended", why: "", outcome: null, marking: [], firings: 9 });
+    tell("hello", {});
+    await vi.waitFor(() => expect(runner.store.get().state).toBe("ended"));
+    expect(runner.store.get().others.map(({ run }) => run)).toEqual(["2"]);
+    await runner.follow("2");
+    expect([runner.store.get().run, runner.store.get().others]).toEqual(["2", []]);
+  });
+  it("shows why a run is refused, and the run that is in its way", async () => {
+    const { runner, info, api } = served();
+    info.kind = "run";
+    api.start = async () => Promise.reject(new Error("run 1 goes on"));
+    await runner.start({ kind: "run" });
+    const { state, problem, others } = runner.store.get();
+    expect([state, problem, others.map(({ run }) => run)]).toEqual(["failed", "run 1 goes on", ["1"]]);
+  });
+  it("names breakpoints, and says which of them the net of the run does not have", async () => {
+    const { runner, asked } = await watching();
+    const path = "robot.control.t_in";
+    runner.toggleBreakpoint({ on: "transition", path });
+    runner.toggleBreakpoint({ on: "place", path: "robot.gone.in" });
+    await vi.waitFor(() => expect(runner.store.get().problem).toContain("robot.gone.in"));
+    expect(asked.at(-1)).toEqual(["1", { command: "breakpoints", breakpoints: [{ transition: named(path) }] }]);
   });
 });

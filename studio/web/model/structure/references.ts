@@ -30,12 +30,13 @@ const object = /(?<![\w./]|\d\s+)([A-Za-z_]\w*)(?:\[[^\]]*\])?(?![\w.([])/g;
 /** The same in a target of a driver, where only an index or a part of the object tells it from other names. */
 const target = /(?<![\w./])([A-Za-z_]\w*)(?=\[[^\]]*\]|\/)/g;
 
-export function references({ yaml, agents }: Structure): Reference[] {
+export function references(structure: Structure): Reference[] {
+  const { yaml, agents } = structure;
   const placed = new Set(yaml.keys(["simulation", "models"]).map(instanceName));
   return [
     ...inChannels(yaml),
     ...[["drivers"], ["simulation", "drivers"]].flatMap((at) => inKeys(yaml, at, "real")),
-    ...inProperties(yaml),
+    ...inProperties(yaml).map((one) => ({ ...one, kind: claimed(structure, one) })),
     ...inProcesses(yaml),
     ...inKeys(yaml, ["simulation", "models"], "real"),
     ...inWorld(yaml).filter(({ agent }) => placed.has(agent)),
@@ -53,6 +54,14 @@ export function referencesInto(structure: Structure, { yaml }: Subsystem): Refer
     const subsystem = one.kind === "subsystem" ? undefined : subsystemOf(structure, one);
     return subsystem !== undefined && structure.yaml.resolved(subsystem.yaml) === own;
   });
+}
+
+/** A formula names behaviours, and buffers that have no behaviour of their name: `robot.control.line.full`. */
+function claimed(structure: Structure, reference: Reference): Reference["kind"] {
+  const { kind, name } = reference;
+  const subsystem = kind === "behaviour" ? subsystemOf(structure, reference) : undefined;
+  if (!subsystem || subsystem.behaviours.some((one) => one.name === name)) return kind;
+  return subsystem.buffers.find((one) => one.direction !== "real" && one.name === name)?.direction ?? kind;
 }
 
 const subsystemOf = ({ agents }: Structure, { agent, subsystem }: Reference): Subsystem | undefined =>

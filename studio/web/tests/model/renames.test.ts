@@ -127,6 +127,17 @@ properties:
   });
 });
 
+it("a buffer may be named in a property, if no behaviour has its name", () => {
+  const text = `agents: { a: { control: { inputs: { x: bool, y: bool }, behaviours: { x: {} } } } }
+properties: [{ reachable: a.control.x.rcv and a.control.y.full }]
+`;
+  const now = readStructure(text);
+  const renamed = (path: string) =>
+    renames.renameBuffer(now, subsystem(now, "a.control"), buffer(now, path), "new").split("reachable: ")[1];
+  expect(renamed("input:a.control.x")).toBe("a.control.x.rcv and a.control.y.full }]\n");
+  expect(renamed("input:a.control.y")).toBe("a.control.x.rcv and a.control.new.full }]\n");
+});
+
 describe("the name of an agent", () => {
   const text = `agents:
   arm: { control: { behaviours: { run: {} } } }

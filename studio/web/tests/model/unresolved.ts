@@ -87,7 +87,7 @@ export function namesOf(text: string): Names {
     for (const claim of formula.split(/=>|\band\b|\bor\b/)) {
       const [from, to] = claim.split("->").map((side) => words(side).filter((word) => !/^(not|any|all)$/.test(word)));
       if (to) [member(from![0]!, "outputs"), member(to[0]!, "inputs")];
-      else for (const path of from!) member(path, "behaviours");
+      else for (const path of from!) member(path, "behaviours", "inputs", "outputs");
     }
   }
   function deployed(processes: Data) {

@@ -25,7 +25,7 @@ export function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
   if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLButtonElement) return false;
   const direction = directions[event.key];
   if (direction) {
-    const on = selected === null ? current : net.find(selected)!.page;
+    const on = (selected === null ? undefined : net.find(selected)?.page) ?? current;
     const next = neighbour(net, sheets, on, selected, direction);
     if (next !== null) studio.select(next);
     return true;

@@ -136,9 +136,12 @@ function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): B
   ]);
 }
 
-/** The element, or the line of a channel, that a click selects. */
+/** The element, or the line of a channel, at a click. */
 const pathOf = (target: Element) =>
   target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
+
+/** What a click selects: a buffer has another name there than in paths. */
+const selectionOf = (target: Element) => target.closest("[data-path]")?.getAttribute("data-selection") ?? pathOf(target);
 
 /** The wires between virtual receptors and effectors and their devices. */
 function wiresOf({ structure, drawing }: Drawn): Edge[] {
@@ -203,7 +206,7 @@ function Drawing() {
   const dragged = useRef(false);
   // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
-  const click = (event: MouseEvent) => dragged.current || select(pathOf(event.target as Element));
+  const click = (event: MouseEvent) => dragged.current || select(selectionOf(event.target as Element));
   /** Flies to an agent, or to a subsystem in it. */
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);

@@ -121,7 +121,7 @@ function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: strin
   return (
     <div className={`port-list ${side}`}>
       {buffers.map((buffer, at) => (
-        <div key={buffer.path} className="port">
+        <div key={buffer.selection} className="port">
           <Handle
             id={buffer.path}
             type={side === "in" ? "target" : "source"}
@@ -129,14 +129,23 @@ function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: strin
             style={{ top: head + at * row + row / 2 }}
             data-handle={buffer.path}
           />
-          <button data-path={buffer.path} aria-pressed={selected === buffer.path} title={`${buffer.name}: ${buffer.type}`}>
-            {buffer.name}
-          </button>
+          <BufferButton of={buffer} selected={selected} />
         </div>
       ))}
     </div>
   );
 }
+
+const BufferButton = ({ of, selected }: { of: Buffer; selected: string | null }) => (
+  <button
+    data-path={of.path}
+    data-selection={of.selection}
+    aria-pressed={selected === of.selection}
+    title={`${of.name}: ${of.type}`}
+  >
+    {of.name}
+  </button>
+);
 
 export function DeviceNode({ data }: NodeProps) {
   const { subsystem, selected } = data as { subsystem: Subsystem; selected: string | null };
@@ -147,14 +156,7 @@ export function DeviceNode({ data }: NodeProps) {
       {subsystem.buffers
         .filter((buffer) => buffer.direction === "real")
         .map((buffer) => (
-          <button
-            key={buffer.path}
-            data-path={buffer.path}
-            aria-pressed={selected === buffer.path}
-            title={`${buffer.name}: ${buffer.type}`}
-          >
-            {buffer.name}
-          </button>
+          <BufferButton key={buffer.selection} of={buffer} selected={selected} />
         ))}
       <Handle
         id="device"

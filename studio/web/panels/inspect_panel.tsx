@@ -4,7 +4,7 @@ import { useComplaints, useStructure } from "../hooks/use_structure";
 import { sameBreakpoint, type NamedBreakpoint } from "../live/breakpoints";
 import { layerTitle, operationText } from "../model/net/labels";
 import type { Element, NetModel } from "../model/net/net";
-import { findThing, type Thing } from "../model/structure/structure";
+import { findThing, selectedPath, type Thing } from "../model/structure/structure";
 import { MemoryNow } from "./run/memory_now";
 
 const forms = () => import("./forms/every_form");
@@ -32,7 +32,7 @@ export function InspectPanel() {
   return (
     <div className="inspect">
       <h2>{title(thing, selected)}</h2>
-      <p className="path">{thing?.kind === "channel" ? "" : selected || "system"}</p>
+      <p className="path">{thing?.kind === "channel" ? "" : selectedPath(selected) || "system"}</p>
       {(thing ? (complaints.get(selected)?.messages ?? []) : []).map((text) => (
         <p key={text} className="problem-hint">
           {text}
@@ -62,7 +62,7 @@ export function InspectPanel() {
             Show its net
           </button>
         )}
-        {view === "net" && thing && !selected.startsWith("template:") && (
+        {view === "net" && thing && !selectedPath(selected).startsWith("template:") && (
           <button className="link" onClick={() => studio.view.set({ view: "structure" })}>
             Show it in the structure
           </button>
@@ -75,7 +75,7 @@ export function InspectPanel() {
 /** The subsystem of the selected element, in the names of its memory: "robot[3].control". */
 function ownerOf(thing: Thing | undefined, selected: string): string {
   if (thing?.kind === "agent" || thing?.kind === "template" || thing?.kind === "channel") return "";
-  return selected.split(".").slice(0, 2).join(".");
+  return selectedPath(selected).split(".").slice(0, 2).join(".");
 }
 
 /** The breakpoints of a run in simulated time. */

@@ -9,12 +9,16 @@ import type { Structure } from "../model/structure/structure";
 interface Found {
   path: string;
   kind: string;
+  /** Of a buffer, if it is selected. */
+  selection?: string;
 }
 
 /** Buffers have no page of the net: they are shown in the structure. */
 const buffer = "buffer";
 const buffersOf = (structure: Structure): Found[] =>
-  structure.agents.flatMap((agent) => agent.subsystems.flatMap((one) => one.buffers.map(({ path }) => ({ path, kind: buffer }))));
+  structure.agents.flatMap((agent) =>
+    agent.subsystems.flatMap((one) => one.buffers.map(({ path, selection }) => ({ path, kind: buffer, selection }))),
+  );
 
 /** A net with more agents than this is searched by agents first. */
 const manyAgents = 1000;
@@ -58,9 +62,9 @@ export function Search() {
   const close = () => studio.view.set({ searching: false });
   useEffect(() => void dialog.current?.showModal(), []);
   const take = (one: Found | undefined) => {
-    if (one?.kind === buffer) {
+    if (one?.selection) {
       studio.view.set({ view: "structure" });
-      studio.choose(one.path, structure);
+      studio.choose(one.selection, structure);
     } else if (one) studio.flyTo(one.path);
     close();
   };
@@ -98,7 +102,7 @@ export function Search() {
       <ul id="search-results" role="listbox" aria-label="Elements">
         {found.map((one, at) => (
           <li
-            key={`${one.kind}:${one.path}`}
+            key={one.selection ?? `${one.kind}:${one.path}`}
             id={`found-${at}`}
             role="option"
             aria-selected={at === chosen}

@@ -1,4 +1,4 @@
-import { isMap, isScalar, isSeq } from "yaml";
+import { isScalar } from "yaml";
 import { YamlText, type YamlPath } from "../text/yaml_text";
 
 /**
@@ -7,10 +7,13 @@ import { YamlText, type YamlPath } from "../text/yaml_text";
  * too. The parser of the server decides on errors.
  */
 
+export type Direction = "input" | "output" | "real";
 export interface Buffer {
   name: string;
   path: string;
-  direction: "input" | "output" | "real";
+  /** The path that selects it: a behaviour and other buffers of the subsystem may have its name. */
+  selection: string;
+  direction: Direction;
   type: string;
   yaml: YamlPath;
   line: number;
@@ -89,6 +92,11 @@ export const templatePath = (name: string) => `template:${name}`;
 
 export const channelPath = (index: number) => `channel:${index}`;
 
+export const bufferSelection = (direction: Direction, path: string) => `${direction}:${path}`;
+
+/** The path in the drawing of what is selected: that of a buffer without its direction. */
+export const selectedPath = (selection: string) => selection.replace(/^(input|output|real):/, "");
+
 export function readStructure(text: string): Structure {
   const yaml = new YamlText(text);
   return {
@@ -148,6 +156,7 @@ function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: Y
       return {
         name: own,
         path: `${path}.${own}`,
+        selection: bufferSelection(direction, `${path}.${own}`),
         direction,
         type: yaml.valueText(where) ?? "",
         yaml: where,
@@ -181,19 +190,22 @@ function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behavio
     line: yaml.line(at),
     terminal: field("terminal"),
     error: field("error"),
-    next: readNext(yaml, [...at, "next"]),
+    next: nextPaths(yaml, at).map((entry) => readNext(yaml, entry)),
   };
 }
 
-function readNext(yaml: YamlText, at: YamlPath): { to: string; when: string }[] {
+/** The entries of `next` in the file: it is one entry, or a list of them. */
+export function nextPaths(yaml: YamlText, behaviour: YamlPath): YamlPath[] {
+  const at = [...behaviour, "next"];
   const node = yaml.node(at);
-  if (isScalar(node)) return [{ to: String(node.value ?? ""), when: "" }];
-  if (!isSeq(node)) return [];
-  return node.items.map((item, index) =>
-    isMap(item)
-      ? { to: yaml.valueText([...at, index, "to"]) ?? "", when: yaml.valueText([...at, index, "when"]) ?? "" }
-      : { to: yaml.valueText([...at, index]) ?? "", when: "" },
-  );
+  if (!node || (isScalar(node) && node.value === null)) return [];
+  return yaml.seq(at)?.items.map((_, index) => [...at, index]) ?? [at];
+}
+
+/** An entry is a name, or a map. */
+function readNext(yaml: YamlText, at: YamlPath): { to: string; when: string } {
+  const field = (path: YamlPath) => yaml.valueText(path) ?? "";
+  return yaml.map(at) ? { to: field([...at, "to"]), when: field([...at, "when"]) } : { to: field(at), when: "" };
 }
 
 function readChannel(yaml: YamlText, index: number): Channel {
@@ -220,9 +232,12 @@ function readChannel(yaml: YamlText, index: number): Channel {
 
 /**
  * The element that a path names: `robot`, `robot.control`, `robot.control.follow`,
- * `robot.control.line`, `channel:2`, `template:rover.control`.
+ * `channel:2`, `template:rover.control`, `input:robot.control.line`. A buffer is also found without its direction, if no
+ * behaviour has its name.
  */
-export function findThing(structure: Structure, path: string): Thing | undefined {
+export function findThing(structure: Structure, selection: string): Thing | undefined {
+  const path = selectedPath(selection);
+  const direction = path === selection ? "" : selection.split(":")[0]!;
   if (path.startsWith("channel:")) {
     const of = structure.channels[Number(path.slice(8))];
     return of && { kind: "channel", of };
@@ -236,9 +251,9 @@ export function findThing(structure: Structure, path: string): Thing | undefined
   const subsystem = agent.subsystems.find((one) => one.name === rest[0]);
   if (!subsystem) return undefined;
   if (rest.length === 1) return { kind: "subsystem", of: subsystem, agent };
-  const behaviour = subsystem.behaviours.find((one) => one.name === rest[1]);
+  const behaviour = direction ? undefined : subsystem.behaviours.find((one) => one.name === rest[1]);
   if (behaviour) return { kind: "behaviour", of: behaviour, subsystem };
-  const buffer = subsystem.buffers.find((one) => one.name === rest[1]);
+  const buffer = subsystem.buffers.find((one) => one.name === rest[1] && (!direction || one.direction === direction));
   return buffer && { kind: "buffer", of: buffer, subsystem };
 }
 

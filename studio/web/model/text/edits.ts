@@ -1,8 +1,5 @@
-import type { Node } from "yaml";
-import { isMap, isPair, isScalar, visit } from "yaml";
+import { references, referencesInto, referencesTo, type Reference } from "../structure/references";
 import {
-  readStructure,
-  withoutIndex,
   type Agent,
   type Behaviour,
   type Buffer,
@@ -11,11 +8,12 @@ import {
   type Subsystem,
   type SubsystemKind,
 } from "../structure/structure";
-import { apply, scalarText, type TextEdit, type YamlPath } from "./yaml_text";
+import { nextToRemove } from "./next_edits";
+import { apply, scalarText, type TextEdit, type YamlPath, type YamlText } from "./yaml_text";
 
 /**
  * Changes of a specification. Each function takes the structure of a text and returns
- * the text after the change.
+ * the text after the change. New names are in renames.ts.
  */
 
 const done = (structure: Structure, edits: readonly TextEdit[]) => apply(structure.yaml.text, edits);
@@ -101,142 +99,17 @@ export function setChannel(structure: Structure, channel: Channel, change: Parti
 export function setModel(structure: Structure, channel: Channel, model: string): string {
   const { yaml } = structure;
   const at = ["channels", channel.index];
-  if (!model) return done(structure, yaml.remove([...at, "model"]));
-  if (channel.model) return done(structure, yaml.set(at, "model", model));
-  const { from, to, timeout } = channel;
-  const kept = yaml.keys(at).filter((key) => !["from", "to", "send", "receive", "timeout"].includes(key));
-  const parts = [
-    ["from", from],
-    ["to", to],
-    ["model", model],
-    ...(timeout ? [["timeout", timeout]] : []),
-    ...kept.map((key) => [key, yaml.valueText([...at, key]) ?? ""]),
-  ].map(([key, value]) => `${key}: ${scalarText(value!)}`);
-  return done(structure, yaml.replace(at, `{ ${parts.join(", ")} }`));
+  if (!yaml.map(at)) return model ? done(structure, yaml.replace(at, channelWithModel(channel, model))) : yaml.text;
+  // A model says itself how the ends wait.
+  const rest = model ? yaml.without(at, ["send", "receive"]) : yaml;
+  return apply(rest.text, rest.set(at, "model", model));
 }
 
-/** Sets the entries of `next` in order. A single unconditional entry is written in short form. */
-export function setNext(structure: Structure, behaviour: Behaviour, next: readonly { to: string; when: string }[]): string {
-  const one = (entry: { to: string; when: string }) =>
-    entry.when ? `{ to: ${entry.to}, when: ${scalarText(entry.when)} }` : entry.to;
-  const [first] = next;
-  const text = next.length === 0 ? "" : next.length === 1 && first && !first.when ? first.to : `[${next.map(one).join(", ")}]`;
-  return setField(structure, behaviour.yaml, "next", text);
-}
-
-// ------------------------------------------------------------------------------------------------ rename
-
-const escaped = (name: string) => name.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
-const index = String.raw`(?:\[[^\]]*\])?`;
-
-/** Scalars that name things by path: ends of channels, drivers, properties. */
-function pathScalars(structure: Structure): Node[] {
-  const found: Node[] = [];
-  const { yaml } = structure;
-  for (const at of [["channels"], ["drivers"], ["simulation", "drivers"], ["properties"]]) {
-    const node = yaml.node(at);
-    if (node) visit(node, { Scalar: (_, scalar) => void found.push(scalar) });
-  }
-  return found;
-}
-
-function renamePaths(structure: Structure, pattern: RegExp, by: string): TextEdit[] {
-  return pathScalars(structure).flatMap((scalar) => structure.yaml.replaceWithin(scalar, pattern, by));
-}
-
-export function renameAgent(structure: Structure, agent: Agent, name: string): string {
-  const pattern = new RegExp(`(?<![\\w.])${escaped(agent.name)}(?=${index}\\.)`, "g");
-  return done(structure, [...structure.yaml.renameKey(agent.yaml, name), ...renamePaths(structure, pattern, name)]);
-}
-
-/** The text of all agents that share that part of the file. */
-function sharing(structure: Structure, body: YamlPath): string {
-  const names = structure.agents.filter((agent) => agent.body.join("/") === body.join("/")).map((agent) => escaped(agent.name));
-  return names.length > 0 ? `(?:${names.join("|")})` : "(?!)";
-}
-
-const bodyOf = (subsystem: Subsystem): YamlPath => subsystem.yaml.slice(0, 2);
-
-export function renameSubsystem(structure: Structure, subsystem: Subsystem, name: string): string {
-  const pattern = new RegExp(
-    `(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index})\\.${escaped(subsystem.name)}(?![\\w])`,
-    "g",
-  );
-  return done(structure, [...structure.yaml.renameKey(subsystem.yaml, name), ...renamePaths(structure, pattern, `$1.${name}`)]);
-}
-
-/** Paths that continue after the subsystem: its behaviours and buffers. */
-const memberPattern = (structure: Structure, subsystem: Subsystem, member: string) =>
-  new RegExp(
-    `(?<![\\w.])(${sharing(structure, bodyOf(subsystem))}${index}\\.${escaped(subsystem.name)})\\.${escaped(member)}(?![\\w])`,
-    "g",
-  );
-
-export function renameBehaviour(structure: Structure, subsystem: Subsystem, behaviour: Behaviour, name: string): string {
-  const { yaml } = structure;
-  const whole = new RegExp(`^(["']?)${escaped(behaviour.name)}\\1$`);
-  const references = [
-    yaml.node([...subsystem.yaml, "start"]),
-    ...subsystem.behaviours.flatMap((other) => nextTargets(structure, other)),
-  ];
-  return done(structure, [
-    ...yaml.renameKey(behaviour.yaml, name),
-    ...references.flatMap((node) => yaml.replaceWithin(node, whole, `$1${name}$1`)),
-    ...renamePaths(structure, memberPattern(structure, subsystem, behaviour.name), `$1.${name}`),
-  ]);
-}
-
-function nextTargets(structure: Structure, behaviour: Behaviour): (Node | undefined)[] {
-  const { yaml } = structure;
-  const at = [...behaviour.yaml, "next"];
-  const node = yaml.node(at);
-  if (isScalar(node)) return [node];
-  return (yaml.seq(at)?.items ?? []).map((item, number) => (isMap(item) ? yaml.node([...at, number, "to"]) : item));
-}
-
-/** Everything below `agents`, `templates` and `types` that may name a type: a whole word of a scalar. */
-export function renameType(text: string, from: string, to: string): string {
-  const structure = readStructure(text);
-  const { yaml } = structure;
-  const word = new RegExp(`(?<![\\w.])${escaped(from)}(?![\\w])`, "g");
-  const edits = yaml.renameKey(["types", from], to);
-  const inside = (at: YamlPath) => {
-    const node = yaml.node(at);
-    if (node)
-      visit(node, { Scalar: (key, scalar) => void (key === "key" || edits.push(...yaml.replaceWithin(scalar, word, to))) });
-  };
-  inside(["types"]);
-  for (const agent of [
-    ...structure.agents.map(({ body }) => body),
-    ...yaml.keys(["templates"]).map((name) => ["templates", name]),
-  ])
-    for (const at of subsystemPaths(yaml, agent)) for (const key of ["inputs", "outputs", "real", "memory"]) inside([...at, key]);
-  return apply(text, distinct(edits));
-}
-
-/** Renames a parameter of the system, also in conditions. C++ that uses it is not changed. */
-export function renameParameter(text: string, from: string, to: string): string {
-  const { yaml } = readStructure(text);
-  const word = new RegExp(`\\bparameters\\.${escaped(from)}\\b`, "g");
-  const edits = yaml.renameKey(["parameters", from], to);
-  for (const part of ["agents", "templates"]) {
-    const node = yaml.node([part]);
-    if (node) visit(node, { Scalar: (_, scalar) => void edits.push(...yaml.replaceWithin(scalar, word, `parameters.${to}`)) });
-  }
-  return apply(text, distinct(edits));
-}
-
-const subsystemPaths = (yaml: Structure["yaml"], agent: YamlPath): YamlPath[] => [
-  [...agent, "control"],
-  ...["receptors", "effectors"].flatMap((kind) => yaml.keys([...agent, kind]).map((name) => [...agent, kind, name])),
-];
-
-/** Parts of templates are found once for each agent that uses them. */
-const distinct = (edits: readonly TextEdit[]) =>
-  edits.filter(({ from }, at) => edits.findIndex((one) => one.from === from) === at);
+const channelWithModel = ({ from, to }: Channel, model: string) =>
+  `{ ${[`from: ${scalarText(from)}`, `to: ${scalarText(to)}`, `model: ${scalarText(model)}`].join(", ")} }`;
 
 /** The safe command and the limits of a real buffer. */
-function deviceEntries({ yaml }: Structure, subsystem: Subsystem, { direction, name }: Buffer): YamlPath[] {
+export function deviceEntries({ yaml }: Structure, subsystem: Subsystem, { direction, name }: Buffer): YamlPath[] {
   if (direction !== "real") return [];
   return ["safe", "limits"].flatMap((part) =>
     yaml
@@ -246,62 +119,28 @@ function deviceEntries({ yaml }: Structure, subsystem: Subsystem, { direction, n
   );
 }
 
-/** Renames a template or a communication model, and the name where it is used. */
-export function renameUsed(text: string, part: "templates" | "models", from: string, to: string): string {
-  const structure = readStructure(text);
-  const { yaml } = structure;
-  const used =
-    part === "models"
-      ? structure.channels.map(({ index }) => ["channels", index, "model"])
-      : ["agents", "templates"].flatMap((at) => yaml.keys([at]).map((name) => [at, name, "use"]));
-  const whole = new RegExp(`^(["']?)${escaped(from)}\\1$`);
-  return apply(text, [
-    ...yaml.renameKey([part, from], to),
-    ...used.flatMap((at) => yaml.replaceWithin(yaml.node(at), whole, `$1${to}$1`)),
-  ]);
-}
-
-export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer: Buffer, name: string): string {
-  const { yaml } = structure;
-  const side = buffer.direction === "input" ? "in" : "out";
-  const listed = buffer.direction === "input" ? "receive" : "send";
-  const used = new RegExp(`\\b${side}\\.${escaped(buffer.name)}\\b`, "g");
-  const whole = new RegExp(`^(["']?)${escaped(buffer.name)}\\1$`);
-  const edits = [
-    ...yaml.renameKey(buffer.yaml, name),
-    ...renamePaths(structure, memberPattern(structure, subsystem, buffer.name), `$1.${name}`),
-  ];
-  for (const at of deviceEntries(structure, subsystem, buffer))
-    edits.push(...yaml.renameKey(at, name + String(at.at(-1)).slice(buffer.name.length)));
-  for (const behaviour of subsystem.behaviours)
-    visit(yaml.node(behaviour.yaml) ?? null, {
-      Scalar: (key, scalar, ancestors) => {
-        if (key === "key") return;
-        const list = ancestors.some((one) => isPair(one) && isScalar(one.key) && one.key.value === listed);
-        edits.push(...yaml.replaceWithin(scalar, list ? whole : used, list ? `$1${name}$1` : `${side}.${name}`));
-      },
-    });
-  return done(structure, edits);
-}
-
 // ------------------------------------------------------------------------------------------------ remove
 
-const touches = (end: string, path: string) => withoutIndex(end) === path || withoutIndex(end).startsWith(`${path}.`);
+/** The parts of the file that cannot be without the elements that they name. Properties and checks stay, for the user to judge. */
+function dependents({ yaml }: Structure, needed: readonly Reference[]): YamlPath[] {
+  const paths = [...new Map(needed.map(({ at }) => [JSON.stringify(at), at])).values()];
+  const isIn = (...section: string[]) => paths.filter((at) => section.every((key, index) => at[index] === key));
+  return [
+    ...[isIn("channels"), isIn("drivers"), isIn("simulation", "drivers"), isIn("simulation", "models")].flat(),
+    ...processesWithout(yaml, isIn("deploy")),
+  ];
+}
 
-/** Channels, drivers and properties that need the elements at the paths. */
-function dependents(structure: Structure, paths: readonly string[]): YamlPath[] {
-  const hit = (end: string) => paths.some((path) => touches(end, path));
-  const { yaml } = structure;
-  const channels = structure.channels
-    .filter((one) => hit(one.from) || hit(one.to))
-    .map((one): YamlPath => ["channels", one.index]);
-  const drivers = [["drivers"], ["simulation", "drivers"]].flatMap((at) =>
-    yaml
-      .keys(at)
-      .filter(hit)
-      .map((key): YamlPath => [...at, key]),
-  );
-  return [...channels, ...drivers];
+/** A process without agents goes, and so does a deployment without processes. */
+function processesWithout(yaml: YamlText, agents: readonly YamlPath[]): YamlPath[] {
+  const all = yaml.keys(["deploy", "processes"]);
+  const removed = all.flatMap((name): YamlPath[] => {
+    const process = ["deploy", "processes", name];
+    const mine = agents.filter((at) => at[2] === name);
+    const list = yaml.seq(yaml.map(process) ? [...process, "agents"] : process);
+    return mine.length > 0 && mine.length === (list?.items.length ?? 1) ? [process] : mine;
+  });
+  return all.length > 0 && removed.filter((at) => at.length === 3).length === all.length ? [["deploy"]] : removed;
 }
 
 /**
@@ -315,16 +154,12 @@ function removeAll(structure: Structure, paths: readonly YamlPath[], reread: (te
 }
 
 export function removeAgent(structure: Structure, agent: Agent, reread: (text: string) => Structure): string {
-  return removeAll(structure, [agent.yaml, ...dependents(structure, [agent.name])], reread);
+  const needed = references(structure).filter((one) => one.agent === agent.name);
+  return removeAll(structure, [agent.yaml, ...dependents(structure, needed)], reread);
 }
 
-const everywhere = (structure: Structure, subsystem: Subsystem, rest: string) =>
-  structure.agents
-    .filter((agent) => agent.body.join("/") === bodyOf(subsystem).join("/"))
-    .map((agent) => `${agent.name}.${subsystem.name}${rest}`);
-
 export function removeSubsystem(structure: Structure, subsystem: Subsystem, reread: (text: string) => Structure): string {
-  return removeAll(structure, [subsystem.yaml, ...dependents(structure, everywhere(structure, subsystem, ""))], reread);
+  return removeAll(structure, [subsystem.yaml, ...dependents(structure, referencesTo(structure, subsystem))], reread);
 }
 
 export function removeBuffer(
@@ -333,13 +168,12 @@ export function removeBuffer(
   buffer: Buffer,
   reread: (text: string) => Structure,
 ): string {
+  const needed = referencesInto(structure, subsystem).filter(
+    ({ kind, name }) => kind === buffer.direction && name === buffer.name,
+  );
   return removeAll(
     structure,
-    [
-      buffer.yaml,
-      ...deviceEntries(structure, subsystem, buffer),
-      ...dependents(structure, everywhere(structure, subsystem, `.${buffer.name}`)),
-    ],
+    [buffer.yaml, ...deviceEntries(structure, subsystem, buffer), ...dependents(structure, needed)],
     reread,
   );
 }
@@ -355,10 +189,8 @@ export function removeBehaviour(
   if (subsystem.start === behaviour.name) paths.push([...subsystem.yaml, "start"]);
   for (const other of subsystem.behaviours) {
     if (other === behaviour) continue;
-    const list = structure.yaml.seq([...other.yaml, "next"]) !== undefined;
     const hits = other.next.flatMap((entry, at) => (entry.to === behaviour.name ? [at] : []));
-    if (hits.length === other.next.length && hits.length > 0) paths.push([...other.yaml, "next"]);
-    else if (list) paths.push(...hits.map((at): YamlPath => [...other.yaml, "next", at]));
+    paths.push(...nextToRemove(structure, other, hits));
   }
   return removeAll(structure, paths, reread);
 }

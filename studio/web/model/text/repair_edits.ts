@@ -1,6 +1,7 @@
-import { removeBehaviour, setChannel, setField, setNext } from "./edits";
+import { removeBehaviour, setChannel, setField } from "./edits";
 import type { Cause } from "../causes";
 import { findThing, readStructure, withoutIndex, type Channel, type Structure } from "../structure/structure";
+import { addNext } from "./next_edits";
 
 /** An edit that may mend a cause. The verification decides whether it does. */
 export interface Candidate {
@@ -82,7 +83,7 @@ function followers(structure: Structure, path: string, name: string): Candidate[
   return [...new Set([start, of.name])].map((to) => ({
     title: to === name ? `Otherwise, repeat ${name}` : `Otherwise, go on to ${to}`,
     meaning: `After ${name}, if no other condition holds, ${to} follows in ${withoutIndex(path)}.`,
-    text: setNext(structure, of, [...of.next, { to, when: "" }]),
+    text: addNext(structure, of, { to, when: "" }),
   }));
 }
 

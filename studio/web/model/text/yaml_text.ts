@@ -1,4 +1,5 @@
 import {
+  isAlias,
   isCollection,
   isMap,
   isPair,
@@ -60,6 +61,12 @@ export class YamlText {
   node(path: YamlPath): Node | undefined {
     const found = path.length === 0 ? this.document.contents : this.document.getIn(path as (string | number)[], true);
     return (found as Node | null | undefined) ?? undefined;
+  }
+
+  /** The same, but for an alias the node that it stands for. */
+  resolved(path: YamlPath): Node | undefined {
+    const node = this.node(path);
+    return isAlias(node) ? node.resolve(this.document) : node;
   }
 
   map(path: YamlPath): YAMLMap<Node, Node | null> | undefined {
@@ -205,6 +212,17 @@ export class YamlText {
     return [{ from, to: this.endOfNode(node), insert: gap + text }];
   }
 
+  /** Makes the value at a path the only item of a list. */
+  makeList(path: YamlPath): TextEdit[] {
+    const node = this.node(path);
+    if (!node?.range) return [];
+    const [from, to] = [node.range[0], this.endOfNode(node)];
+    const old = this.text.slice(from, to);
+    // The lines of a map go behind the dash.
+    const isBlock = isMap(node) && !node.flow;
+    return [{ from, to, insert: isBlock ? `- ${old.replace(/\n(?=[^\n])/g, "\n  ")}` : `[${old}]` }];
+  }
+
   renameKey(path: YamlPath, name: string): TextEdit[] {
     const range = this.pair(path)?.key.range;
     return range ? [{ from: range[0], to: range[1], insert: name }] : [];
@@ -220,7 +238,7 @@ export class YamlText {
     const item = items[at];
     if (!item) return [];
     if (items.length === 1 && !parent.flow) return path.length > 1 ? this.remove(path.slice(0, -1)) : [];
-    if (parent.flow) return [this.removeFromFlow(items, at, parent as Node)];
+    if (parent.flow) return [this.linesOfItem(items, at) ?? this.removeFromFlow(items, at, parent as Node)];
     const begins = (one: PairOf | Node) => (isMap(parent) ? startOf(one) : this.dashOf(parent as YAMLSeq<Node>, one as Node));
     const start = this.lineStart(begins(item));
     // The first entry of an item of a list stands behind the dash: the next one takes its place.
@@ -228,6 +246,17 @@ export class YamlText {
       return [{ from: begins(item), to: begins(items[at + 1]!), insert: "" }];
     const end = this.text.indexOf("\n", this.endOf(item));
     return [{ from: start, to: end < 0 ? this.text.length : end + 1, insert: "" }];
+  }
+
+  /** The lines of an item of a flow, if they have nothing but it and its comment. */
+  private linesOfItem(items: (PairOf | Node)[], at: number): TextEdit | undefined {
+    const item = items[at]!;
+    const [from, end] = [this.lineStart(startOf(item)), this.text.indexOf("\n", this.endOf(item))];
+    const isAlone =
+      end >= 0 &&
+      this.text.slice(from, startOf(item)).trim() === "" &&
+      /^\s*,?\s*(#.*)?$/.test(this.text.slice(this.endOf(item), end));
+    return isAlone && items.length > 1 ? { from, to: end + 1, insert: "" } : undefined;
   }
 
   private removeFromFlow(items: (PairOf | Node)[], at: number, parent: Node): TextEdit {

@@ -1,4 +1,6 @@
 import * as edits from "../../model/text/edits";
+import { addNext, changeNext, removeNext } from "../../model/text/next_edits";
+import { renameBehaviour } from "../../model/text/renames";
 import { readStructure, type Behaviour, type Structure, type Subsystem } from "../../model/structure/structure";
 import { CodeForm } from "./code_form";
 import { Choice, Field } from "./field";
@@ -23,7 +25,7 @@ export function BehaviourForm({
         value={behaviour.name}
         wrong={nameProblem(behaviour.name, namesIn(subsystem))}
         hint="Its C++ function has the same name"
-        onChange={(name) => edit(edits.renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
+        onChange={(name) => edit(renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
       />
       <Field
         label="Terminal condition"
@@ -65,9 +67,8 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
   const edit = useEdit();
   const { next } = behaviour;
   const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
-  const write = (changed: Behaviour["next"]) => edit(edits.setNext(structure, behaviour, changed));
-  const change = (at: number, part: Partial<Behaviour["next"][number]>) =>
-    write(next.map((entry, index) => (index === at ? { ...entry, ...part } : entry)));
+  const change = (at: number, part: Partial<Behaviour["next"][number]>) => edit(changeNext(structure, behaviour, at, part));
+  const other = targets.find((name) => name !== behaviour.name) ?? "end";
   return (
     <fieldset className="next">
       <legend>Then</legend>
@@ -78,7 +79,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
             label={`Then ${at + 1}: to`}
             value={entry.to}
             choices={targets}
-            onChange={(to) => (to ? change(at, { to }) : write(next.filter((_, index) => index !== at)))}
+            onChange={(to) => (to ? change(at, { to }) : edit(removeNext(structure, behaviour, at)))}
           />
           <Field
             label="when"
@@ -90,9 +91,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
           />
         </div>
       ))}
-      <button onClick={() => write([...next, { to: targets.find((name) => name !== behaviour.name) ?? "end", when: "" }])}>
-        Add what follows
-      </button>
+      <button onClick={() => edit(addNext(structure, behaviour, { to: other, when: "" }))}>Add what follows</button>
     </fieldset>
   );
 }

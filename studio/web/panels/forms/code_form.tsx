@@ -1,5 +1,6 @@
 import { useEffect, useId, useRef, type ReactNode } from "react";
 import { useStore, useStudio } from "../../hooks/use";
+import { useStructure } from "../../hooks/use_structure";
 import { edited, functionIn } from "../../live/code_draft";
 import type { FunctionShown } from "../../live/protocol";
 import { buildMessages, functionAt, type BuildMessage, type FunctionText } from "../../model/text/cpp_function";
@@ -30,7 +31,7 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
       <h3>C++</h3>
       {problem && <p className="problem-hint">{problem}</p>}
       {!known && <p className="faint">The function is shown once the specification has no errors.</p>}
-      {known?.state === "missing" && <Missing of={known} />}
+      {known?.state === "missing" && <Missing of={known} alone={!functions.some((one) => isBeside(one, known))} />}
       {known?.state === "unclear" && (
         <p className="faint">A macro or a template may define it in {known.file}. The linker will tell.</p>
       )}
@@ -46,11 +47,23 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
   );
 }
 
-function Missing({ of }: { of: FunctionShown }) {
+/** Another function of the same namespace, which exists. */
+const isBeside = (one: FunctionShown, { subsystem }: FunctionShown) =>
+  one.subsystem === subsystem && (one.state !== "missing" || one.leftovers.length > 0);
+
+/** alone: the namespace of the subsystem has no function at all, as after a new name of its agent. */
+function Missing({ of, alone }: { of: FunctionShown; alone: boolean }) {
   const studio = useStudio();
+  const system = useStructure().system;
   return (
     <>
       <p className="faint">There is no function {of.function} yet. Without it, the controller cannot be built.</p>
+      {alone && (
+        <p className="faint">
+          There is none in the namespace {[system, ...of.subsystem.split(".")].join("::")}. If you have renamed the agent,
+          template or subsystem, rename its namespace and headers in src/ and test/, too.
+        </p>
+      )}
       <div className="buttons">
         {of.leftovers.map((from) => (
           <button key={from} onClick={() => void studio.sources.rename(of, from)}>

@@ -1,5 +1,7 @@
 import * as edits from "../../model/text/edits";
+import * as renames from "../../model/text/renames";
 import {
+  bufferSelection,
   readStructure,
   type Agent,
   type Buffer,
@@ -13,7 +15,7 @@ import { limitNames, titled } from "../../model/structure/inside_types";
 import { BehaviourForm } from "./behaviour_form";
 import { ChannelForm } from "./channel_form";
 import { Choice, Field } from "./field";
-import { nameProblem, namesIn, Remove, SharedNote, useEdit } from "./form_parts";
+import { namespaceHint, nameProblem, namesIn, Remove, SharedNote, useEdit } from "./form_parts";
 import { ConnectForm } from "./connect_form";
 import { limitHelp, limitsHelp, safeHelp } from "./form_help";
 import { ObjectFields } from "./object_fields";
@@ -56,7 +58,8 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
           agent.name,
           structure.agents.map((one) => one.name),
         )}
-        onChange={(name) => edit(edits.renameAgent(structure, agent, name), name)}
+        hint={agent.template ? "" : namespaceHint}
+        onChange={(name) => edit(renames.renameAgent(structure, agent, name), name)}
       />
       <Field
         label="How many"
@@ -106,7 +109,8 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
   const taken = [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
   const addBuffer = (direction: Buffer["direction"], wish: string) => {
     const name = edits.freeName(wish, taken);
-    edit(edits.addBuffer(structure, subsystem, direction, name, structure.types[0] ?? "float64"), `${subsystem.path}.${name}`);
+    const text = edits.addBuffer(structure, subsystem, direction, name, structure.types[0] ?? "float64");
+    edit(text, bufferSelection(direction, `${subsystem.path}.${name}`));
   };
   const addBehaviour = () => {
     const name = edits.freeName("act", taken);
@@ -122,7 +126,8 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
             subsystem.name,
             agent.subsystems.map((one) => one.name),
           )}
-          onChange={(name) => edit(edits.renameSubsystem(structure, subsystem, name), `${agent.name}.${name}`)}
+          hint={namespaceHint}
+          onChange={(name) => edit(renames.renameSubsystem(structure, subsystem, name), `${agent.name}.${name}`)}
         />
       )}
       <SharedNote structure={structure} agent={agent} />
@@ -164,6 +169,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         title="Memory"
         one="memory"
         fresh={{ name: "count", value: "int32" }}
+        renamed={(_, from, to) => renames.renameCell(structure, subsystem, "memory", from, to)}
         hint="Values that stay from one round to the next"
         fields={(name) => <MemoryFields structure={structure} at={[...subsystem.yaml, "memory", name]} />}
       />
@@ -173,6 +179,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         title="Parameters"
         one="parameter"
         fresh={{ name: "limit", value: "1.0" }}
+        renamed={(_, from, to) => renames.renameCell(structure, subsystem, "parameters", from, to)}
         fields={(name) => <ParameterFields structure={structure} at={[...subsystem.yaml, "parameters", name]} />}
       />
       {subsystem.kind === "effector" && subsystem.buffers.some(({ direction }) => direction === "real") && (
@@ -233,11 +240,16 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
         label="Name"
         value={buffer.name}
         wrong={nameProblem(buffer.name, namesIn(subsystem))}
-        onChange={(name) => edit(edits.renameBuffer(structure, subsystem, buffer, name), `${subsystem.path}.${name}`)}
+        onChange={(name) =>
+          edit(
+            renames.renameBuffer(structure, subsystem, buffer, name),
+            bufferSelection(buffer.direction, `${subsystem.path}.${name}`),
+          )
+        }
       />
       <TypeInputs structure={structure} value={buffer.type} onChange={(type) => edit(edits.setType(structure, buffer, type))} />
       <LimitsForm structure={structure} subsystem={subsystem} buffer={buffer} />
-      <ConnectForm key={buffer.path} structure={structure} buffer={buffer} />
+      <ConnectForm key={buffer.selection} structure={structure} buffer={buffer} />
       <div className="buttons">
         <Remove
           what="buffer"

@@ -1,6 +1,6 @@
 import { limitNames } from "../../model/structure/inside_types";
 import type { Structure, Subsystem } from "../../model/structure/structure";
-import { renameUsed } from "../../model/text/edits";
+import { renamePlaced, renameUsed } from "../../model/text/renames";
 import { scalarText } from "../../model/text/yaml_text";
 import type { HelpByKey } from "./object_fields";
 import type { Targets } from "./targets";
@@ -113,6 +113,7 @@ export function worldHelp({ yaml }: Structure, targets: Targets): HelpByKey {
         .map((name) => (yaml.pair(["agents", name, "count"]) ? `${name}[*]` : name))
         .filter((name) => !placed.includes(name)),
       fresh: { name: "thing", value: "{ model: thing.xml, at: [0, 0] }" },
+      renamed: renamePlaced,
     },
     vary: { one: "range", fresh: { name: "body.mass", value: "[1, 2]" } },
     grid: { fresh: { value: "{ columns: 2, spacing: 1 m }" } },

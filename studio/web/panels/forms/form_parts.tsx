@@ -15,6 +15,9 @@ export const nameProblem =
         ? `The name ${text} is taken here`
         : undefined;
 
+/** Of an agent or template with subsystems of its own, or of a subsystem. */
+export const namespaceHint = "Its C++ namespace and headers have the same name: rename them there too";
+
 export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
 
 /** Puts a changed text into the draft and selects the changed element. */

@@ -1,5 +1,6 @@
 import { useStudio } from "../../hooks/use";
-import { renameParameter, renameType, setField } from "../../model/text/edits";
+import { setField } from "../../model/text/edits";
+import { renameParameter, renameType } from "../../model/text/renames";
 import type { Structure } from "../../model/structure/structure";
 import { Field } from "./field";
 import { DriversForm } from "./driver_fields";

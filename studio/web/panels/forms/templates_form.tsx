@@ -8,9 +8,10 @@ import {
   type Subsystem,
 } from "../../model/structure/structure";
 import * as edits from "../../model/text/edits";
+import { renameUsed } from "../../model/text/renames";
 import { apply } from "../../model/text/yaml_text";
 import { Field } from "./field";
-import { nameProblem, SharedNote, useEdit } from "./form_parts";
+import { namespaceHint, nameProblem, SharedNote, useEdit } from "./form_parts";
 import { OwnProblem } from "./use_problems";
 
 const fresh = { control: { rate: "10 Hz", behaviours: { run: "{}" } } };
@@ -94,7 +95,8 @@ export function TemplateForm({ structure, template }: { structure: Structure; te
         label="Name"
         value={name}
         wrong={nameProblem(name, yaml.keys(["templates"]))}
-        onChange={(to) => edit(edits.renameUsed(yaml.text, "templates", name, to), templatePath(to))}
+        hint={template.template ? "" : namespaceHint}
+        onChange={(to) => edit(renameUsed(yaml.text, "templates", name, to), templatePath(to))}
       />
       {template.template && (
         <Field

@@ -41,6 +41,37 @@ test("renaming an agent changes its name everywhere and nothing else", () =>
     assert.equal((await draftText(page)).replaceAll("rover", "robot"), server.text());
   }));
 
+test("a behaviour and an output of one name have forms and names of their own", () =>
+  onPage(example("07_fleet"), async (page, server) => {
+    const before = server.text();
+    const name = page.getByRole("textbox", { name: "Name" });
+    await tab(page, "Structure").click();
+    await page.locator('[data-selection="output:supervisor.control.call"]').click({ force: true });
+    await page.getByText("output buffer").waitFor();
+    await name.fill("summon");
+    await page.keyboard.press("Enter");
+    await page.getByRole("heading", { name: "Buffer summon" }).waitFor();
+    assert.deepEqual(
+      changes(before, await draftText(page)).filter((line) => line.startsWith("+")),
+      [
+        "+      outputs: { summon: uint32, count: Count }",
+        "+          send:     [summon, count]",
+        "+  - supervisor.control.summon -> robot[*].control.call                                          # they look at it",
+      ],
+    );
+    await button(page, "Undo").click();
+    await page.locator('.chip[data-path="supervisor.control.call"]').click({ force: true });
+    await page.getByRole("heading", { name: "Behaviour call" }).waitFor();
+    await name.fill("roll_call");
+    await page.keyboard.press("Enter");
+    await page.getByRole("heading", { name: "Behaviour roll_call" }).waitFor();
+    const renamed = changes(before, await draftText(page)).filter((line) => line.startsWith("+"));
+    assert.deepEqual(
+      renamed.map((line) => line.split("#")[0].trimEnd()),
+      ["+          next:     [{ to: rest, when: error }, roll_call]", "+        roll_call:"],
+    );
+  }));
+
 test("a channel is dragged from an output to an input, and its modes are chosen", () =>
   onPage(lineFollower, async (page, server) => {
     const before = server.text();

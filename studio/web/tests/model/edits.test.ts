@@ -1,24 +1,16 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import * as edits from "../../model/text/edits";
-import { diff } from "../../model/text/merge";
-import { findThing, readStructure, thingAt, type Structure, type Subsystem } from "../../model/structure/structure";
+import { findThing, readStructure, thingAt, type Buffer, type Structure, type Subsystem } from "../../model/structure/structure";
 import { scalarText } from "../../model/text/yaml_text";
+import { changes } from "./changes";
 
 const example = readFileSync(new URL("../../../../examples/01_line_follower/spec.yaml", import.meta.url), "utf8");
 const structure = readStructure(example);
 const subsystem = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem }).of;
 const behaviour = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["behaviours"][number] }).of;
-const buffer = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["buffers"][number] }).of;
+const buffer = (of: Structure, path: string) => (findThing(of, path) as { of: Buffer }).of;
 
-/** The changed lines, as in the diff of a commit. */
-function changes(before: string, after: string): string[] {
-  const lines = before.split("\n");
-  return diff(lines, after.split("\n")).flatMap((hunk) => [
-    ...lines.slice(hunk.from, hunk.to).map((line) => `-${line}`),
-    ...hunk.lines.map((line) => `+${line}`),
-  ]);
-}
 const changed = (after: string) => changes(example, after);
 
 describe("readStructure", () => {
@@ -40,6 +32,22 @@ describe("readStructure", () => {
     expect(thingAt(structure, 19)).toBe("robot.control.follow");
     expect(thingAt(structure, 22)).toBe("robot.sensor");
     expect(thingAt(structure, 39)).toBe("channel:0");
+  });
+  it("tells a behaviour, an input and an output of one name apart", () => {
+    const now = readStructure(
+      "agents: { a: { control: { inputs: { x: bool }, outputs: { x: bool, y: bool }, behaviours: { x: {} } } } }",
+    );
+    const kindOf = (selection: string) => (findThing(now, selection)?.of as Buffer | undefined)?.yaml.at(-2);
+    expect(["a.control.x", "input:a.control.x", "output:a.control.x"].map(kindOf)).toEqual(["behaviours", "inputs", "outputs"]);
+    // As in an address that was written before buffers had a selection of their own.
+    expect(kindOf("a.control.y")).toBe("outputs");
+    expect(findThing(now, "real:a.control.x")).toBeUndefined();
+    const [control] = now.agents[0]!.subsystems;
+    expect(control!.buffers.map(({ selection }) => selection)).toEqual([
+      "input:a.control.x",
+      "output:a.control.x",
+      "output:a.control.y",
+    ]);
   });
   it("shows what there is of a broken file", () => {
     const broken = readStructure(example.replace("      outputs: { motion: Velocity }", "      outputs: { motion: Velocity"));
@@ -139,77 +147,20 @@ describe("changing", () => {
     );
     expect(changed(edits.setChannel(structure, long!, { send: "blocking" }))[1]).toContain("timeout: 200 ms, send: blocking }");
   });
-  it("writes what follows a behaviour", () => {
-    const follow = behaviour(structure, "robot.control.follow");
-    expect(changed(edits.setNext(structure, follow, [{ to: "init", when: "" }]))).toEqual([
-      "-        follow: {}",
-      "+        follow:",
-      "+          next: init",
-    ]);
-    const both = edits.setNext(structure, follow, [
-      { to: "init", when: "in.line.age > 1s" },
-      { to: "end", when: "" },
-    ]);
-    expect(readStructure(both).agents[0]!.subsystems[0]!.behaviours[1]!.next).toEqual([
-      { to: "init", when: "in.line.age > 1s" },
-      { to: "end", when: "" },
-    ]);
-  });
-});
-
-describe("renaming changes the name wherever it stands, and nothing else", () => {
-  it("renames an agent", () => {
-    const after = edits.renameAgent(structure, structure.agents[0]!, "rover");
-    // Two changes: the comment in the first line, and the body of the world that the check and the measures
-    // name.
-    expect(after.match(/\brobot\b/g)).toHaveLength(4);
-    expect(changed(after).length).toBe(2 * 9);
-    expect(changed(after)).toContain(
-      "+  - rover.sensor.line -> rover.control.line                           # non-blocking at both ends",
+  it("gives a channel in lines of its own a model, and keeps its comments", () => {
+    const text = `channels:
+  - from: a.control.x                  # measured
+    to: b.control.y
+    send: blocking                     # waits
+    send_timeout: 1 s                  # not for long
+`;
+    const after = edits.setModel(readStructure(text), readStructure(text).channels[0]!, "queue");
+    expect(changes(text, after)).toEqual(["-    send: blocking                     # waits", "+    model: queue"]);
+    expect(edits.setModel(readStructure(after), readStructure(after).channels[0]!, "")).not.toContain("model");
+    const short = readStructure("channels:\n  - a.control.x -> b.control.y   # measured\n");
+    expect(edits.setModel(short, short.channels[0]!, "queue")).toBe(
+      "channels:\n  - { from: a.control.x, to: b.control.y, model: queue }   # measured\n",
     );
-  });
-  it("renames a subsystem in channels, drivers and properties", () => {
-    const after = edits.renameSubsystem(structure, subsystem(structure, "robot.motor"), "wheels");
-    expect(changed(after).filter((line) => line.startsWith("+")).length).toBe(5);
-    expect(after).toContain("robot.wheels.drive");
-    expect(after).toContain("robot.wheels.left:");
-  });
-  it("renames a behaviour where it follows another", () => {
-    const after = edits.renameBehaviour(
-      structure,
-      subsystem(structure, "robot.control"),
-      behaviour(structure, "robot.control.follow"),
-      "trail",
-    );
-    expect(changed(after)).toEqual([
-      "-        init:   { terminal: true, next: follow }",
-      "-        follow: {}",
-      "+        init:   { terminal: true, next: trail }",
-      "+        trail: {}",
-    ]);
-  });
-  it("renames a buffer in conditions, lists and channels", () => {
-    const text = example.replace(
-      "follow: {}",
-      'follow: { terminal: "in.line.left && in.liner", receive: [line], send: [motion] }',
-    );
-    const now = readStructure(text);
-    const after = edits.renameBuffer(now, subsystem(now, "robot.control"), buffer(now, "robot.control.line"), "seen");
-    expect(after).toContain('{ terminal: "in.seen.left && in.liner", receive: [seen], send: [motion] }');
-    expect(after).toContain("robot.sensor.line -> robot.control.seen");
-  });
-  it("renames the real buffer of an effector with its safe value and driver", () => {
-    const after = edits.renameBuffer(
-      structure,
-      subsystem(structure, "robot.motor"),
-      buffer(structure, "robot.motor.left"),
-      "port",
-    );
-    expect(changed(after).filter((line) => line.startsWith("+"))).toEqual([
-      "+        real:     { port: float64 rad/s, right: float64 rad/s }",
-      "+        safe:     { port: 0, right: 0 }",
-      "+    robot.motor.port:    { velocity: wheel_left }",
-    ]);
   });
 });
 
@@ -243,6 +194,47 @@ describe("removing", () => {
       readStructure,
     );
     expect(after).toContain("real:    { left: float64, right: float64 }   # reflected light");
+  });
+});
+
+describe("removing what has the name of something else", () => {
+  const text = `agents:
+  a:
+    control:
+      inputs: { x: bool }
+      outputs: { x: bool }
+      behaviours: { x: {}, run: { next: { to: x, when: error } } }
+    effectors:
+      motor: { inputs: { speed: bool }, real: { speed: bool }, behaviours: { drive: {} } }
+channels: [a.control.x -> a.motor.speed, b.control.z -> a.control.x]
+drivers: { a.motor.speed: { cpp: Motor } }
+deploy: { processes: { one: a, two: [a, b] } }
+simulation: { models: { a: { model: a.xml } } }
+`;
+  const now = readStructure(text);
+  const things = (after: string) => {
+    const { channels, yaml } = readStructure(after);
+    return [channels.map(({ from, to }) => `${from} ${to}`), yaml.keys(["drivers"])];
+  };
+  it("keeps the channels and drivers of other buffers", () => {
+    const of = (selection: string) => findThing(now, selection) as { of: Buffer; subsystem: Subsystem };
+    const without = (selection: string) =>
+      things(edits.removeBuffer(now, of(selection).subsystem, of(selection).of, readStructure));
+    expect(without("output:a.control.x")).toEqual([["b.control.z a.control.x"], ["a.motor.speed"]]);
+    expect(without("input:a.control.x")).toEqual([["a.control.x a.motor.speed"], ["a.motor.speed"]]);
+    expect(without("real:a.motor.speed")[0]).toHaveLength(2);
+    expect(without("input:a.motor.speed")).toEqual([["b.control.z a.control.x"], ["a.motor.speed"]]);
+  });
+  it("takes a map of `next` that leads to a behaviour with it", () => {
+    const after = edits.removeBehaviour(now, subsystem(now, "a.control"), behaviour(now, "a.control.x"), readStructure);
+    expect(after).toContain("behaviours: { run: {} }");
+  });
+  it("takes an agent out of its processes and the world", () => {
+    const after = readStructure(edits.removeAgent(now, now.agents[0]!, readStructure)).yaml;
+    expect(after.valueText(["deploy", "processes"])).toBe("{ two: [b] }");
+    expect(after.keys(["simulation", "models"])).toEqual([]);
+    const alone = readStructure("agents: { a: {}, b: {} }\ndeploy:\n  processes:\n    one: [a]\n");
+    expect(edits.removeAgent(alone, alone.agents[0]!, readStructure)).toBe("agents: { b: {} }\n");
   });
 });
 

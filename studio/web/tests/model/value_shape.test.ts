@@ -2,7 +2,8 @@ import { expect, it } from "vitest";
 import schemaText from "../../../../share/tessera/spec.schema.json";
 import { limitNames, titled } from "../../model/structure/inside_types";
 import { findThing, readStructure } from "../../model/structure/structure";
-import { removeBuffer, renameBuffer, renameUsed, setModel } from "../../model/text/edits";
+import { removeBuffer, setModel } from "../../model/text/edits";
+import { renameBuffer, renameUsed } from "../../model/text/renames";
 import { lineText, listAsTyped, listAsWritten } from "../../model/text/list_text";
 import { problemAt } from "../../model/text/problem_at";
 import type { Schema } from "../../model/text/schema_fields";
@@ -225,6 +226,6 @@ it("templates and communication models are renamed wherever they are used", () =
   const { channels } = readStructure(system);
   const set = (index: number, model: string) => changed(setModel(readStructure(system), channels[index]!, model));
   expect(set(0, "mine")).toEqual(["  - { from: a.base.x, to: b.base.y, model: mine }"]);
-  expect(set(1, "mine")).toEqual(["  - { from: a.base.z, to: b.base.y, model: mine, timeout: 1 s }   # slow"]);
+  expect(set(1, "mine")).toEqual(["  - { from: a.base.z, to: b.base.y, timeout: 1 s, model: mine }   # slow"]);
   expect(set(2, "")).toEqual(["  - { from: a.base.z, to: b.base.y }"]);
 });

@@ -6,7 +6,7 @@ import { causesOf, circleIn, titleOf, waitsIn } from "../../model/causes";
 import { changedLines } from "../../model/text/changed_lines";
 import { buildMessages, functionAt } from "../../model/text/cpp_function";
 import { csvOf } from "../../model/run/csv";
-import { renameParameter, renameType } from "../../model/text/edits";
+import { renameParameter, renameType } from "../../model/text/renames";
 import { candidatesFor } from "../../model/text/repair_edits";
 import { readStructure } from "../../model/structure/structure";
 import { unitOf } from "../../model/text/units";

@@ -92,7 +92,9 @@ class OpenDevices {
   /// command and called `close`.
   ~OpenDevices() {
     if (!open_) return;
-    for (const auto& executor : assembly_.executors) executor->leave();
+    // Before that, a device is not open, or has got nothing but its safe command.
+    if (all_open_)
+      for (const auto& executor : assembly_.executors) executor->leave();
     close();
   }
 
@@ -110,6 +112,7 @@ class OpenDevices {
         close();
         return false;
       }
+    all_open_ = true;
     return true;
   }
 
@@ -132,7 +135,7 @@ class OpenDevices {
 
  private:
   Assembly& assembly_;
-  bool open_ = false;
+  bool open_ = false, all_open_ = false;
 };
 
 /// Fills in everything except the facts that only the driver of the run knows.

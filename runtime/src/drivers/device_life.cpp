@@ -7,14 +7,18 @@
 #include <exception>
 #include <utility>
 
+#include "drivers/driver_watch.hpp"
+
 namespace tessera {
 namespace {
 
-/// nullopt: the call has returned true. Otherwise ": " and what it threw, or nothing: it returned false.
-template <class Call>
-[[nodiscard]] std::optional<Problem> problem_of(Call call) {
+/// nullopt: the code has returned true. Otherwise ": " and what it threw, or nothing: it returned false.
+template <class Code>
+[[nodiscard]] std::optional<Problem> problem_of(DriverWatch::Step step, const DriverInUse& driver,
+                                                Code code) {
   try {
-    if (call()) return std::nullopt;
+    const DriverWatch::Call call(step, driver.path);
+    if (code()) return std::nullopt;
     return Problem{""};
   } catch (const abi::__forced_unwind&) {
     throw;
@@ -36,12 +40,12 @@ DeviceLife::DeviceLife(std::vector<DriverInUse> drivers) : drivers_(std::move(dr
 bool DeviceLife::open(const std::function<bool(const DriverInUse&)>& secure, std::string& error) {
   for (; open_ < drivers_.size(); ++open_) {
     const DriverInUse& driver = drivers_[open_];
-    if (const auto why = problem_of([&] { return driver.device->open(); })) {
+    if (const auto why = problem_of(DriverWatch::Step::open, driver, [&] { return driver.device->open(); })) {
       error = fmt::format("the device of {} cannot be opened{}", driver.path,
                           why->text.empty() ? ": it refuses" : why->text);
       return false;
     }
-    const auto why = problem_of([&] { return secure(driver); });
+    const auto why = problem_of(DriverWatch::Step::safe_command, driver, [&] { return secure(driver); });
     if (!why) continue;
     ++open_;
     error = fmt::format("the device of {} is open and refuses its safe command{}", driver.path, why->text);
@@ -55,6 +59,7 @@ std::vector<std::string> DeviceLife::close() {
   while (open_ > 0) {
     const DriverInUse& driver = drivers_[--open_];
     try {
+      const DriverWatch::Call call(DriverWatch::Step::close, driver.path);
       driver.device->close();
     } catch (const std::exception& exception) {
       wrong.push_back(fmt::format("closing the device of {}: {}", driver.path, exception.what()));

@@ -56,7 +56,7 @@ class Troubled final : public Effector<double> {
   bool exits_, is_safe_ = false;
 };
 
-/// What a run with two devices has left, of which the second is troubled.
+/// The traces of a run with two devices; the second one is troubled.
 struct Left {
   int code = 0;
   std::string ended, story, output;

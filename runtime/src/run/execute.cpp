@@ -67,7 +67,7 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   return names;
 }
 
-/// What is known of a run when a driver does not return.
+/// The facts about a run that are known when a driver does not return.
 struct KnownRun {
   Assembly* assembly = nullptr;         ///< while it can be used
   OpenDevices* devices = nullptr;       ///< while some may be open

@@ -100,7 +100,7 @@ void say_as_guardian(const std::string& text) {
   return text;
 }
 
-/// What has become of the devices; those that may still move come first.
+/// The state of the devices; those that may still move come first.
 [[nodiscard]] std::string fate_of_devices(const std::vector<std::string>& refused,
                                           const std::vector<std::string>& unguarded,
                                           const std::vector<std::string>& safe, double took_ms) {

@@ -30,6 +30,7 @@ class Teller final : public Effector<double> {
       : name_(setup.text("name")),
         refuses_open_(setup.flag_or("refuses_open", false)),
         refuses_safe_(setup.flag_or("refuses_safe", false)),
+        throws_safe_(setup.flag_or("throws_safe", false)),
         beats_(setup.duration_or("beats", 0ms)) {
     if (setup.flag_or("throws", false)) throw std::runtime_error("no such pin");
     tell("made");
@@ -41,6 +42,7 @@ class Teller final : public Effector<double> {
   }
   bool write(const double& value) override {
     tell("write " + std::to_string(static_cast<int>(value)));
+    if (throws_safe_) throw std::runtime_error("no current");
     return !refuses_safe_ || value != -1;
   }
   void close() override { tell("close"); }
@@ -54,7 +56,7 @@ class Teller final : public Effector<double> {
     story().push_back(name_ + " " + what);
   }
   std::string name_;
-  bool refuses_open_, refuses_safe_;
+  bool refuses_open_, refuses_safe_, throws_safe_;
   Duration beats_;
 };
 
@@ -167,6 +169,14 @@ TEST_F(TwoMotors, ADeviceThatRefusesItsFirstSafeCommandKeepsTheRunFromStarting) 
   const std::vector<std::string> lines = take_story();
   EXPECT_EQ(std::vector(lines.end() - 2, lines.end()),
             (std::vector<std::string>{"b close", "simulated close"}));
+}
+
+TEST_F(TwoMotors, ADeviceWhoseFirstSafeCommandThrowsIsNamedAndClosedAndNoOtherIsOpened) {
+  static constexpr DriverOption broken[] = {{"name", "b"}, {"throws_safe", true}};
+  simulation[0].options = broken;
+  EXPECT_EQ(run(), "the device of robot.motor.command is open and refuses its safe command: no current");
+  EXPECT_EQ(take_story(),
+            (std::vector<std::string>{"b made", "simulated made", "b open", "b write -1", "b close"}));
 }
 
 TEST_F(TwoMotors, WhatAConstructorThrowsIsToldWithTheLineOfTheSpecification) {

@@ -150,6 +150,19 @@ TEST(Stop, GivesUpADriverThatNeverReturnsAndNamesItsDevice) {
       << ended;
 }
 
+TEST(Stop, GivesUpAReceptorThatIsNeverReadAndNamesIt) {
+  TestSystem system;
+  Script sonar;
+  sonar.senses = true;
+  system.devices.sense = [](double&) -> bool {
+    for (;;) std::this_thread::sleep_for(1s);
+  };
+  system.add("robot.sonar", nets::alone, sonar, 1ms, 0ms, Kind::receptor);
+  const auto [code, ended] = give_up(system, steady(20ms), 1h, 100ms);
+  EXPECT_EQ(code, 1);
+  EXPECT_TRUE(ended.starts_with("duration; read() of robot.sonar.sensed has not returned 0.")) << ended;
+}
+
 /// Its own thread is in the driver, and cannot report that.
 TEST(Stop, ComesIfADeviceDoesNotObeyAnEmergencyStop) {
   TestSystem system;

@@ -169,7 +169,9 @@ TEST(Safety, ValuesThatStopComingLeaveTheDevicesSafe) {
 /// On a pipe, since a terminal hangs up when the controller, which has it, dies.
 TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
   const milliseconds stands_still(2600);
-  const std::string has_died = "the controller has died; the devices have got the safe command";
+  const std::string has_died =
+      "the controller has died; not guarded, so its state is unknown: robot.arm.lamp; "
+      "robot.arm.joint, robot.motor.left, robot.motor.right have got their safe commands, after ";
   std::vector<Case> cases{
       {.name = "SIGKILL", .strike = sends(SIGKILL), .says = has_died},
       {.name = "SIGKILL by itself", .strike = does(Harm::kill, Place::control), .says = has_died},

@@ -65,8 +65,9 @@ class Context {
     if (services_ != nullptr) services_->stop(reason);
   }
 
-  /// Emergency stop: every device of the system gets its safe command at once, and nothing else until an
-  /// operator ends it (`tessera reset`). Otherwise the system goes on: it reads sensors and computes.
+  /// Emergency stop: every device of this process gets its safe command at once, and nothing else until an
+  /// operator ends it (`tessera reset`). Otherwise the process goes on: it reads sensors and computes. Without
+  /// `deploy:`, the process is the whole system; with it, devices of other processes go on.
   void emergency_stop(std::string_view reason) {
     if (services_ != nullptr) services_->emergency_stop(reason);
   }

@@ -10,6 +10,12 @@ namespace tessera {
 class RestartingAssembler final : public Assembler, public ProcessRestarts {
  public:
   using Assembler::Assembler;
+  RestartingAssembler(const RestartingAssembler&) = delete;
+  RestartingAssembler& operator=(const RestartingAssembler&) = delete;
+  /// Some drivers may have been made although a later step has failed.
+  ~RestartingAssembler() override {
+    for (SubsystemParts& parts : parts_) destroy_drivers(parts);
+  }
   void kill(std::uint32_t process) override;
   [[nodiscard]] bool restart(std::uint32_t process, network::Incarnation incarnation,
                              std::string& error) override;

@@ -1,12 +1,35 @@
 #include "drivers/device_life.hpp"
 
+#include <cxxabi.h>
 #include <fmt/core.h>
 
 #include <algorithm>
 #include <exception>
 #include <utility>
 
+#include "drivers/driver_watch.hpp"
+
 namespace tessera {
+namespace {
+
+/// nullopt: the code has returned true. Otherwise ": " and what it threw, or nothing: it returned false.
+template <class Code>
+[[nodiscard]] std::optional<Problem> problem_of(DriverWatch::Step step, const DriverInUse& driver,
+                                                Code code) {
+  try {
+    const DriverWatch::Call call(step, driver.path);
+    if (code()) return std::nullopt;
+    return Problem{""};
+  } catch (const abi::__forced_unwind&) {
+    throw;
+  } catch (const std::exception& exception) {
+    return Problem{fmt::format(": {}", exception.what())};
+  } catch (...) {
+    return Problem{": it threw an exception that is no std::exception"};
+  }
+}
+
+}  // namespace
 
 DeviceLife::DeviceLife(std::vector<DriverInUse> drivers) : drivers_(std::move(drivers)) {
   for (const DriverInUse& driver : drivers_)
@@ -14,28 +37,18 @@ DeviceLife::DeviceLife(std::vector<DriverInUse> drivers) : drivers_(std::move(dr
       beating_.push_back({&driver, period});
 }
 
-/// Opens the driver. Returns the reason why that is not possible.
-std::optional<Problem> DeviceLife::open_driver(const DriverInUse& driver) {
-  try {
-    if (driver.device->open()) return std::nullopt;
-    return Problem{"it refuses"};
-  } catch (const std::exception& exception) {
-    return Problem{exception.what()};
-  } catch (...) {
-    return Problem{"it threw an exception that is no std::exception"};
-  }
-}
-
 bool DeviceLife::open(const std::function<bool(const DriverInUse&)>& secure, std::string& error) {
   for (; open_ < drivers_.size(); ++open_) {
     const DriverInUse& driver = drivers_[open_];
-    if (const std::optional<Problem> why = open_driver(driver)) {
-      error = fmt::format("the device of {} cannot be opened: {}", driver.path, why->text);
+    if (const auto why = problem_of(DriverWatch::Step::open, driver, [&] { return driver.device->open(); })) {
+      error = fmt::format("the device of {} cannot be opened{}", driver.path,
+                          why->text.empty() ? ": it refuses" : why->text);
       return false;
     }
-    if (secure(driver)) continue;
+    const auto why = problem_of(DriverWatch::Step::safe_command, driver, [&] { return secure(driver); });
+    if (!why) continue;
     ++open_;
-    error = fmt::format("the device of {} is open and refuses its safe command", driver.path);
+    error = fmt::format("the device of {} is open and refuses its safe command{}", driver.path, why->text);
     return false;
   }
   return true;
@@ -46,6 +59,7 @@ std::vector<std::string> DeviceLife::close() {
   while (open_ > 0) {
     const DriverInUse& driver = drivers_[--open_];
     try {
+      const DriverWatch::Call call(DriverWatch::Step::close, driver.path);
       driver.device->close();
     } catch (const std::exception& exception) {
       wrong.push_back(fmt::format("closing the device of {}: {}", driver.path, exception.what()));

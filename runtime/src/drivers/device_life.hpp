@@ -18,8 +18,9 @@ class DeviceLife {
  public:
   explicit DeviceLife(std::vector<DriverInUse> drivers);
 
-  /// secure: gives the buffers of a driver that has just been opened their safe command. false: a device
-  /// could not be opened or secured, and `error` says which. Devices that were opened have to be closed.
+  /// secure: gives the buffers of a driver that has just been opened their safe command; it may throw.
+  /// false: a device could not be opened or secured, and `error` says which. Devices that were opened have
+  /// to be closed.
   [[nodiscard]] bool open(const std::function<bool(const DriverInUse&)>& secure, std::string& error);
   /// Closes the open devices, the last one first. Returns the failures.
   std::vector<std::string> close();
@@ -39,7 +40,6 @@ class DeviceLife {
     Duration period;
     Time next{};
   };
-  [[nodiscard]] static std::optional<Problem> open_driver(const DriverInUse& driver);
 
   std::vector<DriverInUse> drivers_;
   std::vector<Beating> beating_;

@@ -7,6 +7,7 @@
 #include <exception>
 #include <utility>
 
+#include "drivers/driver_watch.hpp"
 #include "drivers/substitutes.hpp"
 #include "drivers/whole_driver.hpp"
 
@@ -99,6 +100,7 @@ std::unique_ptr<typename Kind::Base> DeviceFinder::make(const CppDriver& driver)
   try {
     const DriverSetup setup(std::string(driver.path), {driver.options.begin(), driver.options.end()},
                             world_for(driver));
+    const DriverWatch::Call call(DriverWatch::Step::constructor, driver.path);
     if (driver.*Kind::maker != nullptr)
       if (auto device = (driver.*Kind::maker)(setup); device != nullptr) return device;
   } catch (const std::exception& exception) {

@@ -3,19 +3,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
-#include <future>
 #include <iterator>
 #include <memory>
 #include <optional>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
+#include "drivers/driver_watch.hpp"
 #include "links/incarnation.hpp"
+#include "run/open_devices.hpp"
 #include "run/process_lives.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
@@ -30,8 +29,6 @@
 
 namespace tessera {
 namespace {
-
-constexpr std::chrono::seconds closing_patience{1};
 
 void warn(RunSummary& summary, std::string text) {
   console::print(LogLevel::warning, Time(summary.simulated), "tessera", text);
@@ -70,84 +67,63 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   return names;
 }
 
-/// Returns the failures. left_behind: per instance, whether its devices stay open; empty: none.
-std::vector<std::string> close_devices(Assembly& assembly, const std::vector<bool>& left_behind) {
-  std::vector<std::string> wrong;
-  for (const bool effectors : {false, true})
-    for (std::size_t index = assembly.executors.size(); index-- > 0;) {
-      SubsystemExecutor& executor = *assembly.executors[index];
-      if (executor.effectors().none() == effectors || (!left_behind.empty() && left_behind[index])) continue;
-      std::ranges::move(executor.operations().devices().close(), std::back_inserter(wrong));
-    }
-  return wrong;
+/// The facts about a run that are known when a driver does not return.
+struct KnownRun {
+  Assembly* assembly = nullptr;         ///< while it can be used
+  OpenDevices* devices = nullptr;       ///< while some may be open
+  std::optional<RunSummary> summary{};  ///< the run has ended
+  std::string error;                    ///< why it could not start
+
+  [[nodiscard]] Time time() const { return summary ? Time(summary->simulated) : Time{}; }
+};
+
+/// what: the driver that does not return. Closes the other devices, and ends the recording. No device needs
+/// its safe command: it has got that, or nothing at all.
+void end_without_driver(const KnownRun& known, const GiveUp& give_up, const std::string& what) {
+  RunSummary summary = known.summary.value_or(RunSummary{});
+  if (known.devices != nullptr) known.devices->close_what_can_be_closed({});
+  if (!known.summary) summary.ended = known.error;
+  if (const int signal = StopSignals::pending(); summary.ended.empty() && signal != 0)
+    summary.ended = StopSignals::name(signal);
+  summary.ended += (summary.ended.empty() ? "" : "; ") + what;
+  summary.failed = true;
+  console::print(LogLevel::error, known.time(), "tessera", known.summary ? what : summary.ended);
+  if (!known.summary && known.assembly != nullptr) {
+    if (RecordingLane* const lane = known.assembly->system_lane(); lane != nullptr)
+      lane->text(Event::Kind::stop, known.time(), 1, summary.ended);
+    close_recording(*known.assembly, summary);
+    if (known.assembly->guardian != nullptr) known.assembly->guardian->dismiss();
+  }
+  give_up.end_process(summary);
 }
 
-/// Keeps the devices of all subsystems open while it exists.
-class OpenDevices {
- public:
-  explicit OpenDevices(Assembly& assembly) : assembly_(assembly) {}
-  OpenDevices(const OpenDevices&) = delete;
-  OpenDevices& operator=(const OpenDevices&) = delete;
-  /// Acts only if the run ends by an exception; every other run has given the safe
-  /// command and called `close`.
-  ~OpenDevices() {
-    if (!open_) return;
-    for (const auto& executor : assembly_.executors) executor->leave();
-    close();
-  }
-
-  /// Effectors are opened first, so that they are safe soon. false and `error`: the run must not start; all
-  /// devices are closed again.
-  [[nodiscard]] bool open(std::string& error) {
-    open_ = true;
-    for (const bool effectors : {true, false})
-      for (const auto& executor : assembly_.executors) {
-        Operations& operations = executor->operations();
-        if (operations.devices().none() == effectors) continue;
-        if (StopSignals::pending() == 0 && operations.devices().open(error)) continue;
-        if (error.empty())
-          error = fmt::format("{} while devices were opened", StopSignals::name(StopSignals::pending()));
-        close();
-        return false;
-      }
-    return true;
-  }
-
-  /// Returns the failures.
-  std::vector<std::string> close() {
-    open_ = false;
-    return close_devices(assembly_, {});
-  }
-  /// The same, for no longer than `closing_patience`: a driver that does not return may block the others.
-  /// left_behind: per instance, whether its devices stay open.
-  void close_what_can_be_closed(const std::vector<bool>& left_behind) {
-    open_ = false;
-    const auto closed = std::make_shared<std::promise<void>>();
-    std::thread([&assembly = assembly_, left_behind, closed] {
-      static_cast<void>(close_devices(assembly, left_behind));
-      closed->set_value();
-    }).detach();
-    closed->get_future().wait_for(closing_patience);
-  }
-
- private:
-  Assembly& assembly_;
-  bool open_ = false;
-};
+/// Comes when the run and its recording have ended, so that a driver that does not return or crashes costs
+/// neither.
+void close_the_devices(OpenDevices& devices, const std::vector<bool>& left_behind, RunSummary& summary,
+                       KnownRun& known) {
+  if (!left_behind.empty()) return devices.close_what_can_be_closed(left_behind);
+  known.summary = summary;
+  for (const std::string& complaint : devices.close()) warn(summary, complaint);
+}
 
 /// Fills in everything except the facts that only the driver of the run knows.
 template <class Run>
 [[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
-                                              std::string& error) {
+                                              KnownRun& known) {
+  std::string& error = known.error;
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
   RecordingLane* const lane = assembly.system_lane();
   UpperLayers upper(agents_of(assembly.system), assembly.part.agents, !assembly.part.process, lane);
   OpenDevices devices(assembly);
+  known.devices = &devices;
   if (!devices.open(error)) return std::nullopt;
   std::optional<LastChance> last_chance;
   last_chance.emplace(assembly, run.clock(), assembly.guardian);
   const std::int64_t start_ns = monotonic_ns();
-  Ending ending = run.run(assembly, upper, signals);
+  Ending ending = [&] {
+    const DriverWatch::Unwatched others_watch;
+    return run.run(assembly, upper, signals);
+  }();
   const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
   last_chance.reset();
   if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
@@ -156,12 +132,6 @@ template <class Run>
     if (const std::string text = not_safe(unsafe); ending.text.find(text) == std::string::npos)
       ending.text += "; " + text;
   }
-  std::vector<std::string> unclosed;
-  if (ending.left_behind.empty())
-    unclosed = devices.close();
-  else
-    devices.close_what_can_be_closed(ending.left_behind);
-
   if (const std::optional<std::string> failed_checks = finish_checks(assembly, ending.at)) {
     ending.text += *failed_checks;
     ending.failed = true;
@@ -201,9 +171,22 @@ template <class Run>
   if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
   summary.ended = std::move(ending.text);
   if (!stuck.empty()) warn(summary, stuck);
-  for (const std::string& complaint : unclosed) warn(summary, complaint);
   close_recording(assembly, summary);
+  close_the_devices(devices, ending.left_behind, summary, known);
   close_world(assembly, summary);
+  known.summary = summary;
+  return summary;
+}
+
+/// The same. From its return on, drivers can only be destroyed. error: why the run could not start.
+template <class Run>
+[[nodiscard]] std::optional<RunSummary> drive_known(Run& run, Assembly& assembly, const StopSignals& signals,
+                                                    KnownRun& known, std::string& error) {
+  known.assembly = &assembly;
+  std::optional<RunSummary> summary = drive(run, assembly, signals, known);
+  known.assembly = nullptr;
+  known.devices = nullptr;
+  if (!summary) error = known.error;
   return summary;
 }
 
@@ -311,6 +294,13 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
   companions.watch_parent();
+  KnownRun known;
+  std::optional<DriverWatch> driver_watch;
+  if (give_up.end_process)
+    driver_watch.emplace(
+        give_up.unsafe,
+        [&](const std::string& text) { console::print(LogLevel::warning, known.time(), "tessera", text); },
+        [&](const std::string& what) { end_without_driver(known, give_up, what); });
   Assembly assembly(std::move(*part), options);
   assembly.guardian = companions.guardian();
   if (assembly.guardian != nullptr) assembly.control.withhold_after(assembly.guardian->has_acted());
@@ -325,14 +315,14 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
       error = fmt::format("/clock cannot be published: {}", wrong.what());
       return with_lost_lines(std::nullopt, assembly, session);
     }
-    return with_lost_lines(drive(run, assembly, signals, error), assembly, session);
+    return with_lost_lines(drive_known(run, assembly, signals, known, error), assembly, session);
   }
   if (assembly.part.process && options.world)
     console::print(LogLevel::warning, Time{}, "tessera",
                    "this process simulates a world of its own, which no other process sees");
   SteadyRun run(instances, give_up);
   std::optional<RunSummary> summary =
-      with_lost_lines(drive(run, assembly, signals, error), assembly, session);
+      with_lost_lines(drive_known(run, assembly, signals, known, error), assembly, session);
   if (run.has_given_up()) give_up.end_process(*summary);
   return summary;
 }

@@ -20,6 +20,19 @@ constexpr Duration first_patience = std::chrono::seconds(1);
   return executor.operations().parts().instance->net->behaviours[behaviour].name;
 }
 
+/// "robot.arm in move", or "read() of robot.sonar.distance": the function has not been called then.
+[[nodiscard]] std::string awaited(const SubsystemExecutor& executor) {
+  const std::string driver = executor.operations().driver_being_read();
+  return driver.empty() ? fmt::format("{} in {}", executor.path(), behaviour_of(executor)) : driver;
+}
+
+/// "robot.arm has not returned from move"
+[[nodiscard]] std::string not_returned(const SubsystemExecutor& executor) {
+  const std::string driver = executor.operations().driver_being_read();
+  return driver.empty() ? fmt::format("{} has not returned from {}", executor.path(), behaviour_of(executor))
+                        : fmt::format("{} has not returned", driver);
+}
+
 [[nodiscard]] std::string unsafe_devices(SubsystemExecutor& executor) {
   const std::vector<std::string> names = executor.effectors().unsafe();
   return names.empty() ? "" : "; " + not_safe(names);
@@ -80,8 +93,8 @@ void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, 
   for (std::uint32_t instance = 0; instance < started_; ++instance) {
     SubsystemExecutor& executor = *assembly.executors[instance];
     if (!has_ended(instance))
-      say(fmt::format("waits for {} in {} ({:.1f} s){}", executor.path(), behaviour_of(executor),
-                      seconds(since), unsafe_devices(executor)));
+      say(fmt::format("waits for {} ({:.1f} s){}", awaited(executor), seconds(since),
+                      unsafe_devices(executor)));
     else if (securing.is_under_way(instance))
       say(fmt::format("waits for the devices of {} ({:.1f} s){}", executor.path(), seconds(since),
                       unsafe_devices(executor)));
@@ -107,8 +120,8 @@ void SteadyRun::end_threads(Assembly& assembly, Securing& securing) {
     left_behind_.push_back(left);
     const SubsystemExecutor& executor = *assembly.executors[instance];
     if (left)
-      given_up_ += fmt::format("; {} has not returned from {} {:.1f} s after the stop", executor.path(),
-                               behaviour_of(executor), seconds(*given_up_after_));
+      given_up_ +=
+          fmt::format("; {} {:.1f} s after the stop", not_returned(executor), seconds(*given_up_after_));
   }
   securing.leave_behind();
   monitor_.reset();

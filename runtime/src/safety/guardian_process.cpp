@@ -18,6 +18,7 @@
 #include <exception>
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "drivers/devices.hpp"
@@ -72,6 +73,51 @@ void say_as_guardian(const std::string& text) {
   return taken;
 }
 
+/// Whether the driver belongs to a subsystem of this process.
+[[nodiscard]] bool is_of(const System& system, const CppDriver& driver) {
+  return std::ranges::any_of(system.instances, [&](const Instance& instance) {
+    const std::string path = fmt::format("{}.{}", instance.agent, instance.name);
+    return driver.path == path || driver.path.starts_with(path + ".");
+  });
+}
+
+/// The devices of effectors that the run opens and that no guardian can reach.
+[[nodiscard]] std::vector<std::string> unguarded_devices(const System& system, const RunOptions& options) {
+  std::vector<std::string> paths;
+  for (const CppDriver& driver : system.real_drivers)
+    if (!driver.guarded && driver.effector != nullptr && opens_real_driver(options, driver.path) &&
+        is_of(system, driver))
+      paths.emplace_back(driver.path);
+  return paths;
+}
+
+/// "robot.motor.left, robot.motor.right, and 30 more": a line must fit a terminal and a pipe.
+[[nodiscard]] std::string listed(const std::vector<std::string>& names) {
+  constexpr std::size_t shown = 16;
+  const std::vector<std::string> first(names.begin(), names.begin() + std::min(names.size(), shown));
+  std::string text = fmt::format("{}", fmt::join(first, ", "));
+  if (names.size() > shown) text += fmt::format(", and {} more", names.size() - shown);
+  return text;
+}
+
+/// The state of the devices; those that may still move come first.
+[[nodiscard]] std::string fate_of_devices(const std::vector<std::string>& refused,
+                                          const std::vector<std::string>& unguarded,
+                                          const std::vector<std::string>& safe, double took_ms) {
+  std::vector<std::string> parts;
+  if (!refused.empty())
+    parts.push_back(fmt::format("NOT SAFE, since {} not take the safe command: {}",
+                                refused.size() == 1 ? "it does" : "they do", listed(refused)));
+  if (!unguarded.empty())
+    parts.push_back(fmt::format("not guarded, so {} state is unknown: {}",
+                                unguarded.size() == 1 ? "its" : "their", listed(unguarded)));
+  if (!safe.empty())
+    parts.push_back(
+        fmt::format("{} {}, after {:.1f} ms", listed(safe),
+                    safe.size() == 1 ? "has got its safe command" : "have got their safe commands", took_ms));
+  return fmt::format("{}", fmt::join(parts, "; "));
+}
+
 [[noreturn]] void secure_until_taken(const GuardedDriver& guarded) {
   const std::int64_t until_ns = monotonic_ns() + Guardian::patience.count();
   while (monotonic_ns() < until_ns) {
@@ -92,6 +138,7 @@ class GuardianProcess {
 
   void make_drivers(const System& system, const RunOptions& options) {
     for (const CppDriver* driver : guarded_drivers(system, options)) make_driver(system, *driver);
+    unguarded_ = unguarded_devices(system, options);
   }
 
   /// Watches until the controller has ended, or no longer needs the guardian.
@@ -196,22 +243,20 @@ class GuardianProcess {
     has_secured_ = true;
     const std::int64_t start_ns = monotonic_ns();
     std::map<pid_t, const GuardedDriver*> working;
-    std::string refused;
-    const auto note = [&](const GuardedDriver& guarded) {
-      refused += (refused.empty() ? "" : ", ") + guarded.path;
-    };
+    std::vector<std::string> refused, safe;
     for (const GuardedDriver& guarded : drivers_) {
       const pid_t process = fork();
       if (process == 0) secure_until_taken(guarded);
       if (process > 0) working.emplace(process, &guarded);
-      if (process < 0) note(guarded);
+      if (process < 0) refused.push_back(guarded.path);
     }
     const std::int64_t until_ns = start_ns + Guardian::patience.count() + 1'000'000'000;
     while (!working.empty() && monotonic_ns() < until_ns) {
       int status = 0;
       const pid_t ended = waitpid(-1, &status, WNOHANG);
       if (const auto found = working.find(ended); found != working.end()) {
-        if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) note(*found->second);
+        const bool taken = WIFEXITED(status) && WEXITSTATUS(status) == 0;
+        (taken ? safe : refused).push_back(found->second->path);
         working.erase(found);
       } else {
         const timespec pause{.tv_sec = 0, .tv_nsec = 500'000};
@@ -221,17 +266,12 @@ class GuardianProcess {
     for (const auto& [process, guarded] : working) {
       kill(process, SIGKILL);
       waitpid(process, nullptr, 0);
-      note(*guarded);
+      refused.push_back(guarded->path);
     }
-    report(why, refused, static_cast<double>(monotonic_ns() - start_ns) * 1e-6);
-  }
-
-  void report(const std::string& why, const std::string& refused, double took_ms) const {
-    if (refused.empty())
-      say_as_guardian(
-          fmt::format("{}; the devices have got the safe command, after {:.1f} ms", why, took_ms));
-    else
-      say_as_guardian(fmt::format("{}; NOT SAFE, since they do not take the safe command: {}", why, refused));
+    const double took_ms = static_cast<double>(monotonic_ns() - start_ns) * 1e-6;
+    // The processes end in any order.
+    for (std::vector<std::string>* names : {&refused, &safe}) std::ranges::sort(*names);
+    say_as_guardian(fmt::format("{}; {}", why, fate_of_devices(refused, unguarded_, safe, took_ms)));
   }
 
   Guardian::Shared& shared_;
@@ -240,6 +280,7 @@ class GuardianProcess {
   OtherProcess controller_;
   std::map<std::string, std::unique_ptr<GuardedSubsystem>> subsystems_;  // by the path of the subsystem
   std::vector<GuardedDriver> drivers_;
+  std::vector<std::string> unguarded_;
   std::uint64_t beats_ = 0;
   unsigned looks_ = 0;        // without a beat
   bool has_secured_ = false;  // since the last beat

@@ -111,9 +111,12 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   context_.in_behaviour = now - began_at_;
   if (parts_.values != nullptr) parts_.values->call(now, behaviour, iteration_);
   if (missed > 0) return fail_late(missed);
-  if (!parts_.receptors.empty() &&
-      !survives(Fault::device, behaviour, "reading a real receptor: ", [&] { read_receptors(now); }))
-    return;
+  if (!parts_.receptors.empty()) {
+    const bool read =
+        survives(Fault::device, behaviour, "reading a real receptor: ", [&] { read_receptors(now); });
+    reading_.store(0, std::memory_order_relaxed);
+    if (!read) return;
+  }
   refresh_ages(now);
   static_cast<void>(survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
 }
@@ -169,11 +172,21 @@ void Operations::read_receptors(Time now) {
   for (std::size_t index = 0; index < parts_.receptors.size(); ++index) {
     const Bindings::Incoming& input = parts_.bindings.real_inputs[index];
     Arrival& arrival = *input.arrival;
+    reading_.store(static_cast<std::uint32_t>(index) + 1, std::memory_order_relaxed);
     arrival.fresh = read_receptor(index, now);
     if (!arrival.fresh) continue;
     arrival.valid = true;
     arrival.stamp = now;
   }
+}
+
+std::string Operations::driver_being_read() const {
+  const std::uint32_t reading = reading_.load(std::memory_order_relaxed);
+  if (reading == 0) return "";
+  const auto driver = std::ranges::find_if(parts_.drivers, [&](const DriverInUse& one) {
+    return !one.effector && one.first < reading && reading <= one.first + one.count;
+  });
+  return fmt::format("read() of {}", driver == parts_.drivers.end() ? parts_.path : driver->path);
 }
 
 /// Records the result.
@@ -231,9 +244,10 @@ int Operations::route(std::uint16_t behaviour, Time now) {
 // -------------------------------------------------------------------------------------------- services
 
 void Operations::report_stall(std::uint16_t behaviour, RecordingLane* lane) const {
-  std::array<char, 128> text;
-  const auto end = fmt::format_to_n(text.data(), text.size(), "has not returned for {:.6g} s",
-                                    seconds(parts_.instance->policies.watchdog));
+  std::array<char, 256> text;
+  const std::string driver = driver_being_read();
+  const auto end = fmt::format_to_n(text.data(), text.size(), "{}{}has not returned for {:.6g} s", driver,
+                                    driver.empty() ? "" : " ", seconds(parts_.instance->policies.watchdog));
   reports_.report(Fault::stall, place_of_call(behaviour), {text.data(), std::min(end.size, text.size())},
                   lane);
 }

@@ -1,7 +1,9 @@
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -33,6 +35,7 @@ class Operations final : public ContextServices {
   Operations(SubsystemParts parts, RunControl& control, const Clock& clock, RecordingLane* lane);
   Operations(const Operations&) = delete;
   Operations& operator=(const Operations&) = delete;
+  ~Operations() { destroy_drivers(parts_); }
 
   // Operations of places.
   /// missed: the number of missed instants of the rate. If it is not zero, this is a fault: the function is
@@ -70,6 +73,9 @@ class Operations final : public ContextServices {
   /// The transition function of `behaviour` has run longer than the watchdog allows, and has not returned.
   /// Threads: any, with a lane of its own.
   void report_stall(std::uint16_t behaviour, RecordingLane* lane) const;
+
+  /// "read() of robot.sonar.distance" while that driver is being read; empty: none is. Threads: any.
+  [[nodiscard]] std::string driver_being_read() const;
 
   [[nodiscard]] const SubsystemParts& parts() const { return parts_; }
   [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
@@ -111,9 +117,10 @@ class Operations final : public ContextServices {
   bool has_ended_ = true;        // the last behaviour; the next call is the first of another
   std::uint64_t iteration_ = 0;  // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
-  std::uint16_t behaviour_ = 0;  // the behaviour called last
-  bool failed_ = false;          // the last transition function has failed
-  bool erroneous_ = false;       // the last outcome was error
+  std::uint16_t behaviour_ = 0;            // the behaviour called last
+  std::atomic<std::uint32_t> reading_{0};  // 1 + number of the real input that is being read; 0: none
+  bool failed_ = false;                    // the last transition function has failed
+  bool erroneous_ = false;                 // the last outcome was error
 };
 
 }  // namespace tessera

@@ -1,11 +1,13 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "drivers/device_life.hpp"
+#include "drivers/driver_watch.hpp"
 #include "links/network_end.hpp"
 #include "nets/shared_channel.hpp"
 #include "recorder/value_recorder.hpp"
@@ -44,5 +46,18 @@ struct SubsystemParts {
   std::unique_ptr<ValueRecorder> values;                 ///< nullptr: values are not recorded
   ParameterChanges* changes = nullptr;                   ///< nullptr: parameters never change
 };
+
+/// Destroys the drivers, the last one first, so that one whose destructor does not return can be named.
+inline void destroy_drivers(SubsystemParts& parts) {
+  for (std::size_t index = parts.drivers.size(); index-- > 0;) {
+    const DriverInUse& driver = parts.drivers[index];
+    const DriverWatch::Call call(DriverWatch::Step::destructor, driver.path);
+    for (std::size_t part = driver.first; part < driver.first + driver.count; ++part)
+      if (driver.effector)
+        parts.effectors[part].reset();
+      else
+        parts.receptors[part].reset();
+  }
+}
 
 }  // namespace tessera

@@ -87,6 +87,7 @@ void CallWatch::wait_for_decision() const {
 
 std::string CallWatch::function() const {
   const SubsystemExecutor& executor = *assembly_.executors[instance_.load(std::memory_order_relaxed)];
+  if (std::string driver = executor.operations().driver_being_read(); !driver.empty()) return driver;
   const std::uint16_t behaviour = executor.gauges().behaviour.load(std::memory_order_relaxed);
   return fmt::format("{}.{}", executor.path(),
                      executor.operations().parts().instance->net->behaviours[behaviour].name);

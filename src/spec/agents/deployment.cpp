@@ -72,6 +72,7 @@ class DeploymentReader {
     if (out_.error_count() > before) return;
     settle();
     check_models();
+    warn_of_partial_stops();
   }
 
  private:
@@ -287,6 +288,19 @@ class DeploymentReader {
                      in_quotes(model_.models[channel.model].name),
                  "its sides share one memory: put both agents into one process, or use `send` and `receive`");
     }
+  }
+
+  /// The author of `recovery: operator` may expect that the whole system stops.
+  void warn_of_partial_stops() {
+    if (model_.deployment->processes.size() < 2) return;
+    for (const Definition& definition : model_.definitions)
+      for (const Subsystem& subsystem : definition.subsystems)
+        if (subsystem.operator_resets)
+          out_.warning("W327", subsystem.span,
+                       "the emergency stop of effector " + in_quotes(subsystem.name) +
+                           " reaches the devices of its own process only",
+                       "`tessera emergency-stop` reaches the processes of a machine; "
+                       "a channel can tell the others");
   }
 
   PathLookup lookup_;

@@ -19,3 +19,9 @@ class Logged : public tessera::Effector<double>, public tessera::Guarded {
 class Left : public Logged<0> {};
 class Right : public Logged<1> {};
 class Joint : public Logged<2> {};
+
+/// No guardian can reach it, and it is not logged.
+class Lamp : public tessera::Effector<double> {
+ public:
+  bool write(const double& /*value*/) override { return true; }
+};

@@ -38,6 +38,14 @@ void warn(RunSummary& summary, std::string text) {
   summary.warnings.push_back(std::move(text));
 }
 
+void warn_of_faults_that_never_happened(const Assembly& assembly, Time end, RunSummary& summary) {
+  summary.injected = happened(assembly.faults, end);
+  for (const RunSummary::PlantedFault& fault : summary.injected)
+    if (!fault.happened)
+      warn(summary, fmt::format("the planted fault {} never happened; this run does not show what it does",
+                                fault.text));
+}
+
 void close_recording(Assembly& assembly, RunSummary& summary) {
   if (assembly.recorder == nullptr) return;
   const Recorder::Result result = assembly.recorder->close();
@@ -140,6 +148,10 @@ template <class Run>
 [[nodiscard]] std::optional<RunSummary> drive(Run& run, Assembly& assembly, const StopSignals& signals,
                                               std::string& error) {
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
+  if (std::optional<std::string> late = fault_after_end(assembly.faults, assembly.options)) {
+    error = *std::move(late);
+    return std::nullopt;
+  }
   RecordingLane* const lane = assembly.system_lane();
   UpperLayers upper(agents_of(assembly.system), assembly.part.agents, !assembly.part.process, lane);
   OpenDevices devices(assembly);
@@ -201,6 +213,7 @@ template <class Run>
   if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
   summary.ended = std::move(ending.text);
   if (!stuck.empty()) warn(summary, stuck);
+  warn_of_faults_that_never_happened(assembly, ending.at, summary);
   for (const std::string& complaint : unclosed) warn(summary, complaint);
   close_recording(assembly, summary);
   close_world(assembly, summary);

@@ -19,6 +19,8 @@ constexpr WrongInput wrong_inputs[] = {
     {"simulate --set v=fast", ""},
     {"simulate --set v=", ""},
     {"simulate --set 'v=3 kg'", ""},
+    {"simulate --set 'v=3 km'", ""},
+    {"simulate --set 'v=3600 km/h' --set vv=1", ""},
     {"simulate --set robot.contrl.v=3", ""},
     {"simulate --set robot.motor.v=1 --set robot.motor.rr=1", ""},
     {"simulate --for soon", ""},

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "spec/values/quantities.hpp"
+#include "spec/values/unit_conversion.hpp"
 
 namespace tessera::project {
 namespace {

@@ -53,6 +53,16 @@ void add(std::vector<Outcome>& all, const Outcome& more) {
     std::tie(found->first_seed, found->at_s, found->text) = std::tie(more.first_seed, more.at_s, more.text);
 }
 
+void add(std::vector<Injected>& all, const Injected& more) {
+  const auto found = std::ranges::find(all, more.fault, &Injected::fault);
+  if (found == all.end()) {
+    all.push_back(more);
+    return;
+  }
+  found->runs += more.runs;
+  found->missed += more.missed;
+}
+
 void add(Results& sum, const Results& more) {
   sum.whole = {std::min(sum.whole.begin, more.whole.begin), std::max(sum.whole.end, more.whole.end)};
   sum.ran.insert(sum.ran.end(), more.ran.begin(), more.ran.end());
@@ -66,6 +76,7 @@ void add(Results& sum, const Results& more) {
   sum.not_repeated.insert(sum.not_repeated.end(), more.not_repeated.begin(), more.not_repeated.end());
   for (const Outcome& kind : more.kinds) add(sum.kinds, kind);
   for (const Outcome& outcome : more.outcomes) add(sum.outcomes, outcome);
+  for (const Injected& one : more.injected) add(sum.injected, one);
   if (more.failure && (!sum.failure || more.failure->seed < sum.failure->seed)) sum.failure = more.failure;
   for (const auto& [name, firings] : more.transitions) sum.transitions[name] += firings;
 }

@@ -86,6 +86,13 @@ Outcome outcome_in(const json& value, const Results& results) {
   return outcome;
 }
 
+Injected injected_in(const json& value, const Results& results) {
+  Injected one{value.at("fault"), count_in(value.at("runs")), count_in(value.at("missed"))};
+  demand(one.runs <= results.tried && one.missed <= results.tried - one.runs,
+         "a fault was planted in more runs than there were");
+  return one;
+}
+
 void read_counts(const json& from, Results& results) {
   for (const json& range : from.at("ran")) results.ran.push_back(seeds_in(range));
   demand(!overlap_of(results.ran), "a seed was run twice");
@@ -106,6 +113,8 @@ void read_counts(const json& from, Results& results) {
     results.failure = {count_in(failure.at("seed")), instant_in(failure.at("at_s")), failure.at("ended")};
   for (const json& seed : from.at("not_repeated")) results.not_repeated.push_back(count_in(seed));
   demand(results.failure.has_value() == (results.failed > 0), "the first failure is not told");
+  if (from.contains("injected"))
+    for (const json& one : from.at("injected")) results.injected.push_back(injected_in(one, results));
   if (from.contains("transitions"))
     for (const auto& [name, firings] : from.at("transitions").items())
       results.transitions[name] = count_in(firings);
@@ -159,6 +168,8 @@ std::string to_json(const Results& results) {
     if (!results.again.empty())
       written["reproduce"] = fmt::format("{} {}", results.again, results.failure->seed);
   }
+  for (const Injected& one : results.injected)
+    written["injected"].push_back({{"fault", one.fault}, {"runs", one.runs}, {"missed", one.missed}});
   if (!results.transitions.empty()) written["transitions"] = results.transitions;
   return written.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

@@ -24,6 +24,13 @@ struct Outcome {
   std::string text;
 };
 
+/// The number of runs with a fault of `--inject`. Runs that died are in neither.
+struct Injected {
+  std::string fault;
+  std::uint64_t runs = 0;    ///< in which it happened
+  std::uint64_t missed = 0;  ///< that ended without it
+};
+
 /// The identity of the runs. Only results with the same identity can be counted together.
 struct Identity {
   std::string system;
@@ -48,7 +55,8 @@ struct Results {
     double at_s = 0;  ///< NaN: not known
     std::string ended;
   };
-  std::optional<Failure> failure;  ///< the run of the lowest seed that failed
+  std::optional<Failure> failure;    ///< the run of the lowest seed that failed
+  std::vector<Injected> injected{};  ///< each fault of `--inject` once
   /// First seeds whose runs went otherwise when they were made again, alone in a process.
   std::vector<std::uint64_t> not_repeated;
   std::string again;  ///< command that makes a run again, when the seed is put behind it
@@ -59,7 +67,7 @@ struct Results {
 /// {"tessera": "schedules", "version": 1, "system", "specification", "net", "controller", "settings", "seeds":
 /// [begin, end], "parts", "ran": [[begin, end]...], "tried", "failed", "interval": [low, high], "simulated_s",
 /// "wall_s", "firings", "interrupted", "kinds", "outcomes", "failure": null or {"seed", "at_s", "ended"},
-/// "not_repeated": [seed...], "again", "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
+/// "not_repeated": [seed...], "again", "injected" (if there are faults): [{"fault", "runs", "missed"}...], "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
 /// "runs", "failed", "interval", and if there are runs "first_seed", "at_s", "text", "reproduce"}...].
 [[nodiscard]] std::string to_json(const Results& results);
 

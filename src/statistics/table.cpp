@@ -107,6 +107,20 @@ std::string commands(const Results& results) {
   return text;
 }
 
+/// Says how many runs had each planted fault. Without the fault, the figures are those of another experiment.
+std::string injected(const Results& results) {
+  std::string text;
+  for (const Injected& one : results.injected) {
+    text += fmt::format("injected {}: in {} of {} runs", one.fault, one.runs, results.tried);
+    const std::uint64_t unknown = results.tried - one.runs - one.missed;
+    text += unknown == 0 ? "\n" : fmt::format(" (not known of {})\n", unknown);
+    if (one.runs == 0 && one.missed > 0)
+      text += fmt::format(
+          "warning: {} has happened in no run: these figures do not show what this fault does.\n", one.fault);
+  }
+  return text;
+}
+
 }  // namespace
 
 std::string percent(double share) {
@@ -125,6 +139,7 @@ std::string to_table(const Results& results) {
   text += fmt::format(" ({:.1f} s simulated in {:.2f} s, {} firings){}\n", results.simulated_s,
                       results.wall_s, results.firings, results.interrupted ? "; interrupted" : "");
   if (results.tried == 0) return text;
+  text += injected(results);
   text += fmt::format("A run fails with a probability of {} ({:.0f} % confidence).\n",
                       interval_text(results.failed, results.tried), usual_confidence * 100);
   const bool has_any =

@@ -294,6 +294,32 @@ TEST(Inject, SaysWhatIsWrong) {
   }
 }
 
+TEST_F(Routed, AFaultThatNeverHappensIsAWarning) {
+  add({});  // stays in the first behaviour
+  options.inject = {"robot.a.first:throw@15ms", "robot.a.second:stall=1ms@1ms", "signal:SIGINT@40ms",
+                    "signal:SIGTERM@41ms"};
+  const RunSummary summary = run(system, options);
+  std::vector<bool> happened;
+  for (const RunSummary::PlantedFault& fault : summary.injected) happened.push_back(fault.happened);
+  EXPECT_EQ(happened, (std::vector<bool>{true, true, true, false})) << "the error leads to `second`";
+  ASSERT_EQ(summary.warnings.size(), 1U);
+  EXPECT_EQ(summary.warnings[0],
+            "the planted fault signal:SIGTERM@41ms never happened; this run does not show what it does");
+  options.inject = {"robot.a.second:throw@any"};
+  EXPECT_EQ(run(system, options).warnings.size(), 1U);
+}
+
+TEST_F(Routed, AFaultThatWouldComeAfterTheEndIsRefused) {
+  add(script());
+  for (const char* fault : {"robot.a:throw@45ms", "robot.a:stall=1ms@1s..", "signal:SIGINT@60ms"}) {
+    options.inject = {fault};
+    std::string error;
+    EXPECT_FALSE(execute(system.system(), options, error)) << fault;
+    EXPECT_EQ(error, std::string("--inject ") + fault +
+                         ": the fault would never happen, because the run ends after 0.045 s");
+  }
+}
+
 // --------------------------------------------------------------------------------------- line follower
 
 /// The paper's example without its robot.

@@ -152,6 +152,25 @@ TEST(Schedules, AFaultThatIsRoutedIsCountedAndFailsNothing) {
   EXPECT_NE(thrown.text.find("lost the line"), std::string::npos);
 }
 
+TEST(Schedules, CountTheRunsWithAPlantedFault) {
+  TestSystem system;
+  system.add("robot.a", nets::two_behaviours, {}, 10ms);  // stays in the first behaviour
+  RunOptions options = simulated(100ms);
+  options.inject = {"robot.a.first:stall=1ms@any", "robot.a.second:throw@any"};
+  const ScheduleReport report = try_all(system, options, {.count = 4, .jobs = 2});
+  const InjectionCount entered = report.injected.at("robot.a.first:stall=1ms@any");
+  EXPECT_EQ(entered.runs + entered.missed, 4U);
+  EXPECT_GT(entered.runs, 0U);
+  const InjectionCount never = report.injected.at("robot.a.second:throw@any");
+  EXPECT_EQ(never.runs, 0U);
+  EXPECT_EQ(never.missed, 4U);
+  EXPECT_NE(schedules_text(report).find("injected robot.a.second:throw@any: in 0 of 4 runs\n"),
+            std::string::npos);
+  const auto json = nlohmann::json::parse(schedules_json(report));
+  EXPECT_EQ(json.at("injected").at(1),
+            (nlohmann::json{{"fault", "robot.a.second:throw@any"}, {"runs", 0}, {"missed", 4}}));
+}
+
 // The seed of a run is in no place that a script sees, so the memory of the process stands in for it: the
 // third run of each process dies.
 TEST(Schedules, ADeathLosesOneRunAndIsNamed) {
@@ -245,7 +264,8 @@ TEST(ScheduleResult, ComesBackFromItsLine) {
                               .simulated = 1500ms,
                               .firings = 12,
                               .ended = "stopped: \"a\"\nb",
-                              .events = {{"assertion", "robot.a", 0.1, "x\ny"}}};
+                              .events = {{"assertion", "robot.a", 0.1, "x\ny"}},
+                              .injected = {{"robot.a:nan@any", true}, {"robot.b:nan@any", false}}};
   const std::string line = to_line(result);
   EXPECT_EQ(line.find('\n'), std::string::npos);
   const std::optional<ScheduleResult> back = from_line(line);

@@ -35,6 +35,17 @@ TEST(Merge, OfMergedResultsIsTheSame) {
   EXPECT_EQ(all->failure->seed, 10u);
 }
 
+TEST(Merge, AddsTheRunsWithAPlantedFault) {
+  Results one = example_results(1, 101), other = example_results(101, 201);
+  one.injected = {{"a:nan@any", 90, 10}};
+  other.injected = {{"a:nan@any", 70, 29}};
+  const Result<Results> merged = merge({{"1", one}, {"2", other}});
+  ASSERT_TRUE(merged);
+  ASSERT_EQ(merged->injected.size(), 1U);
+  EXPECT_EQ(merged->injected[0].runs, 160U);
+  EXPECT_EQ(merged->injected[0].missed, 39U);
+}
+
 TEST(Merge, NamesThePartsThatAreMissingOrNotWhole) {
   const Result<Results> merged = merge({{"1", example_results(1, 90)}, {"2", example_results(101, 102)}});
   ASSERT_TRUE(merged);

@@ -104,6 +104,25 @@ TEST(Table, WarnsOfASeedThatGoesOtherwiseAlone) {
   EXPECT_NE(to_table(results).find("Seed 10 went otherwise"), std::string::npos);
 }
 
+TEST(Table, WarnsOfAFaultThatNoRunHad) {
+  Results results = example_results(1, 10);
+  results.injected = {{"robot.a:throw@any", 7, 2}, {"robot.b:throw@5s", 0, 8}, {"robot.c:throw@1s", 0, 0}};
+  EXPECT_NE(to_table(results).find(
+                "injected robot.a:throw@any: in 7 of 9 runs\n"
+                "injected robot.b:throw@5s: in 0 of 9 runs (not known of 1)\n"
+                "warning: robot.b:throw@5s has happened in no run: these figures do not show what this "
+                "fault does.\n"
+                "injected robot.c:throw@1s: in 0 of 9 runs (not known of 9)\n"
+                "A run fails"),
+            std::string::npos)
+      << to_table(results);
+  const Result<Results> back = parse_results(to_json(results));
+  ASSERT_TRUE(back) << back.problem();
+  EXPECT_EQ(to_json(*back), to_json(results));
+  results.injected[0].missed = 3;
+  EXPECT_FALSE(parse_results(to_json(results))) << "more than there were";
+}
+
 TEST(Table, WithoutRunsClaimsNothing) {
   const std::string table = to_table(example_results(1, 1));
   EXPECT_EQ(table.find('%'), std::string::npos) << table;

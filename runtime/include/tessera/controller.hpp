@@ -115,8 +115,13 @@ struct RunSummary {
     std::uint64_t iterations = 0, overruns = 0, errors = 0;
   };
   std::vector<PerSubsystem> subsystems;
-  std::string judgement;          ///< checks and measures as World::results; empty: none
-  std::uint64_t lost_events = 0;  ///< events missing in the recording
+  struct PlantedFault {
+    std::string text;  ///< as RunOptions::inject
+    bool happened = false;
+  };
+  std::vector<PlantedFault> injected;  ///< the faults planted in this process
+  std::string judgement;               ///< checks and measures as World::results; empty: none
+  std::uint64_t lost_events = 0;       ///< events missing in the recording
   /// The recording begins there: its limit has dropped what was before. nullopt: it has its beginning.
   std::optional<Duration> recorded_from;
   std::uint64_t lines_not_printed = 0;  ///< lines that the terminal did not take

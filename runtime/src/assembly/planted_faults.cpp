@@ -1,5 +1,7 @@
 #include "assembly/planted_faults.hpp"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <memory>
@@ -58,6 +60,26 @@ bool read_faults(const RunOptions& options, const ProcessPart& part, Injections&
     faults.push_back(std::make_shared<Injection>(std::move(*fault)));
   }
   return true;
+}
+
+std::optional<std::string> fault_after_end(const Injections& faults, const RunOptions& options) {
+  // The duration of a run that follows a scenario begins after the scenario.
+  if (!options.duration || !options.scenario.empty()) return std::nullopt;
+  const Time end(*options.duration);
+  for (const std::shared_ptr<Injection>& fault : faults)
+    if (fault->from >= end && !fault->text.ends_with("@any"))
+      return fmt::format("--inject {}: the fault would never happen, because the run ends after {:g} s",
+                         fault->text, seconds(*options.duration));
+  return std::nullopt;
+}
+
+std::vector<RunSummary::PlantedFault> happened(const Injections& faults, Time end) {
+  std::vector<RunSummary::PlantedFault> all;
+  for (const std::shared_ptr<Injection>& fault : faults) {
+    const bool by_time = fault->kind == Injection::Kind::link || fault->kind == Injection::Kind::process;
+    all.push_back({fault->text, by_time ? fault->from < end : fault->has_happened()});
+  }
+  return all;
 }
 
 std::vector<Cut> cuts_of(const Injections& faults) {

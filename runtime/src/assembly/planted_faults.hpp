@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -17,6 +18,13 @@ namespace tessera {
 /// Errors: see read_injection; a cut link under the steady clock: false and `error`.
 [[nodiscard]] bool read_faults(const RunOptions& options, const ProcessPart& part, Injections& faults,
                                std::string& error);
+
+/// Returns the fault whose time is not before the end of the run, in words. nullopt: there is none, or the end
+/// is not known.
+[[nodiscard]] std::optional<std::string> fault_after_end(const Injections& faults, const RunOptions& options);
+
+/// Says which faults have happened in a run that has ended at that time.
+[[nodiscard]] std::vector<RunSummary::PlantedFault> happened(const Injections& faults, Time end);
 
 /// The links that are cut.
 [[nodiscard]] std::vector<Cut> cuts_of(const Injections& faults);

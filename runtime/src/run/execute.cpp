@@ -35,6 +35,14 @@ void warn(RunSummary& summary, std::string text) {
   summary.warnings.push_back(std::move(text));
 }
 
+void warn_of_faults_that_never_happened(const Assembly& assembly, Time end, RunSummary& summary) {
+  summary.injected = happened(assembly.faults, end);
+  for (const RunSummary::PlantedFault& fault : summary.injected)
+    if (!fault.happened)
+      warn(summary, fmt::format("the planted fault {} never happened; this run does not show what it does",
+                                fault.text));
+}
+
 void close_recording(Assembly& assembly, RunSummary& summary) {
   if (assembly.recorder == nullptr) return;
   const Recorder::Result result = assembly.recorder->close();
@@ -112,6 +120,10 @@ template <class Run>
                                               KnownRun& known) {
   std::string& error = known.error;
   if (!assemble(assembly, run.clock(), run, error)) return std::nullopt;
+  if (std::optional<std::string> late = fault_after_end(assembly.faults, assembly.options)) {
+    error = *std::move(late);
+    return std::nullopt;
+  }
   RecordingLane* const lane = assembly.system_lane();
   UpperLayers upper(agents_of(assembly.system), assembly.part.agents, !assembly.part.process, lane);
   OpenDevices devices(assembly);
@@ -171,6 +183,7 @@ template <class Run>
   if (ending.failed) console::print(LogLevel::error, ending.at, "tessera", ending.text);
   summary.ended = std::move(ending.text);
   if (!stuck.empty()) warn(summary, stuck);
+  warn_of_faults_that_never_happened(assembly, ending.at, summary);
   close_recording(assembly, summary);
   close_the_devices(devices, ending.left_behind, summary, known);
   close_world(assembly, summary);

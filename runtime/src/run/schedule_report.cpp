@@ -81,6 +81,8 @@ void ScheduleReport::add(const ScheduleResult& result) {
   simulated += result.simulated;
   firings += result.firings;
   insert_seed(ran, result.seed);
+  for (const auto& [text, happened] : result.injected)
+    ++(happened ? injected[text].runs : injected[text].missed);
   std::map<std::string_view, const ScheduleEvent*> first;  // of each kind
   for (const ScheduleEvent& event : result.events) {
     count_event(outcomes[{event.kind, event.name}], result, event);
@@ -112,6 +114,8 @@ std::string schedules_text(const ScheduleReport& report) {
                   report.failed == 0 ? std::string("none fails") : fmt::format("{} fail", report.failed),
                   seconds(report.simulated), report.wall_s, report.firings,
                   report.interrupted == 0 ? "" : "; interrupted");
+  for (const auto& [fault, count] : report.injected)
+    text += fmt::format("  injected {}: in {} of {} runs\n", fault, count.runs, report.tried);
   for (const auto& [key, outcome] : report.outcomes) {
     if (outcome.runs == 0) {
       text += fmt::format("  {} {}: in none of {} runs\n", key.first, key.second, report.tried);
@@ -151,6 +155,8 @@ std::string schedules_json(const ScheduleReport& report) {
     json["failure"] = {{"seed", report.first_failure->seed},
                        {"at_s", report.first_failure->at_s},
                        {"ended", report.first_failure->ended}};
+  for (const auto& [fault, count] : report.injected)
+    json["injected"].push_back({{"fault", fault}, {"runs", count.runs}, {"missed", count.missed}});
   if (!report.transitions.empty()) {
     json["transitions"] = ordered_json::object();
     for (const auto& [name, firings] : report.transitions) json["transitions"][name] = firings;
@@ -162,8 +168,11 @@ std::string to_line(const ScheduleResult& result) {
   ordered_json events = ordered_json::array();
   for (const ScheduleEvent& event : result.events)
     events.push_back({event.kind, event.name, event.at_s, event.text});
+  ordered_json injected = ordered_json::array();
+  for (const auto& [text, happened] : result.injected)
+    injected.push_back(ordered_json::array({text, happened}));
   const ordered_json line{result.seed,    result.failed, result.interrupted, result.simulated.count(),
-                          result.firings, result.ended,  std::move(events)};
+                          result.firings, result.ended,  std::move(events),  std::move(injected)};
   return line.dump(-1, ' ', false, invalid_text_replaced);
 }
 
@@ -179,6 +188,7 @@ std::optional<ScheduleResult> from_line(std::string_view line) try {
   for (const auto& event : json.at(6))
     result.events.push_back(
         {.kind = event.at(0), .name = event.at(1), .at_s = event.at(2), .text = event.at(3)});
+  for (const auto& fault : json.at(7)) result.injected.push_back({fault.at(0), fault.at(1)});
   return result;
 } catch (const nlohmann::json::exception&) {
   return std::nullopt;

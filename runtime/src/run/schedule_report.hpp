@@ -35,6 +35,8 @@ struct ScheduleResult {
   std::uint64_t firings = 0;
   std::string ended;                  ///< as RunSummary::ended
   std::vector<ScheduleEvent> events;  ///< each kind and name once; a run that failed has at least one
+  /// The planted faults. Empty: there are none, or the run died and nobody knows.
+  std::vector<RunSummary::PlantedFault> injected{};
 };
 
 /// The frequency of one kind of fault or failure.
@@ -44,6 +46,12 @@ struct ScheduleOutcome {
   std::uint64_t first_seed = 0;
   double at_s = 0;  ///< time in the run of the first seed
   std::string text;
+};
+
+/// The number of runs with a planted fault. Runs that died are in neither.
+struct InjectionCount {
+  std::uint64_t runs = 0;    ///< runs in which it happened
+  std::uint64_t missed = 0;  ///< runs that have ended without it
 };
 
 /// The kinds of faults and failures, in the order of the table.
@@ -69,7 +77,8 @@ struct ScheduleReport {
     double at_s;
     std::string ended;
   };
-  std::optional<Failure> first_failure;  ///< that of the lowest seed
+  std::optional<Failure> first_failure;            ///< that of the lowest seed
+  std::map<std::string, InjectionCount> injected;  ///< by the text of the planted fault
   /// Seeds reported as first whose run had another result when it was repeated alone in a process: user code
   /// keeps some state from run to run.
   std::vector<std::uint64_t> not_repeated;

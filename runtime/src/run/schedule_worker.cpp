@@ -57,7 +57,8 @@ constexpr char error_mark = '!';
                         .simulated = summary.simulated,
                         .firings = summary.firings,
                         .ended = summary.ended,
-                        .events = {}};
+                        .events = {},
+                        .injected = summary.injected};
   for (const RunTally::SeenFault& fault : tally.faults())
     result.events.push_back(
         {.kind = std::string(tessera::name_of(fault.fault)),

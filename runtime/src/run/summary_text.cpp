@@ -30,6 +30,8 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
   const auto judgement =
       nlohmann::ordered_json::parse(summary.judgement, nullptr, /*allow_exceptions=*/false);
   if (judgement.is_object()) json.update(judgement);
+  for (const RunSummary::PlantedFault& fault : summary.injected)
+    json["injected"].push_back({{"fault", fault.text}, {"happened", fault.happened}});
   json["subsystems"] = nlohmann::ordered_json::array();
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     json["subsystems"].push_back({{"path", subsystem.path},

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <limits>
 #include <random>
@@ -19,8 +20,13 @@ namespace tessera {
 bool Injection::happens(Time now) {
   if (now < from || now >= until || done_) return false;
   done_ = once;
+  note_happened();
   return true;
 }
+
+bool Injection::has_happened() const { return std::atomic_ref<bool>(happened_).load(); }
+
+void Injection::note_happened() { std::atomic_ref<bool>(happened_).store(true); }
 
 void Injection::announce() {
   if (context != nullptr && !std::exchange(announced_, true)) context->warn("injected: {}", text);
@@ -296,7 +302,10 @@ InjectedSignals::InjectedSignals(const Injections& faults) {
 }
 
 void InjectedSignals::raise_due(Time now) {
-  for (; next() <= now; left_.pop_back()) raise(left_.back()->signal);
+  for (; next() <= now; left_.pop_back()) {
+    left_.back()->note_happened();
+    raise(left_.back()->signal);
+  }
 }
 
 namespace {

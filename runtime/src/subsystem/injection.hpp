@@ -40,13 +40,18 @@ struct Injection {
 
   Context* context = nullptr;  ///< of the subsystem whose device has the fault
 
-  /// Whether the fault occurs now; if so, it is counted.
+  /// Whether the fault occurs now; if so, it has happened.
   [[nodiscard]] bool happens(Time now);
+  /// Whether it has occurred in this run. Threads: any.
+  [[nodiscard]] bool has_happened() const;
+  /// Notes that it has occurred. Threads: any.
+  void note_happened();
   /// Reports the fault of a device when it begins. Threads: the subsystem's.
   void announce();
 
  private:
   bool done_ = false, announced_ = false;
+  mutable bool happened_ = false;  // read and written with std::atomic_ref
 };
 
 /// A fault of a subsystem with several devices affects the device that is used first.

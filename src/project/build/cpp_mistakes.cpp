@@ -317,7 +317,8 @@ class Meaning {
     if (has(text_, "'bool'") && structure != nullptr && !structure->fields.empty())
       hint = fmt::format("choose a field of {}, for example .{}", structure->name,
                          structure->fields.front().name);
-    if (has(text_, "different signedness")) hint = "make both signed: static_cast<int>(...)";
+    if (has(text_, "different signedness"))
+      hint = "write std::cmp_less(a, b), std::cmp_equal(a, b) and so on: they also compare negative numbers";
     return CppMistake{"E506", simple(text_), hint};
   }
 

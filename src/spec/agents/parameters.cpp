@@ -5,6 +5,7 @@
 #include "spec/agents/buffers.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "spec/document/type_text.hpp"
 #include "spec/values/literals.hpp"
 #include "spec/values/quantities.hpp"
 
@@ -16,6 +17,11 @@ using diagnostics::in_quotes;
 /// Elements of an array: it is stored in place, and given on a command line.
 constexpr std::uint64_t largest_array = 256;
 
+Type not_a_unit(Span at, std::string_view text, Diagnostics& out) {
+  out.error("E201", at, in_quotes(text) + " is not a unit", "for example m/s");
+  return Types::unknown();
+}
+
 /// The type of a value without an explicit type: a number is a float64, quoted text a string.
 Type shown_type(const Node& value, Diagnostics& out) {
   Type type;
@@ -24,6 +30,7 @@ Type shown_type(const Node& value, Diagnostics& out) {
   } else if (value.quoted) {
     type.kind = Type::Kind::string;
   } else if (const auto quantity = split_quantity(value.text)) {
+    if (!is_unit(quantity->unit)) return not_a_unit(value.span, quantity->unit, out);
     type.unit = quantity->unit;
   } else {
     out.error("E203", value.span, in_quotes(value.text) + " is no number, true or false",
@@ -102,6 +109,8 @@ class LongForm {
     if (text == nullptr) return;
     if (!is_number()) {
       out_.error("E201", text->span, "unit " + in_quotes(text->text) + " on a type that is no number");
+    } else if (!is_unit(text->text)) {
+      type_ = not_a_unit(text->span, text->text, out_);
     } else if (!type_.unit.empty() && type_.unit != text->text) {
       out_.error("E208", text->span,
                  "unit " + in_quotes(text->text) + " where the type is " + types_.spelled(type_),

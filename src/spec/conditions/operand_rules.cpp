@@ -22,6 +22,22 @@ std::string unit_hint(const std::string& number) {
   return "durations are written like 500 ms; the units are h, min, s, ms, us and ns";
 }
 
+/// Whether C++ takes a negative value of the signed type for a large one of the unsigned type.
+bool loses_sign(Scalar is_signed, Scalar is_unsigned) {
+  const bool any = is_signed == Scalar::int8 || is_signed == Scalar::int16 || is_signed == Scalar::int32;
+  if (is_unsigned == Scalar::uint32) return any;
+  return is_unsigned == Scalar::uint64 && (any || is_signed == Scalar::int64);
+}
+
+/// "cmp_less" for "<".
+std::string_view function_for(const Token& mark) {
+  if (mark.is("==")) return "cmp_equal";
+  if (mark.is("<")) return "cmp_less";
+  if (mark.is(">")) return "cmp_greater";
+  if (mark.is("<=")) return "cmp_less_equal";
+  return mark.is(">=") ? "cmp_greater_equal" : "cmp_not_equal";
+}
+
 }  // namespace
 
 Value ConditionOperators::combine(const Token& mark, const Value& left, const Value& right) {
@@ -29,7 +45,17 @@ Value ConditionOperators::combine(const Token& mark, const Value& left, const Va
   if (mark.is_one_of({"==", "!=", "not_eq", "<", ">", "<=", ">="})) return compare(mark, left, right);
   if (mark.is_one_of({"+", "-"})) return add(mark, left, right);
   if (mark.is_one_of({"*", "/"})) return multiply(mark, left, right);
+  if (mark.is_one_of({"&", "|", "^", "bitand", "bitor", "xor"})) check_bits(mark, left, right);
   return {};
+}
+
+/// C++ reads "a & b == c" as "a & (b == c)".
+void ConditionOperators::check_bits(const Token& mark, const Value& left, const Value& right) {
+  const bool mixed =
+      (left.comparison && right.kind == Is::number) || (right.comparison && left.kind == Is::number);
+  if (mixed)
+    mistake_at(mark, "E212", "the comparison is made before " + in_quotes(mark.text),
+               fmt::format("write brackets: (a {} b) == c", mark.text));
 }
 
 Value ConditionOperators::combine_logical(const Token& mark, const Value& left, const Value& right) {
@@ -111,8 +137,22 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
     const Value& truth = left.kind == Is::number ? right : left;
     warn_of_truth(number, described(truth) + ", " + described(number), "true is 1 there, and false is 0");
   }
-  check_units(mark, left, right);
+  if (check_signs(mark, left, right)) check_units(mark, left, right);
   return result;
+}
+
+/// Refuses what the build would refuse. false: it has. The type of a sum or a product is not known exactly.
+bool ConditionOperators::check_signs(const Token& mark, const Value& left, const Value& right) {
+  for (const Value* one : {&left, &right})
+    if (one->kind != Is::number || !one->declared ||
+        text_of(*one).find_first_of("+-*/ ") != std::string::npos)
+      return true;
+  if (!loses_sign(left.type.scalar, right.type.scalar) && !loses_sign(right.type.scalar, left.type.scalar))
+    return true;
+  mistake_at(mark, "E212",
+             fmt::format("{} and {}: only one of them can be negative", described(left), described(right)),
+             fmt::format("write std::{}({}, {})", function_for(mark), text_of(left), text_of(right)));
+  return false;
 }
 
 /// "2 m" beside a duration was said to be no number: it means minutes.

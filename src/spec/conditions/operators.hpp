@@ -45,8 +45,10 @@ class ConditionOperators {
   Value combine(const Token& mark, const Value& left, const Value& right);
   Value combine_logical(const Token& mark, const Value& left, const Value& right);
   Value compare(const Token& mark, const Value& left, const Value& right);
+  void check_bits(const Token& mark, const Value& left, const Value& right);
   Value add(const Token& mark, const Value& left, const Value& right);
   Value multiply(const Token& mark, const Value& left, const Value& right);
+  bool check_signs(const Token& mark, const Value& left, const Value& right);
   void hint_at_minutes(const Value& left, const Value& right);
   void warn_of_truth(const Value& value, std::string message, std::string hint);
   bool check_units(const Token& mark, const Value& left, const Value& right);

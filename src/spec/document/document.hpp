@@ -8,7 +8,8 @@
 
 #include "diagnostics/diagnostics.hpp"
 
-/// YAML as a tree whose every part knows its position in the text. Internal to the module.
+/// YAML as a tree whose every part knows its position in the text. Specifications and files of parameters are
+/// read so.
 namespace tessera::spec {
 
 using diagnostics::Diagnostics;

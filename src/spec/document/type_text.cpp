@@ -58,9 +58,24 @@ class Cursor {
   std::size_t position_ = 0;
 };
 
-/// Units are used in comments and labels, so their characters are limited.
+/// For brackets behind the name and its length: they are no part of a unit, so that no length gets lost.
+std::string bracket_hint(const TypeText& parts, std::string_view unit) {
+  const std::size_t open = unit.find_first_of("[]");
+  const bool is_length = unit[open] == '[' && Cursor(unit.substr(open + 1)).take_number();
+  if (!is_length) return "a unit has no brackets";
+  if (parts.extent > 0)
+    return "arrays of arrays do not exist: define a structure with the inner array as a field";
+  const std::size_t end = unit.find(']', open);
+  const std::string length(unit.substr(open, end == std::string_view::npos ? end : end - open + 1));
+  std::string_view before = unit.substr(0, open);
+  before = before.substr(0, before.find_last_not_of(' ') + 1);
+  return "the length comes before the unit: " + parts.name + length + " " + std::string(before);
+}
+
+}  // namespace
+
 bool is_unit(std::string_view text) {
-  constexpr std::string_view signs = "/^*-+.%()[]' ";
+  constexpr std::string_view signs = "/^*-+.%()' ";
   const bool readable = std::all_of(text.begin(), text.end(), [&](char c) {
     return is_identifier(std::string_view(&c, 1)) || (c >= '0' && c <= '9') ||
            signs.find(c) != std::string_view::npos || static_cast<unsigned char>(c) >= 0x80;
@@ -68,8 +83,6 @@ bool is_unit(std::string_view text) {
   return readable && text.size() <= longest_unit && text.find("*/") == std::string_view::npos &&
          text.find("/*") == std::string_view::npos;
 }
-
-}  // namespace
 
 std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   Cursor cursor(text.text);
@@ -103,6 +116,10 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   unit = unit.substr(0, unit.find_last_not_of(" \t\r\n") + 1);
   parts.unit = unit;
   parts.unit_span = text.part(cursor.position(), std::max<std::size_t>(unit.size(), 1));
+  if (unit.find_first_of("[]") != std::string_view::npos) {
+    out.error("E201", parts.unit_span, in_quotes(unit) + " is not a unit", bracket_hint(parts, unit));
+    return std::nullopt;
+  }
   const bool attached = !unit.empty() && cursor.position() > 0 && text.text[cursor.position() - 1] != ' ' &&
                         text.text[cursor.position() - 1] != ']';
   if (attached || !is_unit(unit)) return fail("E201", in_quotes(unit) + " is not a unit");

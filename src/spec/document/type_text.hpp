@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "spec/document/document.hpp"
 
@@ -20,5 +21,9 @@ struct TypeText {
 
 /// Errors: E201 not of that form; E204 a capacity or extent of zero or out of range.
 [[nodiscard]] std::optional<TypeText> split_type(const Node& text, Diagnostics& out);
+
+/// Whether a text can be a unit. Units are used in comments and labels, so their characters are limited.
+/// Brackets are those of an array.
+[[nodiscard]] bool is_unit(std::string_view text);
 
 }  // namespace tessera::spec

@@ -170,12 +170,6 @@ std::optional<SiQuantity> in_si(const Quantity& quantity) {
   return SiQuantity{quantity.number * *factor, si_unit(quantity.unit)};
 }
 
-std::optional<double> converted(const Quantity& quantity, std::string_view unit) {
-  const auto from = si_factor(quantity.unit), to = si_factor(unit);
-  if (!from || !to || si_unit(quantity.unit) != si_unit(unit)) return std::nullopt;
-  return quantity.number * *from / *to;
-}
-
 std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
                                               Diagnostics& out) {
   const Node* text = text_of(node, at, what, out, "write a number");

@@ -49,9 +49,6 @@ struct SiQuantity {
   std::string unit;
 };
 [[nodiscard]] std::optional<SiQuantity> in_si(const Quantity& quantity);
-/// The number in another unit of the same kind: 5 cm in m is 0.05. nullopt: one of the units is unknown, or
-/// they are of different kinds.
-[[nodiscard]] std::optional<double> converted(const Quantity& quantity, std::string_view unit);
 /// A number without a unit.
 [[nodiscard]] std::optional<double> read_number(const Node& node, Span at, std::string_view what,
                                                 Diagnostics& out);

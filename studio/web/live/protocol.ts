@@ -696,6 +696,8 @@ export interface Outcome {
   warnings: string[];
   /** The recording begins there: its limit has dropped what was before. Absent: it has its beginning. */
   recorded_from_s?: number;
+  /** The faults of `--inject`; absent: there are none. */
+  injected?: { fault: string; happened: boolean }[];
   world_s?: number;
   track?: string;
   /** Those of the simulated world. */

@@ -369,7 +369,9 @@ TEST_F(Command, AConvoyOfProcessesDrivesAndItsRecordingsAreOneLegalRun) {
 /// `tessera run --deploy` with its output where the test wants it.
 class Started {
  public:
-  Started(const fs::path& folder, const std::string& domain, int output, bool as_terminal) : pid_(fork()) {
+  Started(const fs::path& folder, const std::string& domain, int output, bool as_terminal,
+          const std::string& options = "--deploy")
+      : pid_(fork()) {
     if (pid_ != 0) return;
     if (as_terminal) {
       setsid();
@@ -380,7 +382,7 @@ class Started {
     dup2(output, STDERR_FILENO);
     for (int other = 3; other < 64; ++other) close(other);
     const std::string line = "cd '" + folder.string() + "' && exec " + TESSERA_BINARY_DIR +
-                             "/tessera run 11_crossing_apart --deploy --for 120s" + domain;
+                             "/tessera run 11_crossing_apart " + options + " --for 120s" + domain;
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }
@@ -442,6 +444,25 @@ TEST_F(Deploy, ATerminalThatIsClosedStopsAllSafely) {
   EXPECT_FALSE(any_is_left());
   for (const nlohmann::json& process : deployment().at("processes"))
     EXPECT_EQ(process.at("starts").back().at("ended"), "ended: SIGHUP") << deployment();
+}
+
+/// One process, which prints its result itself.
+TEST_F(Deploy, ATerminalThatIsClosedCostsNoFileOfARun) {
+  int terminal = -1, other_side = -1;
+  ASSERT_EQ(openpty(&terminal, &other_side, nullptr, nullptr, nullptr), 0);
+  const Started run(folder_, domain_, other_side, /*as_terminal=*/true,
+                    "--process gate --json sum.json --record gate.tsr");
+  close(other_side);
+  EXPECT_TRUE(eventually([&] {
+    std::error_code missing;
+    const auto bytes = fs::file_size(folder_ / "gate.tsr", missing);
+    return !missing && bytes > 0;
+  }));
+  close(terminal);
+  EXPECT_EQ(run.wait(), 128 + SIGHUP);
+  const nlohmann::json summary = nlohmann::json::parse(content_of(folder_ / "sum.json"), nullptr, false);
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary.at("ended"), "SIGHUP");
 }
 
 }  // namespace

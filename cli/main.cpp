@@ -4,6 +4,8 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
+#include "project/process/process.hpp"
+#include "tessera/signals.hpp"
 
 int main(int argc, char** argv) {
   namespace cli = tessera::cli;
@@ -29,6 +31,10 @@ int main(int argc, char** argv) {
     add(line, exit_code);
   try {
     if (const std::optional<int> decided = line.read(argc, argv)) return *decided;
+  } catch (const tessera::project::Interrupted& interrupted) {
+    cli::terminal().say("tessera: " + tessera::signal_name(interrupted.signal) + ": " + interrupted.what() +
+                        "\n");
+    return 128 + interrupted.signal;
   } catch (const std::exception& error) {
     return cli::complain(error.what());
   } catch (...) {  // from a library: MuJoCo's is no std::exception

@@ -210,7 +210,7 @@ void write_report(RunOutcome outcome, const verify::Report& verification, const 
   fs::create_directories(folder);
   for (const report::File& file : report::render(report_input(std::move(outcome), verification))) {
     write_output((folder / file.name).string(), file.bytes);
-    fmt::print(stderr, "report: {}\n", (folder / file.name).string());
+    terminal().say(fmt::format("report: {}\n", (folder / file.name).string()));
   }
 }
 

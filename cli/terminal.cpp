@@ -21,16 +21,20 @@ bool colour() { return isatty(STDERR_FILENO) != 0 && std::getenv("NO_COLOR") == 
 
 namespace {
 
+/// A terminal that was closed, or a full disk, must not end a command: fmt::print would throw.
+void put(std::string_view text) { static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr)); }
+
 class StandardError final : public project::Listener {
  public:
-  void say(std::string_view text) override { fmt::print(stderr, "{}", text); }
+  void say(std::string_view text) override { put(text); }
   void say(const diagnostics::Diagnostics& diagnostics) override {
     unreadable = unreadable || is_unreadable(diagnostics);
     say(diagnostics::render(diagnostics, colour()));
   }
   void progress(std::string_view what) override {
     if (isatty(STDERR_FILENO) == 0) return;
-    fmt::print(stderr, "\r\033[K{}", what);
+    put("\r\033[K");
+    put(what);
     std::fflush(stderr);
   }
 
@@ -57,7 +61,7 @@ project::Listener& terminal() { return standard_error(); }
 int exit_code_without_net() { return standard_error().unreadable ? usage : failed; }
 
 int complain(const std::string& text) {
-  fmt::print(stderr, "tessera: error: {}\n", printable(text));
+  put(fmt::format("tessera: error: {}\n", printable(text)));
   return failed;
 }
 

@@ -22,8 +22,11 @@
 #include "project/files/file_names.hpp"
 #include "project/meeting_place.hpp"
 #include "project/process/death.hpp"
+#include "project/process/restart_gate.hpp"
 #include "spec/parser.hpp"
 #include "tessera/channel_limits.hpp"
+#include "tessera/given_values.hpp"
+#include "tessera/monitor.hpp"
 #include "tessera/process_claim.hpp"
 #include "tessera/signals.hpp"
 
@@ -93,11 +96,13 @@ class DeployedRun final : public ProcessSetListener {
     options_.progress = false;  // several processes cannot share one line
     for (const std::uint32_t number : placement_.here) width_ = std::max(width_, name_of(number).size());
     ends_.resize(placement_.here.size());
+    began_.resize(placement_.here.size());
+    if (restarts())
+      gate_.emplace(monitor_folder(), controller_.specification.model.system, controller_.report.net_hash);
   }
 
   int run() {
-    const FailurePolicy policy{.restarts = deploy_.restart == "on-failure",
-                               .stops_all = deploy_.on_failure == "stop"};
+    const FailurePolicy policy{.restarts = restarts(), .stops_all = deploy_.on_failure == "stop"};
     ProcessSet set(
         placement_.here.size(),
         [this](std::size_t which, unsigned start) { return command_of(which, start); }, policy, *this);
@@ -107,6 +112,7 @@ class DeployedRun final : public ProcessSetListener {
   }
 
   void started(std::size_t which, unsigned start, pid_t pid) override {
+    if (start == 1) began_[which] = Clock::now();
     file_.started(placement_.here[which], start, pid);
   }
   void said(std::size_t which, std::string_view line) override {
@@ -123,11 +129,26 @@ class DeployedRun final : public ProcessSetListener {
     file_.ended(number, end, kept.how);
     if (!kept.failed) return;
     any_failed_ = any_failed_ || !again_in;
+    if (gate_ && again_in) gate_->failed(name_of(number));
     tell(fmt::format("{}: {}", name_of(number), kept.how) +
-         (again_in                                   ? fmt::format("; start {} in {:.1f} s", end.start + 1,
-                                                                   std::chrono::duration<double>(*again_in).count())
-          : deploy_.restart != "never" && !end.asked ? "; it has failed too often and is not started again"
-                                                     : ""));
+         (again_in                   ? fmt::format("; start {} in {:.1f} s", end.start + 1,
+                                                   std::chrono::duration<double>(*again_in).count())
+          : restarts() && !end.asked ? "; it has failed too often and is not started again"
+                                     : ""));
+  }
+  Again may_start_again(std::size_t which) override {
+    const std::string& name = name_of(placement_.here[which]);
+    if (const auto left = time_left(which); left && left->count() <= 0)
+      return stays_down(which, "the time of --for is over");
+    const auto [answer, why] = gate_->ask(name);
+    if (answer == RestartGate::Answer::closed) return stays_down(which, why);
+    if (answer == RestartGate::Answer::open) {
+      if (ends_[which].is_told_to_wait) tell(name + " is started again");
+      return Again::now;
+    }
+    if (!why.empty() && !std::exchange(ends_[which].is_told_to_wait, true))
+      tell(fmt::format("{} is not started again yet: {}", name, why));
+    return Again::later;
   }
   void stopping(int signal) override {
     asked_by_ = signal == 0 ? SIGTERM : signal;
@@ -147,7 +168,22 @@ class DeployedRun final : public ProcessSetListener {
     unsigned starts = 0;
     ProcessEnd end;
     bool failed = false;
+    bool is_told_to_wait = false;  ///< that its next start waits
   };
+  using Clock = std::chrono::steady_clock;
+
+  [[nodiscard]] bool restarts() const { return deploy_.restart == "on-failure"; }
+  Again stays_down(std::size_t which, const std::string& why) {
+    any_failed_ = true;
+    tell(fmt::format("{} is not started again: {}", name_of(placement_.here[which]), why));
+    return Again::never;
+  }
+  /// Of `--for`, which begins with the first start of a process. nullopt: no limit.
+  [[nodiscard]] std::optional<std::chrono::milliseconds> time_left(std::size_t which) const {
+    const std::optional<Duration> whole = parse_duration(options_.duration);
+    if (!whole) return std::nullopt;
+    return std::chrono::ceil<std::chrono::milliseconds>(began_[which] + *whole - Clock::now());
+  }
 
   [[nodiscard]] const std::string& name_of(std::uint32_t number) const {
     return controller_.specification.model.deployment->processes[number].name;
@@ -157,7 +193,10 @@ class DeployedRun final : public ProcessSetListener {
   }
   [[nodiscard]] Command command_of(std::size_t which, unsigned start) const {
     const std::uint32_t number = placement_.here[which];
-    return process_command(controller_, options_, deploy_.network, name_of(number), files_of(number, start));
+    LaunchOptions own = options_;
+    if (const auto left = time_left(which); left && start > 1)
+      own.duration = fmt::format("{}ms", std::max<std::int64_t>(left->count(), 1));
+    return process_command(controller_, own, deploy_.network, name_of(number), files_of(number, start));
   }
   void tell(const std::string& text) {
     said_->settle(std::chrono::milliseconds(100));  // usually both are one terminal
@@ -234,6 +273,8 @@ class DeployedRun final : public ProcessSetListener {
   std::unique_ptr<UnhurriedOutput> told_, said_;
   std::size_t width_ = 0;
   std::vector<End> ends_;
+  std::vector<Clock::time_point> began_;  ///< the first start of each
+  std::optional<RestartGate> gate_;
   int stopped_by_ = 0, asked_by_ = 0;
 };
 

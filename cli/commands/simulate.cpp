@@ -42,6 +42,18 @@ struct RunCommandOptions : LaunchOptions {
   DeployOptions deploy;
 };
 
+/// Whether `print` succeeds. The run is over, so its exit code must not get lost.
+template <class Print>
+bool is_printed_to_the_end(Print print) {
+  try {
+    print();
+    return true;
+  } catch (const std::exception& problem) {
+    complain(problem.what());
+    return false;
+  }
+}
+
 // Even a run that failed writes a summary, which says why. Only a controller that could not start leaves
 // none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
@@ -59,15 +71,19 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
     return exit.code == 0 ? failed : exit.code;
   }
   const RunOutcome outcome = read_outcome(controller, options);
-  if (json != "-" && coverage != "-") print(outcome);
-  if (!json.empty()) write_output(json, to_json(outcome));
-  if (!coverage.empty()) {
-    CoverageInput input(controller.specification);
-    input.add_file(outcome.recording.string());
-    report_coverage(input, coverage, json != "-" && coverage != "-");
-  }
+  // Files first: the terminal may be closed, and then nothing can be printed.
+  if (!json.empty() && json != "-") write_output(json, to_json(outcome));
   if (!report_folder.empty()) write_report(outcome, controller.report, report_folder);
-  return exit.code;
+  std::optional<CoverageInput> reached;
+  if (!coverage.empty()) reached.emplace(controller.specification).add_file(outcome.recording.string());
+  if (reached && coverage != "-") report_coverage(*reached, coverage, /*shown=*/false);
+  const bool is_printed = is_printed_to_the_end([&] {
+    if (json != "-" && coverage != "-") print(outcome);
+    if (json == "-") write_output(json, to_json(outcome));
+    if (coverage == "-") report_coverage(*reached, coverage, /*shown=*/false);
+    if (reached && json != "-" && coverage != "-") report_coverage(*reached, shown_only, /*shown=*/true);
+  });
+  return exit.code == 0 && !is_printed ? failed : exit.code;
 }
 
 // The command that repeats one of the schedules, alone and recorded, when its seed is appended.
@@ -281,7 +297,7 @@ void declare_deployment_options(Subcommand& command, RunCommandOptions& options)
       .needs(deploy);
   command
       .option("--restart", options.deploy.restart,
-              "Start a process again that has failed: never, or on-failure (five times, ever later)")
+              "Start a process again that has failed: never, or on-failure (five times in a row, ever later)")
       .one_of({"never", "on-failure"})
       .shows_default()
       .needs(deploy);

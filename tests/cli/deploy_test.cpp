@@ -132,7 +132,7 @@ TEST_F(Deploy, OneThatIsKilledIsToldOfAndStopsTheOthersOrStartsAgain) {
   EXPECT_EQ(cut.code, 3) << cut.text;
   EXPECT_NE(cut.text.find("the recording of rover[0] is cut off at its end"), std::string::npos) << cut.text;
 
-  const project::Exit again = run_and_kill(" --for 4s --restart on-failure");
+  const project::Exit again = run_and_kill(" --for 20s --restart on-failure");
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_NE(again.text.find("start 2 in 1.0 s"), std::string::npos) << again.text;
   EXPECT_NE(again.text.find("warning: survives_partition is violated"), std::string::npos) << again.text;
@@ -299,6 +299,55 @@ TEST_F(Deploy, AllAreWatchedSetAndResetTogetherAndAWatcherThatDiesDisturbsNone) 
   EXPECT_NE(joint.text.find("the recording of gate is cut off"), std::string::npos) << joint.text;
 }
 
+/// A run with --restart, in which an operator stops processes and rover[0] is killed. `script` has $T, await,
+/// shows, $R (the run) and K, which kills rover[0].
+TEST_F(Deploy, NothingStartsAgainWhileAnEmergencyStopStands) {
+  fs::create_directories(folder_ / "runtime");
+  fs::permissions(folder_ / "runtime", fs::perms::owner_all);
+  const auto run = [&](const std::string& limit, const std::string& script) {
+    const project::Exit done =
+        shell("export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) +
+              "/tessera; await() { for i in $(seq 600); do if \"$@\"; then return; fi; sleep 0.05; done; "
+              "echo WAITED IN VAIN: $*; }; "
+              "shows() { $T top crossroads --once 2>>none.txt | tr '\\n' ' ' | grep -q \"$1\"; }; "
+              "says() { grep -q \"$1\" run.txt; }; "
+              "K() { kill -KILL $($T top --once --json --controller 'rover[0]' | sed "
+              "'s/.*\"pid\":\\([0-9]*\\).*/\\1/'); }; "
+              "$T run 11_crossing_apart --deploy --on-failure go-on --restart on-failure --for " +
+              limit + domain_ + " >run.txt 2>&1 & R=$!; await shows '3 of 3 processes run'; " + script +
+              "kill -INT $R; wait $R; echo run code $?; cat run.txt");
+    EXPECT_EQ(done.text.find("WAITED IN VAIN"), std::string::npos) << done.text;
+    return done.text;
+  };
+  const auto count_starts = [&] { return deployment().at("processes").at(1).at("starts").size(); };
+
+  // It stood in the stop, and begins again only after the reset.
+  const std::string reset = run(
+      "300s",
+      "$T emergency-stop --why smoke; await shows 'EMERGENCY STOP of gate, rover.0., rover.1.: smoke'; K; "
+      "await says 'rover.0. is not started again yet: an emergency stop stands at gate, rover.1. (smoke)'; "
+      "ls 11_crossing_apart/.tessera/last; $T reset crossroads; await says 'rover.0. is started again'; "
+      "await shows '3 of 3 processes run'; ");
+  EXPECT_EQ(reset.substr(0, reset.find("over (smoke)")).find("rover[0]@2"), std::string::npos) << reset;
+  EXPECT_NE(reset.find("run code 130"), std::string::npos) << reset;
+  EXPECT_EQ(count_starts(), 2U) << reset;
+
+  // The stop comes when it is dead already.
+  const std::string later = run(
+      "300s",
+      "K; $T emergency-stop --why smoke; "
+      "await says 'rover.0. is not started again yet: an emergency stop stands at gate, rover.1. (smoke)'; ");
+  EXPECT_EQ(count_starts(), 1U) << later;
+
+  // Nobody is left whose reset could end its stop.
+  const std::string alone =
+      run("300s",
+          "$T emergency-stop --why smoke --controller 'rover[0]'; await shows 'EMERGENCY STOP of rover.0.'; "
+          "K; await says 'rover.0. is not started again: it failed in an emergency stop (smoke)'; ");
+  EXPECT_EQ(count_starts(), 1U) << alone;
+  EXPECT_NE(alone.find("run code 1\n"), std::string::npos) << alone;
+}
+
 /// examples/13_fleet_apart, with four rovers of its 49.
 TEST_F(Command, AConvoyOfProcessesDrivesAndItsRecordingsAreOneLegalRun) {
   const fs::path spec = example("13_fleet_apart") / "spec.yaml";
@@ -320,7 +369,9 @@ TEST_F(Command, AConvoyOfProcessesDrivesAndItsRecordingsAreOneLegalRun) {
 /// `tessera run --deploy` with its output where the test wants it.
 class Started {
  public:
-  Started(const fs::path& folder, const std::string& domain, int output, bool as_terminal) : pid_(fork()) {
+  Started(const fs::path& folder, const std::string& domain, int output, bool as_terminal,
+          const std::string& options = "--deploy")
+      : pid_(fork()) {
     if (pid_ != 0) return;
     if (as_terminal) {
       setsid();
@@ -331,7 +382,7 @@ class Started {
     dup2(output, STDERR_FILENO);
     for (int other = 3; other < 64; ++other) close(other);
     const std::string line = "cd '" + folder.string() + "' && exec " + TESSERA_BINARY_DIR +
-                             "/tessera run 11_crossing_apart --deploy --for 120s" + domain;
+                             "/tessera run 11_crossing_apart " + options + " --for 120s" + domain;
     execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
     _exit(127);
   }
@@ -393,6 +444,25 @@ TEST_F(Deploy, ATerminalThatIsClosedStopsAllSafely) {
   EXPECT_FALSE(any_is_left());
   for (const nlohmann::json& process : deployment().at("processes"))
     EXPECT_EQ(process.at("starts").back().at("ended"), "ended: SIGHUP") << deployment();
+}
+
+/// One process, which prints its result itself.
+TEST_F(Deploy, ATerminalThatIsClosedCostsNoFileOfARun) {
+  int terminal = -1, other_side = -1;
+  ASSERT_EQ(openpty(&terminal, &other_side, nullptr, nullptr, nullptr), 0);
+  const Started run(folder_, domain_, other_side, /*as_terminal=*/true,
+                    "--process gate --json sum.json --record gate.tsr");
+  close(other_side);
+  EXPECT_TRUE(eventually([&] {
+    std::error_code missing;
+    const auto bytes = fs::file_size(folder_ / "gate.tsr", missing);
+    return !missing && bytes > 0;
+  }));
+  close(terminal);
+  EXPECT_EQ(run.wait(), 128 + SIGHUP);
+  const nlohmann::json summary = nlohmann::json::parse(content_of(folder_ / "sum.json"), nullptr, false);
+  ASSERT_TRUE(summary.is_object());
+  EXPECT_EQ(summary.at("ended"), "SIGHUP");
 }
 
 }  // namespace

@@ -39,7 +39,7 @@ class Starter : public testing::Test {
     if (starter_ == 0) {
       setpgid(0, 0);  // SIGTSTP stops no process in a group without a shell
       first();
-      _exit(run({"sh", "-c", script}).code);
+      _exit(how_({"sh", "-c", script}));
     }
     const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
     while (!fs::exists(ready()) && std::chrono::steady_clock::now() < until)
@@ -56,6 +56,8 @@ class Starter : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
   void tell(int signal) const { kill(starter_, signal); }
+  /// What the starter does with the shell; it returns the exit code of the starter.
+  std::function<int(const Command&)> how_ = [](const Command& command) { return run(command).code; };
 
  private:
   fs::path folder_;
@@ -94,6 +96,32 @@ TEST_F(Starter, StopsWithItsChildAndGoesOnWithIt) {
   tell(SIGTSTP);
   ASSERT_EQ(wait(), 2000 + SIGSTOP);
   tell(SIGCONT);
+  tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
+TEST_F(Starter, StopsWithAChildThatWritesNothingWhileItReadsItsOutput) {
+  how_ = [](const Command& command) { return capture(command).code; };
+  start("trap 'exit 42' TERM; touch " + ready() + "; while :; do sleep 0.02; done");
+  tell(SIGTSTP);
+  ASSERT_EQ(wait(), 2000 + SIGSTOP);
+  tell(SIGCONT);
+  tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
+/// cmake starts ninja, which starts the compiler; each of them has the output open.
+TEST_F(Starter, EndsAllThatACapturedProgramHasStartedAndSaysWhichSignalItWas) {
+  how_ = [](const Command& command) { return capture(command).signal; };
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+    start("sh -c 'touch " + ready() + "; sleep 1000; true'; true");
+    tell(signal);
+    EXPECT_EQ(wait(), signal);
+  }
+}
+
+TEST_F(Starter, EndsAChildThatIsStopped) {
+  start("trap 'exit 42' TERM; touch " + ready() + "; kill -STOP $$; while :; do sleep 0.02; done");
   tell(SIGTERM);
   EXPECT_EQ(wait(), 42);
 }

@@ -156,5 +156,26 @@ TEST(Recorder, AFileThatCannotBeCreatedIsSaidBeforeTheRun) {
   EXPECT_EQ(error, "cannot record to '/nonexistent/run': No such file or directory");
 }
 
+TEST(Recorder, TwoRunsDoNotRecordIntoOneFile) {
+  TestSystem system;
+  system.add("robot.a", nets::alone, {}, 1ms);
+  RunOptions options = simulated(50ms);
+  options.recording = scratch_file("shared");
+  RecordingFile first;
+  const RecordingHeader header{.json = "{\"mine\":1}"};
+  std::string error;
+  ASSERT_TRUE(first.open(options.recording, header, error, {}, nullptr)) << error;
+  const std::string before = file_bytes(options.recording);
+  ASSERT_NE(before, "");
+
+  EXPECT_FALSE(execute(system.system(), options, error));
+  EXPECT_EQ(error,
+            "another run records into '" + options.recording + "'\nhint: name another file with --record");
+  EXPECT_EQ(file_bytes(options.recording), before);
+  first.close();
+  EXPECT_TRUE(execute(system.system(), options, error)) << error;
+  EXPECT_TRUE(read_recording(options.recording, error)) << error;
+}
+
 }  // namespace
 }  // namespace tessera::testing

@@ -70,7 +70,10 @@ class RecordingFile {
   [[nodiscard]] const MarkingTrack* track() const { return track_.get(); }
 
  private:
-  [[nodiscard]] bool open_segment();
+  [[nodiscard]] bool has_room_for_segments(RunOptions::Limit limit, std::string& error);
+  [[nodiscard]] bool take_file();
+  [[nodiscard]] bool is_still_there();
+  void begin_file();
   void keep_track(const Event& event);
   void begin_segment(std::int64_t time_ns);
   void put(const Event& event);
@@ -86,6 +89,7 @@ class RecordingFile {
   std::uint64_t pieces_left_ = 0;      // of the text of the last event
   std::int64_t last_ns_ = 0;           // time of the latest event
   int descriptor_ = -1;
+  bool is_empty_ = false;  ///< the file, when it was opened
   std::array<Event, 2048> buffer_{};
   std::size_t filled_ = 0;
   std::uint64_t lost_ = 0;

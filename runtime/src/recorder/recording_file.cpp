@@ -1,6 +1,7 @@
 #include <fcntl.h>
 #include <fmt/core.h>
 #include <poll.h>
+#include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -10,6 +11,7 @@
 #include <cstdio>
 #include <cstring>
 #include <filesystem>
+#include <thread>
 
 #include "recorder/recorder.hpp"
 #include "system/stop_signals.hpp"
@@ -51,6 +53,19 @@ bool remove_segments(const std::string& path, std::string& error) {
   return true;
 }
 
+/// Keeps other runs from writing into the file. false: one does, and errno is EWOULDBLOCK. A file system
+/// without locks has none. A process that an earlier run has forked may hold the file a moment longer.
+[[nodiscard]] bool lock(int descriptor) {
+  constexpr int attempts = 50;
+  constexpr std::chrono::milliseconds pause{20};
+  for (int attempt = 0; flock(descriptor, LOCK_EX | LOCK_NB) != 0; ++attempt) {
+    if (errno != EWOULDBLOCK) return true;
+    if (attempt == attempts) return false;
+    std::this_thread::sleep_for(pause);
+  }
+  return true;
+}
+
 [[nodiscard]] bool is_pipe_or_device(const std::string& path) {
   struct stat status {};
   return stat(path.c_str(), &status) == 0 && !S_ISREG(status.st_mode);
@@ -66,6 +81,22 @@ bool RecordingFile::open(const std::string& path, const RecordingHeader& header,
   if (header.has_memory) magic_ = recording_magic_with_memory;
   if (!is_pipe_or_device(path)) limit_ = limit;
   track_ = limit_.segment_bytes == 0 ? nullptr : std::move(track);
+  if (!take_file()) {
+    error = errno == EWOULDBLOCK
+                ? fmt::format("another run records into '{}'\nhint: name another file with --record", path)
+                : fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
+    return false;
+  }
+  if (!has_room_for_segments(limit, error)) {
+    if (is_empty_) ::unlink(path_.c_str());
+    return false;
+  }
+  begin_file();
+  return true;
+}
+
+/// false and `error`: the limit is too small, or a file is in the way.
+bool RecordingFile::has_room_for_segments(RunOptions::Limit limit, std::string& error) {
   if (track_ != nullptr) {
     const std::size_t least = 2 * header_.size() + 64 * sizeof(Event);
     if (limit.segment_bytes < least || limit.segments < 2) {
@@ -73,20 +104,38 @@ bool RecordingFile::open(const std::string& path, const RecordingHeader& header,
           fmt::format("the limit of the recording is too small: it needs two segments of {} bytes", least);
       return false;
     }
-    if (!remove_segments(path, error)) return false;
+    if (!remove_segments(path_, error)) return false;
     began_ns_.push_back(0);
   }
-  if (open_segment()) return true;
-  error = fmt::format("cannot record to '{}': {}", path, std::strerror(errno));
+  return true;
+}
+
+/// Opens the file, and leaves its content as it is: another run may be writing it. false: errno says why.
+bool RecordingFile::take_file() {
+  descriptor_ = ::open(path_.c_str(), O_CREAT | O_WRONLY | O_CLOEXEC, 0644);
+  struct stat status {};
+  if (descriptor_ < 0 || fstat(descriptor_, &status) != 0) return false;
+  if (S_ISREG(status.st_mode)) return lock(descriptor_) && is_still_there();
+  is_empty_ = true;
+  fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) | O_NONBLOCK);
+  return true;
+}
+
+/// While this run waited for the lock, another may have made a numbered segment of the file.
+bool RecordingFile::is_still_there() {
+  struct stat own {
+  }, named{};
+  if (fstat(descriptor_, &own) != 0) return false;
+  is_empty_ = own.st_size == 0;
+  if (stat(path_.c_str(), &named) == 0 && own.st_ino == named.st_ino && own.st_dev == named.st_dev)
+    return true;
+  errno = EWOULDBLOCK;
   return false;
 }
 
-/// Opens the file and writes its header.
-bool RecordingFile::open_segment() {
-  descriptor_ = ::open(path_.c_str(), O_CREAT | O_TRUNC | O_WRONLY | O_CLOEXEC, 0644);
-  if (descriptor_ < 0) return false;
-  if (struct stat status{}; fstat(descriptor_, &status) == 0 && !S_ISREG(status.st_mode))
-    fcntl(descriptor_, F_SETFL, fcntl(descriptor_, F_GETFL) | O_NONBLOCK);
+/// Empties the file and writes the header.
+void RecordingFile::begin_file() {
+  if (!is_empty_ && ftruncate(descriptor_, 0) != 0) failure_ = Problem{std::strerror(errno)};
   std::string header = header_;
   if (track_ != nullptr) {
     header.pop_back();
@@ -101,7 +150,6 @@ bool RecordingFile::open_segment() {
   start.resize((start.size() + 7) / 8 * 8, '\0');
   segment_bytes_ = start.size();
   write_all(start.data(), start.size());
-  return true;
 }
 
 RecordingFile::~RecordingFile() { close(); }
@@ -157,7 +205,8 @@ void RecordingFile::begin_segment(std::int64_t time_ns) {
     ::unlink(segment_path(path_, segment_ - limit_.segments).c_str());
     began_ns_.pop_front();
   }
-  if (!failure_ && !open_segment()) failure_ = Problem{std::strerror(errno)};
+  if (!failure_ && !take_file()) failure_ = Problem{std::strerror(errno)};
+  if (!failure_) begin_file();
   const std::string marked = track_->known() ? track_->marked() : std::string();
   put({.time_ns = time_ns,
        .subject = static_cast<std::uint32_t>(marked.size()),

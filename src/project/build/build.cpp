@@ -40,8 +40,10 @@ Command in_english(Command command) {
 
 Exit build_step(const Command& command, const BuildOptions& options,
                 const std::function<void(std::string_view)>& each_line) {
-  return options.stop == nullptr ? capture(command, each_line)
-                                 : capture_apart(command, *options.stop, each_line);
+  if (options.stop != nullptr) return capture_apart(command, *options.stop, each_line);
+  Exit done = capture(command, each_line);
+  if (done.signal != 0) throw Interrupted(done.signal, "the build was interrupted; nothing was started");
+  return done;
 }
 
 constexpr const char* note_name = "made_for.txt";

@@ -23,11 +23,16 @@ namespace tessera::project {
 
 namespace {
 
-volatile std::sig_atomic_t child_pid = 0, asked_to_suspend = 0;
+/// receiver: as of kill(): the child, or minus its process group.
+volatile std::sig_atomic_t receiver = 0, asked_to_suspend = 0, asked_to_stop = 0;
 
+/// A child that is stopped obeys only once it goes on.
 extern "C" void pass_on(int signal) {
-  if (signal == SIGTSTP) asked_to_suspend = 1;
-  if (child_pid > 0) kill(static_cast<pid_t>(child_pid), signal);
+  const pid_t child = static_cast<pid_t>(receiver);
+  (signal == SIGTSTP ? asked_to_suspend : asked_to_stop) = signal;
+  if (child == 0) return;
+  kill(child, signal);
+  if (signal != SIGTSTP) kill(child, SIGCONT);
 }
 
 /// While this object exists, the signals that would end or stop this process go to the child, which decides
@@ -45,19 +50,21 @@ class SignalsToChild {
     pthread_sigmask(SIG_BLOCK, &all, &mask_);
   }
   ~SignalsToChild() {
-    if (child_pid == 0) {
+    if (receiver == 0) {
       pthread_sigmask(SIG_SETMASK, &mask_, nullptr);
       return;
     }
     for (const Before& before : before_) sigaction(before.signal, &before.action, nullptr);
-    child_pid = 0;
+    receiver = 0;
   }
   SignalsToChild(const SignalsToChild&) = delete;
   SignalsToChild& operator=(const SignalsToChild&) = delete;
 
+  /// child: as of kill().
   void are_for(pid_t child) {
     asked_to_suspend = 0;
-    child_pid = static_cast<std::sig_atomic_t>(child);
+    asked_to_stop = 0;
+    receiver = static_cast<std::sig_atomic_t>(child);
     for_handled_signals([&](int signal, SignalUse use) {
       Before before{signal, {}};
       const bool always = signal == SIGINT || signal == SIGTERM;
@@ -138,22 +145,55 @@ class Output {
   std::size_t line_start_ = 0;
 };
 
+/// The end of a child, and its stops on the way there.
+///
 /// After Ctrl-Z, this process stops when the child has stopped, and the child continues together with it.
 /// If only the child is stopped (kill -STOP, a debugger), this process waits, because the one that
 /// continues the child does not know this process.
-int wait_for(pid_t child) {
-  int status = 0;
-  for (bool stopped = false;;) {
-    const pid_t changed = waitpid(child, &status, WUNTRACED | WCONTINUED);
-    if (changed < 0 && errno != EINTR) break;
-    if (changed > 0 && !WIFSTOPPED(status) && !WIFCONTINUED(status)) break;
-    if (changed > 0) stopped = WIFSTOPPED(status);
-    if (!stopped || asked_to_suspend == 0) continue;
+class ChildEnd {
+ public:
+  explicit ChildEnd(pid_t child) : child_(child) {}
+
+  /// options: WNOHANG, or 0 to wait for a change. Returns whether the child has ended.
+  bool look(int options) {
+    const pid_t changed = waitpid(child_, &status_, WUNTRACED | WCONTINUED | options);
+    if (changed < 0 && errno != EINTR) return true;
+    if (changed > 0 && !WIFSTOPPED(status_) && !WIFCONTINUED(status_)) return true;
+    if (changed > 0) stopped_ = WIFSTOPPED(status_);
+    if (!stopped_ || asked_to_suspend == 0) return false;
     asked_to_suspend = 0;
     raise(SIGSTOP);
-    kill(child, SIGCONT);
+    kill(receiver == -child_ ? -child_ : child_, SIGCONT);
+    return false;
   }
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  [[nodiscard]] int code() const {
+    return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
+  }
+
+ private:
+  pid_t child_;
+  int status_ = 0;
+  bool stopped_ = false;
+};
+
+int wait_for(pid_t child) {
+  ChildEnd end(child);
+  while (!end.look(0)) continue;
+  return end.code();
+}
+
+/// A child that is stopped writes nothing and does not close its output. So both are looked at in turn.
+int read_to_end(Output& output, const std::function<void(std::string_view)>& each_line) {
+  constexpr int look_period_ms = 100;
+  ChildEnd end(output.child());
+  bool ended = false;
+  for (bool open = true; open;) {
+    ended = ended || end.look(WNOHANG);
+    pollfd source{.fd = output.descriptor(), .events = POLLIN, .revents = 0};
+    if (poll(&source, 1, look_period_ms) > 0) open = output.read_on(each_line);
+  }
+  while (!ended) ended = end.look(0);
+  return end.code();
 }
 
 }  // namespace
@@ -167,11 +207,11 @@ Exit run(const Command& command) {
 
 Exit capture(const Command& command, const std::function<void(std::string_view)>& each_line) {
   SignalsToChild signals;
-  Output output(command, /*own_group=*/false);
-  signals.are_for(output.child());
-  while (output.read_on(each_line)) {
-  }
-  return {wait_for(output.child()), std::move(output.text())};
+  // Programs that start others (cmake) do not pass signals on: the group receives them.
+  Output output(command, /*own_group=*/true);
+  signals.are_for(-output.child());
+  const int code = read_to_end(output, each_line);
+  return {code, std::move(output.text()), asked_to_stop};
 }
 
 Exit capture_apart(const Command& command, const std::atomic<bool>& stop,

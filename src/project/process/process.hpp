@@ -5,6 +5,7 @@
 #include <atomic>
 #include <filesystem>
 #include <functional>
+#include <stdexcept>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -18,6 +19,13 @@ using Command = std::vector<std::string>;
 struct Exit {
   int code = 0;      ///< its exit code, or 128 + signal
   std::string text;  ///< its output, if it was captured
+  int signal = 0;    ///< of `capture`: the last one that asked this process to stop meanwhile; 0: none
+};
+
+/// Thrown in place of a result: a signal has asked this process to stop while a program ran for it.
+struct Interrupted : std::runtime_error {
+  Interrupted(int signal, const std::string& what) : std::runtime_error(what), signal(signal) {}
+  int signal;
 };
 
 /// Runs a program to its end with this process's terminal. The signals that would end or stop this
@@ -28,7 +36,7 @@ struct Exit {
 [[nodiscard]] Exit run(const Command& command);
 
 /// Runs a program and captures its output on both streams; each_line receives every line as it
-/// comes. Signals as with run.
+/// comes. Signals as with run, but they go to all processes that it starts. It has no input.
 [[nodiscard]] Exit capture(const Command& command,
                            const std::function<void(std::string_view)>& each_line = {});
 

@@ -21,6 +21,7 @@ namespace tessera::project {
 namespace {
 
 constexpr std::chrono::seconds first_reminder{2}, second_signal{10}, end_of_patience{12};
+constexpr std::chrono::milliseconds pause_before_next_question{100};
 constexpr int usual_wait_ms = 200;
 constexpr std::size_t longest_line = 8192;
 
@@ -148,7 +149,18 @@ void ProcessSet::start(std::size_t process) {
 
 void ProcessSet::start_what_is_due() {
   for (std::size_t process = 0; process < children_.size(); ++process)
-    if (children_[process].again && Clock::now() >= *children_[process].again) start(process);
+    if (children_[process].again && Clock::now() >= *children_[process].again) start_again(process);
+}
+
+void ProcessSet::start_again(std::size_t process) {
+  using Again = ProcessSetListener::Again;
+  Child& child = children_[process];
+  const Again answer = listener_.may_start_again(process);
+  if (answer == Again::now) return start(process);
+  child.again = Clock::now() + pause_before_next_question;
+  if (answer == Again::later) return;
+  child.again.reset();
+  if (policy_.stops_all && !stopping_) stop_all(0, SIGTERM);
 }
 
 // ------------------------------------------------------------------------------------------------- output

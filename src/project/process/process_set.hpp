@@ -28,7 +28,7 @@ struct ProcessEnd {
 struct FailurePolicy {
   bool restarts = false;  ///< it is started again, after a pause that doubles
   bool stops_all = true;  ///< it is not started again: the others are stopped too
-  /// Starts in a row, none of which lasted for `settled`, after which it is not started again.
+  /// Restarts in a row, none of which lasted for `settled`, after which it is not started again.
   unsigned most_restarts = 5;
   std::chrono::milliseconds first_pause{1000}, longest_pause{30'000};
   std::chrono::milliseconds settled{60'000};
@@ -43,6 +43,9 @@ class ProcessSetListener {
   virtual void said(std::size_t process, std::string_view line) = 0;
   /// again_in: it is started again after that time; nullopt: it is not.
   virtual void ended(const ProcessEnd& end, std::optional<std::chrono::milliseconds> again_in) = 0;
+  /// A process is due to be started again: it is, or this is asked again soon, or it stays down for good.
+  enum class Again : std::uint8_t { now, later, never };
+  virtual Again may_start_again(std::size_t /*process*/) { return Again::now; }
   /// All are asked to stop. signal: the received one; 0: because one process has failed.
   virtual void stopping(int signal) = 0;
   /// Processes that have been asked to stop a while ago and still run.
@@ -88,6 +91,7 @@ class ProcessSet {
   void start(std::size_t process);
   void stop_in_spite_of_exceptions();
   void start_what_is_due();
+  void start_again(std::size_t process);
   void wait_for_something();
   void read_output(Child& child, std::size_t process);
   void flush_output(Child& child, std::size_t process);

@@ -27,6 +27,7 @@ struct OperateOptions {
   std::string which, why;
 };
 
+using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds patience{2};
 constexpr int question = 1;
 
@@ -36,19 +37,26 @@ bool tell(RunningController& controller, const project::ControlCommand& command)
 }
 
 /// nullopt: it has ended, or does not answer. first: gets its first state, if that comes before the answer.
-std::optional<project::CommandAnswer> answer_of(RunningController& controller,
+std::optional<project::CommandAnswer> answer_of(RunningController& controller, Clock::time_point end,
                                                 std::optional<project::Snapshot>* first = nullptr) {
-  // It sends its state several times a second, beside answers: lines come as long as it runs.
-  const auto end = std::chrono::steady_clock::now() + patience;
-  while (std::chrono::steady_clock::now() < end) {
+  // It sends its state several times a second, beside answers: lines come as long as it runs. Lines that have come
+  // already are taken in any case, because others may have taken all the time.
+  const auto last = std::max(end, Clock::now() + std::chrono::milliseconds(200));
+  do {
+    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
+    controller.be_patient_for(std::max(left, std::chrono::milliseconds(50)));
     std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
     auto* answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == question) return std::move(*answer);
     auto* snapshot = said->content ? std::get_if<project::Snapshot>(&*said->content) : nullptr;
     if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
-  }
+  } while (Clock::now() < last);
   return std::nullopt;
+}
+
+std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
+  return answer_of(controller, Clock::now() + patience);
 }
 
 std::optional<Problem> problem_of(const RunningController& controller,
@@ -57,11 +65,19 @@ std::optional<Problem> problem_of(const RunningController& controller,
   return answer->problem;
 }
 
-/// One controller, or all processes of a deployed system: a parameter may be in any of them. Empty: there is
-/// none, or they cannot be meant together; the reason has been printed.
-std::vector<SeenController> find_system(const std::string& which) {
-  std::vector<SeenController> seen = first_look(find_controllers(which));
-  if (seen.size() <= 1 || common_deployment(seen)) return seen;
+struct FoundSystem {
+  std::vector<SeenController> processes;
+  int code = failed;  ///< failed: not all that are meant answer, or there is none
+};
+
+/// One controller, or all processes of a deployed system: a parameter may be in any of them. No process: there is
+/// none, or they cannot be meant together; the reason has been printed. unknown: of those that do not answer.
+FoundSystem find_system(const std::string& which, const std::string& unknown) {
+  FoundControllers found = find_controllers(which);
+  const int code = complain_of_silent(found.silent, unknown);
+  std::vector<SeenController> seen = first_look(std::move(found.running));
+  if (seen.empty()) return {};
+  if (seen.size() == 1 || common_deployment(seen)) return {std::move(seen), code};
   complain_of_several(seen);
   return {};
 }
@@ -111,9 +127,8 @@ bool is_system(const std::string& which, const std::vector<SeenController>& proc
 }
 
 int set_command(const OperateOptions& options) {
-  std::vector<SeenController> processes = find_system(options.which);
+  auto [processes, code] = find_system(options.which, "it is unknown whether it takes the values");
   if (processes.empty()) return failed;
-  int code = ok;
   for (const std::string& one : options.values) {
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
@@ -123,36 +138,54 @@ int set_command(const OperateOptions& options) {
   return code;
 }
 
-/// Stops all controllers unless one is named: in an emergency, there is no time to look up names.
-int emergency_stop_command(const OperateOptions& options) {
-  std::vector<RunningController> controllers = find_controllers(options.which);
-  const project::command::EmergencyStop command{options.why};
-  // Sends the command to all before it waits for one.
-  for (RunningController& one : controllers) tell(one, command);
-  int code = controllers.empty() ? failed : ok;
-  NotReached others;
+constexpr const char* unknown_safety = "it is unknown whether its devices are safe";
+
+/// A device has a second for its safe command; only then does the controller answer.
+constexpr std::chrono::seconds stop_patience{3};
+
+/// Waits for the answers of controllers that have the command. Returns the exit code.
+int confirm_stops(std::vector<RunningController>& controllers, const std::string& which, NotReached& others) {
+  const auto end = Clock::now() + stop_patience;
+  int code = ok;
   for (RunningController& one : controllers) {
     std::optional<project::Snapshot> first;
-    const std::optional<Problem> wrong = problem_of(one, answer_of(one, &first));
-    if (!wrong)
-      fmt::print("{}: emergency stop\n", one.name());
+    const std::optional<project::CommandAnswer> answer = answer_of(one, end, &first);
+    if (!answer)
+      code =
+          complain(one.name() + " has ended, still opens its devices, or does not answer: " + unknown_safety);
+    else if (answer->problem)
+      code = complain(one.name() + ": NOT SAFE: " + answer->problem->text);
     else
-      code = complain(wrong->text + ": it is unknown whether its devices are safe");
+      fmt::print("{}: emergency stop\n", one.name());
     others.tried(one.name());
-    if (first && (options.which.empty() || options.which == first->system)) others.reached(*first);
+    if (first && (which.empty() || which == first->system)) others.reached(*first);
   }
+  return code;
+}
+
+/// Stops all controllers unless one is named: in an emergency, there is no time to look up names.
+int emergency_stop_command(const OperateOptions& options) {
+  const project::command::EmergencyStop command{options.why};
+  // Each gets the command as soon as it is reached: one that hangs must not delay the others.
+  FoundControllers found =
+      look_for_controllers(options.which, [&](RunningController& one) { tell(one, command); });
+  const int elsewhere = complain_of_other_folders(options.which);
+  if (found.none()) return elsewhere == ok ? complain_of_none(options.which) : elsewhere;
+  NotReached others;
+  int code = confirm_stops(found.running, options.which, others);
+  if (complain_of_silent(found.silent, unknown_safety) != ok) code = failed;
+  for (const auto& file : found.silent) others.tried(file.stem().string());
   // A stop of some processes is not a stop of the system: the operator must know what may still move.
   for (const std::string& text : others.texts())
     code = complain("NOT STOPPED, because they are on other machines, if they run: " + text +
                     ". Type `tessera emergency-stop` there, too");
-  return code;
+  return elsewhere == ok ? code : elsewhere;
 }
 
 /// The processes of a deployed system that have an emergency stop. A system must be named, because its
-/// devices move again.
-int reset_processes(std::vector<SeenController>& processes, const std::string& system) {
+/// devices move again. code: failed if other processes of it do not answer.
+int reset_processes(std::vector<SeenController>& processes, const std::string& system, int code) {
   std::vector<SeenController*> stopped;
-  int code = ok;
   for (SeenController& one : processes) {
     if (!one.snapshot)
       code = complain(one.controller.name() +
@@ -175,10 +208,12 @@ int reset_processes(std::vector<SeenController>& processes, const std::string& s
 }
 
 int reset_command(const OperateOptions& options) {
-  std::vector<SeenController> seen = first_look(find_controllers(options.which));
+  FoundControllers found = find_controllers(options.which);
+  const int code = complain_of_silent(found.silent, "it is unknown whether it has an emergency stop");
+  std::vector<SeenController> seen = first_look(std::move(found.running));
   if (seen.empty()) return failed;
   const std::optional<std::string> system = common_deployment(seen);
-  if (system && options.which == *system) return reset_processes(seen, *system);
+  if (system && options.which == *system) return reset_processes(seen, *system, code);
   if (seen.size() > 1) {
     complain_of_several(seen);
     if (system) fmt::print(stderr, "hint: `tessera reset {}` resets all of them\n", *system);
@@ -187,7 +222,7 @@ int reset_command(const OperateOptions& options) {
   tell(seen.front().controller, project::command::Reset{});
   const std::optional<Problem> wrong =
       problem_of(seen.front().controller, answer_of(seen.front().controller));
-  return wrong ? complain(wrong->text) : ok;
+  return wrong ? complain(wrong->text) : code;
 }
 
 void declare_controller(

@@ -99,7 +99,9 @@ int panel_command(const PanelOptions& options) {
   if (!duration) return complain("'" + options.duration + "' is no time such as 2s");
   const std::optional<PanelCommand> command = panel_command_of(options);
   if (!command) return failed;
-  std::vector<SeenController> processes = first_look(find_controllers(options.which));
+  FoundControllers found = find_controllers(options.which);
+  complain_of_silent(found.silent, "if it has the panel, nothing comes to it");
+  std::vector<SeenController> processes = first_look(std::move(found.running));
   if (processes.empty()) return failed;
   if (processes.size() > 1 && !common_deployment(processes)) return complain_of_several(processes);
   std::signal(SIGINT, [](int) { interrupted = true; });

@@ -29,6 +29,8 @@ namespace {
 
 using project::Snapshot;
 
+constexpr const char* hangs = "it is stopped, or hangs";
+
 struct TopOptions {
   std::string which;
   project::NetworkOptions network;
@@ -100,27 +102,44 @@ std::string table(const Snapshot& now, const Snapshot& before) {
   return text;
 }
 
+/// Rates need some time between two states: the first two that a controller sends may come one after the other.
+bool is_too_early(const Snapshot& now, const Snapshot& before, std::chrono::steady_clock::time_point since) {
+  constexpr double shortest_s = 0.15;
+  // The clock of the controller may stand still.
+  return now.time_s - before.time_s < shortest_s &&
+         std::chrono::steady_clock::now() - since < std::chrono::seconds(1);
+}
+
 int watch_one(SeenController& watched, const TopOptions& options) {
-  watched.controller.be_patient_for(std::chrono::milliseconds(0));  // without limit
+  if (!watched.snapshot) {
+    complain(watched.controller.name() + " does not answer: " + hangs);
+    if (options.once) return failed;
+  }
+  // 0: without limit
+  watched.controller.be_patient_for(std::chrono::milliseconds(options.once ? 3000 : 0));
   std::optional<Snapshot> before;
+  auto since = std::chrono::steady_clock::now();
   while (std::optional<project::ControlMessage> said = watched.controller.message()) {
     if (!said->content) return complain("the controller sent what this version does not understand");
-    if (std::holds_alternative<project::ControllerHasEnded>(*said->content)) break;
+    if (std::holds_alternative<project::ControllerHasEnded>(*said->content))
+      return fmt::print("the controller has ended\n"), ok;
     auto* now = std::get_if<Snapshot>(&*said->content);
     if (now == nullptr) continue;
     if (options.lines) {
       fmt::print("{}\n", said->line);
       if (options.once) return ok;
     } else if (before) {
+      if (is_too_early(*now, *before, since)) continue;
       const bool terminal = isatty(STDOUT_FILENO) != 0 && !options.once;
       fmt::print("{}{}", terminal ? "\033[H\033[2J" : "", printable(table(*now, *before)));
       if (options.once) return ok;
     }
     std::fflush(stdout);
     before = std::move(*now);
+    since = std::chrono::steady_clock::now();
   }
-  fmt::print("the controller has ended\n");
-  return ok;
+  return complain(watched.controller.name() +
+                  " sends nothing any more: it hangs, was killed, or has too many " + "clients");
 }
 
 /// The specification that the options name, or that of this folder; nullopt: there is no such file.
@@ -152,20 +171,24 @@ int watch_project(const std::filesystem::path& file, const TopOptions& options, 
 
 int top_command(const TopOptions& options) {
   const WatchOptions how{.once = options.once, .lines = options.lines};
-  std::vector<SeenController> seen = first_look(running_controllers(options.which));
+  FoundControllers found = look_for_controllers(options.which);
+  const std::size_t silent = found.silent.size();
+  std::vector<SeenController> seen = first_look(std::move(found.running));
   if (seen.empty() || names_network(options.network)) {
     if (const std::optional<std::filesystem::path> file = named_specification(options))
       return watch_project(*file, options, how);
     if (names_network(options.network))
       return complain("--domain, --interface and --peers need a project with `deploy`: name it");
-    return complain_of_none(options.which);
+    return silent == 0 ? complain_of_none(options.which) : complain_of_silent(found.silent, hangs);
   }
   const std::optional<std::string> system = common_deployment(seen);
   const bool names_system = system && (options.which.empty() || options.which == *system);
   if (names_system || (system && seen.size() > 1))
-    return watch_deployment({.name = *system, .found = seen.size(), .given = {}, .firm = false}, how);
+    return watch_deployment({.name = *system, .found = seen.size() + silent, .given = {}, .firm = false},
+                            how);
+  const int others = complain_of_silent(found.silent, hangs);
   if (seen.size() > 1) return complain_of_several(seen);
-  return watch_one(seen.front(), options);
+  return std::max(watch_one(seen.front(), options), others);
 }
 
 }  // namespace

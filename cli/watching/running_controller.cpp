@@ -1,6 +1,10 @@
 #include "cli/watching/running_controller.hpp"
 
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <algorithm>
+#include <thread>
 #include <utility>
 #include <variant>
 #include <vector>
@@ -15,7 +19,7 @@ namespace fs = std::filesystem;
 std::optional<RunningController> RunningController::attach(const fs::path& socket_file) {
   std::optional<project::ControlConnection> made = project::ControlConnection::to(socket_file);
   if (!made) return std::nullopt;
-  return RunningController(std::move(*made), socket_file.stem().string());
+  return RunningController(std::move(*made), socket_file);
 }
 
 std::optional<project::ControlMessage> RunningController::message() {
@@ -41,12 +45,13 @@ const project::Snapshot* snapshot_in(const project::ControlMessage* message) {
 
 }  // namespace
 
-void RunningController::learn_name() {
-  connection_.limit_waits(std::chrono::seconds(2));
+bool RunningController::learn_name(std::chrono::milliseconds longest) {
+  connection_.limit_waits(longest);
   const project::Snapshot* snapshot = snapshot_in(coming_message());
-  if (snapshot == nullptr) return;
+  if (snapshot == nullptr) return false;
   name_ = snapshot->system + "." + (snapshot->name ? *snapshot->name + "." : "") +
           std::to_string(snapshot->process);
+  return true;
 }
 
 namespace {
@@ -59,39 +64,133 @@ bool is_meant(const std::string& name, const std::string& which) {
 
 }  // namespace
 
-std::vector<RunningController> running_controllers(const std::string& which) {
-  std::vector<RunningController> running;
-  for (const fs::path& file : project::control_sockets(monitor_folder())) {
-    const bool shortened = has_shortened_name(file.native());
-    if (!shortened && !is_meant(file.stem().string(), which)) continue;
-    // A socket that does not answer was left behind by a process that was killed.
-    std::optional<RunningController> one = RunningController::attach(file);
-    if (!one) continue;
-    if (shortened) one->learn_name();
-    if (is_meant(one->name(), which)) running.push_back(std::move(*one));
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// The time until then, but never none: a message that has come already is always taken.
+std::chrono::milliseconds left_until(Clock::time_point end) {
+  return std::max(std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now()),
+                  std::chrono::milliseconds(50));
+}
+
+/// Sockets of processes that may be meant: a shortened name does not tell.
+std::vector<fs::path> sockets_of(const fs::path& folder, const std::string& which) {
+  std::vector<fs::path> files = project::control_sockets(folder);
+  std::erase_if(files, [&](const fs::path& file) {
+    return !has_shortened_name(file.native()) && !is_meant(file.stem().string(), which);
+  });
+  return files;
+}
+
+/// Connects to each once. Returns those that take no connection now, although a process may listen.
+std::vector<fs::path> connect_to(const std::vector<fs::path>& files,
+                                 const std::function<void(RunningController, const fs::path&)>& reached) {
+  std::vector<fs::path> busy;
+  for (const fs::path& file : files) {
+    project::ControlConnection::Attempt made = project::ControlConnection::attempt(file);
+    if (made.connection)
+      reached(RunningController(std::move(*made.connection), file), file);
+    else if (made.may_listen)
+      busy.push_back(file);
   }
-  return running;
+  return busy;
+}
+
+}  // namespace
+
+FoundControllers look_for_controllers(const std::string& which, const Greet& greet) {
+  FoundControllers found;
+  std::vector<std::pair<RunningController, fs::path>> unnamed;
+  const auto greeted = [&](RunningController& one) {
+    if (greet) greet(one);
+    found.running.push_back(std::move(one));
+  };
+  const auto reached = [&](RunningController one, const fs::path& file) {
+    if (has_shortened_name(file.native()) && !which.empty())
+      unnamed.emplace_back(std::move(one), file);
+    else
+      greeted(one);
+  };
+  const auto end = Clock::now() + std::chrono::seconds(1);
+  found.silent = connect_to(sockets_of(monitor_folder(), which), reached);
+  while (!found.silent.empty() && Clock::now() < end) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    found.silent = connect_to(found.silent, reached);
+  }
+  const auto named_until = Clock::now() + std::chrono::seconds(2);
+  for (auto& [one, file] : unnamed) {
+    if (!one.learn_name(left_until(named_until)))
+      found.silent.push_back(file);
+    else if (is_meant(one.name(), which))
+      greeted(one);
+  }
+  if (which.empty())
+    for (RunningController& one : found.running)
+      if (has_shortened_name(one.name())) one.learn_name(left_until(named_until));
+  return found;
+}
+
+int complain_of_silent(const std::vector<fs::path>& silent, const std::string& what) {
+  for (const fs::path& file : silent)
+    complain(file.stem().string() + " does not answer (" + file.string() + "): " + what);
+  return silent.empty() ? ok : failed;
 }
 
 int complain_of_none(const std::string& which) {
   return complain((which.empty() ? "no controller is running" : "no controller '" + which + "' is running") +
-                  " in real time as this user; `tessera run` starts one");
+                  " in real time as this user (its socket would be in " + monitor_folder() +
+                  "); `tessera run` starts one");
 }
 
-std::vector<RunningController> find_controllers(const std::string& which) {
-  std::vector<RunningController> running = running_controllers(which);
-  if (running.empty()) complain_of_none(which);
-  return running;
+namespace {
+
+struct OtherFolder {
+  fs::path path;
+  std::string environment;  ///< with which a command looks there
+};
+
+/// A controller of this user listens there, if its environment has XDG_RUNTIME_DIR as a login sets it, or not at all.
+std::vector<OtherFolder> other_folders() {
+  const std::string user = std::to_string(geteuid()), login = "/run/user/" + user;
+  std::vector<OtherFolder> folders{{login + "/tessera", "XDG_RUNTIME_DIR=" + login},
+                                   {"/tmp/tessera-" + user, "-u XDG_RUNTIME_DIR"}};
+  std::erase_if(folders, [](const OtherFolder& one) {
+    struct stat status {};
+    return one.path == monitor_folder() || lstat(one.path.c_str(), &status) != 0 ||
+           !S_ISDIR(status.st_mode) || status.st_uid != geteuid();
+  });
+  return folders;
+}
+
+}  // namespace
+
+int complain_of_other_folders(const std::string& which) {
+  int code = ok;
+  for (const OtherFolder& folder : other_folders()) {
+    std::string names;
+    for (const fs::path& file : sockets_of(folder.path, which))
+      if (project::ControlConnection::attempt(file).may_listen)
+        names += (names.empty() ? "" : ", ") + file.stem().string();
+    if (!names.empty())
+      code = complain("NOT STOPPED, because their sockets are in " + folder.path.string() + ": " + names +
+                      ". Type `env " + folder.environment + " tessera emergency-stop`, too");
+  }
+  return code;
+}
+
+FoundControllers find_controllers(const std::string& which) {
+  FoundControllers found = look_for_controllers(which);
+  if (found.none()) complain_of_none(which);
+  return found;
 }
 
 std::vector<SeenController> first_look(std::vector<RunningController> controllers) {
-  using Clock = std::chrono::steady_clock;
   const auto end = Clock::now() + std::chrono::seconds(2);
   std::vector<SeenController> seen;
   for (RunningController& one : controllers) {
     SeenController& looked_at = seen.emplace_back(SeenController{std::move(one), {}});
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-    looked_at.controller.be_patient_for(std::max(left, std::chrono::milliseconds(50)));
+    looked_at.controller.be_patient_for(left_until(end));
     if (const project::Snapshot* snapshot = snapshot_in(looked_at.controller.coming_message()))
       looked_at.snapshot = *snapshot;
   }

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -21,11 +22,14 @@ class RunningController {
  public:
   /// nullopt: no process listens there, or it accepts no connection within a second.
   [[nodiscard]] static std::optional<RunningController> attach(const std::filesystem::path& socket_file);
+  RunningController(project::ControlConnection connection, const std::filesystem::path& socket_file)
+      : connection_(std::move(connection)), name_(socket_file.stem().string()) {}
   /// SYSTEM.PID, or SYSTEM.PROCESS.PID of a deployed system.
   [[nodiscard]] const std::string& name() const { return name_; }
   /// If the name of the socket is shortened, takes the full name from the first message, which stays unread.
-  /// Waits for that message for two seconds; a process that hangs keeps the name of the socket.
-  void learn_name();
+  /// Waits for that message for so long. false: none came, as from a process that hangs; it keeps the name of
+  /// the socket.
+  bool learn_name(std::chrono::milliseconds longest = std::chrono::seconds(2));
 
   /// The next message from the controller. nullopt: it has ended or was silent for too long
   /// (`be_patient_for`).
@@ -38,8 +42,6 @@ class RunningController {
   [[nodiscard]] bool send(std::string_view text) const { return connection_.send(text); }
 
  private:
-  RunningController(project::ControlConnection connection, std::string name)
-      : connection_(std::move(connection)), name_(std::move(name)) {}
   project::ControlConnection connection_;
   std::string name_;
   project::ControlReader heard_;
@@ -58,12 +60,25 @@ struct SeenController {
 /// "tessera: error: several controllers are running (...): name one, ..."
 int complain_of_several(const std::vector<SeenController>& controllers);
 
+struct FoundControllers {
+  std::vector<RunningController> running;
+  /// Sockets of processes that hang or are stopped: they take no connection within a second, or do not say
+  /// their names. They may be meant.
+  std::vector<std::filesystem::path> silent;
+  [[nodiscard]] bool none() const { return running.empty() && silent.empty(); }
+};
+using Greet = std::function<void(RunningController&)>;
+/// All controllers that `which` names: a system, a process, or empty for all. Prints nothing. greet: gets each one
+/// as soon as it is reached, so that one that hangs does not delay the others.
+[[nodiscard]] FoundControllers look_for_controllers(const std::string& which, const Greet& greet = {});
+/// The same, and prints an error if there is none.
+[[nodiscard]] FoundControllers find_controllers(const std::string& which);
+/// Names controllers of this user whose sockets are in a folder where this process does not look, as its environment
+/// is another one, and says how to stop them. Returns `ok` if there is none.
+int complain_of_other_folders(const std::string& which);
 /// Prints "tessera: error: no controller is running ...".
 int complain_of_none(const std::string& which);
-/// All controllers that `which` names, as find_controllers. Prints nothing.
-[[nodiscard]] std::vector<RunningController> running_controllers(const std::string& which);
-/// All controllers that `which` names: a system, a process, or empty for all. Prints an error if there is
-/// none.
-[[nodiscard]] std::vector<RunningController> find_controllers(const std::string& which);
+/// Prints for each: "tessera: error: NAME does not answer (socket ...): WHAT". Returns `ok` if there is none.
+int complain_of_silent(const std::vector<std::filesystem::path>& silent, const std::string& what);
 
 }  // namespace tessera::cli

@@ -1,5 +1,11 @@
+#include <csignal>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include "../schema/judge.hpp"
 #include "command.hpp"
+#include "project/process/control_connection.hpp"
 
 namespace tessera::cli_test {
 
@@ -22,6 +28,7 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   for (const char* part :
        {"robot.control", "of 20 Hz", "robot.sensor.line->robot.control.line", "srw-------"})
     EXPECT_NE(done.text.find(part), std::string::npos) << part << "\n" << done.text;
+  EXPECT_EQ(done.text.find(" 0.0 of 20 Hz"), std::string::npos) << done.text;
   EXPECT_TRUE(done.text.ends_with("0\n")) << done.text << content_of(folder_ / "run.txt");
   const nlohmann::json line = nlohmann::json::parse(content_of(folder_ / "line.json"), nullptr, false);
   ASSERT_TRUE(line.is_object());
@@ -57,6 +64,50 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   EXPECT_EQ(times("several controllers are running"), 1U) << stopped.text;
   EXPECT_EQ(times("EMERGENCY STOP: smoke"), 2U) << stopped.text;
   EXPECT_EQ(times("the emergency stop is over"), 2U) << stopped.text;
+}
+
+/// Two controllers run, and all the connections that one of them can queue are taken.
+TEST_F(Top, AControllerThatTakesNoConnectionIsNamedAndTheOtherIsStopped) {
+  example("01_line_follower");
+  fs::create_directories(folder_ / "runtime");
+  fs::permissions(folder_ / "runtime", fs::perms::owner_all);
+  const std::string watch =
+      "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) + "/tessera; ";
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);  // builds it
+  const std::string start = "$T run 01_line_follower --world --for 120s ";
+  static_cast<void>(
+      shell(watch + start + ">a.txt 2>&1 & " + start + ">b.txt 2>&1 & " +
+            "for i in $(seq 400); do test $(ls runtime/tessera | wc -l) = 2 && break; sleep 0.05; done; "
+            "for p in $(ls runtime/tessera | sed 's/[^.]*[.]//; s/[.]sock//'); do "
+            "for i in $(seq 400); do $T top $p --once >>seen.txt 2>&1 && break; sleep 0.05; done; done"));
+  const std::vector<fs::path> sockets = project::control_sockets(folder_ / "runtime/tessera");
+  ASSERT_EQ(sockets.size(), 2U) << content_of(folder_ / "a.txt");
+  const auto number = [](const fs::path& socket) {
+    return std::stoi(socket.stem().extension().string().substr(1));
+  };
+  const std::string hanging = std::to_string(number(sockets[0])), other = std::to_string(number(sockets[1]));
+  kill(number(sockets[0]), SIGSTOP);
+  std::vector<project::ControlConnection> taken;
+  for (;;) {
+    project::ControlConnection::Attempt made = project::ControlConnection::attempt(sockets[0]);
+    if (!made.connection) break;
+    taken.push_back(std::move(*made.connection));
+    ASSERT_LT(taken.size(), 1000U);
+  }
+  const std::string top = shell(watch + "$T top --once").text,
+                    stopped = shell(watch + "$T emergency-stop --why smoke; echo code $?").text,
+                    one = shell(watch + "$T emergency-stop --controller " + hanging + "; echo code $?").text;
+  EXPECT_NE(top.find("line_follower." + hanging + " does not answer"), std::string::npos) << top;
+  for (const std::string& text : {stopped, one}) {
+    EXPECT_NE(text.find("line_follower." + hanging + " does not answer (" + sockets[0].string() +
+                        "): it is unknown whether its devices are safe"),
+              std::string::npos)
+        << text;
+    EXPECT_NE(text.find("code 1"), std::string::npos) << text;
+  }
+  EXPECT_NE(stopped.find("line_follower." + other + ": emergency stop"), std::string::npos) << stopped;
+  for (const int signal : {SIGCONT, SIGINT})
+    for (const fs::path& socket : sockets) kill(number(socket), signal);
 }
 
 }  // namespace tessera::cli_test

@@ -93,5 +93,19 @@ TEST_F(Connection, NeedsAProcessThatListens) {
   EXPECT_FALSE(ControlConnection::to(file())) << "left behind";
 }
 
+TEST_F(Connection, KnowsAProcessThatTakesNoConnectionFromOneThatIsGone) {
+  std::vector<ControlConnection> taken;
+  for (;;) {
+    ControlConnection::Attempt made = ControlConnection::attempt(file());
+    EXPECT_TRUE(made.may_listen);
+    if (!made.connection) break;  // the queue is full: as of a process that is stopped
+    taken.push_back(std::move(*made.connection));
+    ASSERT_LT(taken.size(), 10U);
+  }
+  close(std::exchange(listening_, -1));
+  EXPECT_FALSE(ControlConnection::attempt(file()).may_listen);
+  EXPECT_FALSE(ControlConnection::attempt(folder_ / "missing.sock").may_listen);
+}
+
 }  // namespace
 }  // namespace tessera::project

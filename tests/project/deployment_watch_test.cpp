@@ -54,6 +54,10 @@ class Speaker {
     pollfd source{.fd = listening_, .events = POLLIN, .revents = 0};
     return client_ >= 0 || poll(&source, 1, 0) > 0;
   }
+  /// Takes the clients that wait, and says nothing to them.
+  void take_waiting() const {
+    while (is_called()) close(accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC));
+  }
   /// Precondition: is_called().
   void say(json line) {
     if (client_ < 0) client_ = accept4(listening_, nullptr, nullptr, SOCK_CLOEXEC);
@@ -192,6 +196,22 @@ TEST_F(Watching, OneThatSaysNothingIsSilentEvenIfItNeverDid) {
   EXPECT_TRUE(sees("cart", State::silent) && sees("office", State::silent));
   EXPECT_EQ(watch_.find("cart")->snapshot.process, getpid());
   cart.say_snapshot(3);
+  EXPECT_TRUE(sees("cart", State::running));
+}
+
+TEST_F(Watching, OneThatTakesNoConnectionIsSilentUntilItGoesOn) {
+  std::vector<ControlConnection> full;
+  Speaker cart(socket_of("cart"), "cart");
+  for (;;) {  // as if it was stopped
+    ControlConnection::Attempt made = ControlConnection::attempt(socket_of("cart"));
+    if (!made.connection) break;
+    full.push_back(std::move(*made.connection));
+    ASSERT_LT(full.size(), 1000U);
+  }
+  EXPECT_TRUE(sees("cart", State::silent));
+  cart.take_waiting();
+  call({&cart});
+  cart.say_snapshot(1);
   EXPECT_TRUE(sees("cart", State::running));
 }
 

@@ -1,5 +1,7 @@
+#include <fcntl.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
+#include <sys/socket.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -9,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "../eventually.hpp"
@@ -99,6 +102,96 @@ TEST_F(EmergencyStop, ComesThoughTheTransitionFunctionDoesNotReturn) {
   kill(getpid(), SIGTERM);
   running_.join();
   EXPECT_EQ(summary_.ended, "SIGTERM");
+}
+
+TEST_F(EmergencyStop, IsAnsweredOnceTheDevicesHaveTheirSafeCommands) {
+  build_ = [&, usual = build_](TestSystem& system) {
+    usual(system);
+    system.devices.accept = [this](double value) {
+      if (value == -1) std::this_thread::sleep_for(200ms);
+      last_ = value;
+      return true;
+    };
+  };
+  start();
+  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  EXPECT_EQ(command({{"command", "emergency_stop"}}), "");
+  EXPECT_EQ(last_, -1);
+  EXPECT_EQ(command({{"command", "emergency_stop"}}), "") << "it stands already";
+  EXPECT_EQ(command({{"command", "reset"}}), "");
+  kill(getpid(), SIGTERM);
+  running_.join();
+}
+
+TEST_F(EmergencyStop, NamesTheDeviceThatRefusesAndIsNotResetBefore) {
+  build_ = [&, usual = build_](TestSystem& system) {
+    usual(system);
+    system.devices.accept = [this](double value) {
+      if (value == -1 && last_ == 5) return false;
+      last_ = value;
+      return true;
+    };
+  };
+  start();
+  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  // Both come at once, so that the reset finds the stop.
+  send_line("{\"id\":1,\"command\":\"emergency_stop\"}\n{\"id\":2,\"command\":\"reset\"}");
+  const auto answer_to = [](int id) {
+    return [id](const json& line) { return line.value("answer", 0) == id; };
+  };
+  EXPECT_EQ(await(answer_to(2)).value("error", ""),
+            "not reset: robot.motor.command has not taken its safe command");
+  EXPECT_EQ(await(answer_to(1)).value("error", ""), "robot.motor.command has not taken its safe command");
+  running_.join();
+  EXPECT_TRUE(summary_.failed);
+  EXPECT_THAT(summary_.ended, ::testing::HasSubstr("robot.motor.command has not taken its safe command"));
+}
+
+TEST_F(EmergencyStop, ThatComesWhileDevicesAreOpenedIsInForceFromTheStart) {
+  std::atomic<bool> go_on{false};
+  std::atomic<int> others{0};
+  build_ = [&, usual = build_](TestSystem& system) {
+    usual(system);
+    system.devices.accept = [&](double value) {
+      if (value == -1) static_cast<void>(eventually([&] { return go_on.load(); }));
+      if (value != -1) ++others;
+      return true;
+    };
+  };
+  start();
+  send_line("{\"id\":1,\"command\":\"emergency_stop\"}");
+  EXPECT_EQ(others, 0) << "its device is being opened";
+  go_on = true;
+  EXPECT_EQ(await([](const json& line) { return line.value("answer", 0) == 1; }).value("error", "none"), "");
+  const std::uint64_t before = iterations();
+  EXPECT_TRUE(eventually([&] { return iterations() > before + 10; }));
+  EXPECT_EQ(others, 0);
+  kill(getpid(), SIGTERM);
+  running_.join();
+}
+
+TEST_F(EmergencyStop, FindsRoomWhateverTheNumberOfWatchers) {
+  start();
+  EXPECT_TRUE(eventually([&] { return last_ == 5; }));
+  std::vector<int> watchers;
+  for (int count = 0; count < 200; ++count) {
+    int one = -1;
+    EXPECT_TRUE(eventually([&] { return (one = connect_another()) >= 0; }));
+    watchers.push_back(one);
+  }
+  int operators = -1;
+  EXPECT_TRUE(eventually([&] { return (operators = connect_another()) >= 0; }));
+  const std::string line = "{\"id\":1,\"command\":\"emergency_stop\"}\n";
+  EXPECT_EQ(send(operators, line.data(), line.size(), MSG_NOSIGNAL), static_cast<ssize_t>(line.size()));
+  EXPECT_TRUE(eventually([&] { return last_ == -1; }));
+  close(socket_);
+  fcntl(operators, F_SETFL, 0);
+  socket_ = operators;
+  received_.clear();
+  EXPECT_EQ(await([](const json& said) { return said.value("answer", 0) == 1; }).value("error", "none"), "");
+  for (const int one : watchers) close(one);
+  kill(getpid(), SIGTERM);
+  running_.join();
 }
 
 /// Commands of a motor whose transition function throws once.

@@ -21,7 +21,8 @@
 ///                 "duplicates", "signs", "signs_lost", "clock_ahead_s", "clock_uncertainty_s"}]}
 ///
 /// It never waits for a client: a client that has not taken a line does not get the next ones, and
-/// a client that takes nothing for five seconds is dropped. For a large system the lines come less
+/// a client that takes nothing for five seconds is dropped. If 64 clients only watch, another must send a
+/// command within three seconds. For a large system the lines come less
 /// often, so that the thread takes at most a fiftieth of a processor. The last line is {"ended": true};
 /// without it the connection was lost.
 ///
@@ -44,8 +45,11 @@
 ///
 ///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   sets a parameter, as `--set v=0.3`
 ///     {"command": "emergency_stop", "why": text}                 gives every device its safe command, and
-///                                                                nothing else until the reset
-///     {"command": "reset"}                                       ends the emergency stop (by an operator)
+///                                                                nothing else until the reset; in real time
+///                                                                the answer comes once all have taken it, or
+///                                                                names those that have not after a second
+///     {"command": "reset"}                                       ends the emergency stop (by an operator);
+///                                                                refused until all devices have obeyed it
 ///     {"command": "panel", "path": "robot.operator.drive", "operator": text, "values": {"turn": 0.2}}
 ///                                                                an input of a panel (docs/drivers.md);
 ///                                                                without "values": the operator lets go

@@ -103,6 +103,8 @@ bool Effectors::make_safe(SafeReason why, Busy busy, bool owing_only) {
 
 /// Call it with the device's lock.
 bool Effectors::write_safe(Device& device, SafeReason why) {
+  // Before the driver is called: a stop that begins during the call may come after another command.
+  const std::uint32_t stop = control_.emergency() ? control_.emergencies() : 0;
   bool taken = true;
   for (std::size_t index = device.its.first; index < device.its.first + device.its.count; ++index) {
     const Bindings::RealOutgoing& output = outputs_[index];
@@ -116,6 +118,7 @@ bool Effectors::write_safe(Device& device, SafeReason why) {
     }
   }
   device.refused = !taken;
+  device.stopped_in = taken ? stop : 0;
   if (!taken) {
     device.since = clock_.now();
     return false;
@@ -154,6 +157,21 @@ std::vector<std::string> Effectors::unsafe() const {
   for (const Device& device : devices())
     if (!device.safe || device.owes) names.push_back(device.its.name);
   return names;
+}
+
+std::vector<std::string> Effectors::not_stopped() {
+  std::vector<std::string> names;
+  for (Device& device : devices())
+    if (!is_stopped(device)) names.push_back(device.its.name);
+  return names;
+}
+
+/// A device that has the safe command for another reason may not get it again. That counts only if no thread
+/// calls its driver: a command that was on its way when the stop began would be the later one.
+bool Effectors::is_stopped(Device& device) const {
+  if (device.stopped_in == control_.emergencies()) return true;
+  const Lock lock(device, Busy::leaves_out);
+  return lock && device.safe && !device.owes;
 }
 
 std::string not_safe(const std::vector<std::string>& names) {

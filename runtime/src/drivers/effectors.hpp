@@ -92,6 +92,10 @@ class Effectors {
   /// The devices whose last command was not the safe one, or may not have been, as "robot.motor.left".
   [[nodiscard]] std::vector<std::string> unsafe() const;
 
+  /// The devices that have not taken their safe command since the present emergency stop began. A device that
+  /// is not named has it, and gets nothing else until the stop ends. Call it while the stop stands.
+  [[nodiscard]] std::vector<std::string> not_stopped();
+
   /// Records the changes since the last call: which devices got the safe command and why, which got other
   /// commands again, and which refused. Leaves out devices that another thread calls at the moment. lane:
   /// the calling thread's; nullptr: nothing is recorded.
@@ -101,8 +105,9 @@ class Effectors {
   struct Device {
     Group its{};
     std::atomic_flag in_use{};
-    std::atomic<bool> owes{false};  // the safe command
-    std::atomic<bool> safe{false};  // the last accepted command was the safe one
+    std::atomic<bool> owes{false};             // the safe command
+    std::atomic<bool> safe{false};             // the last accepted command was the safe one
+    std::atomic<std::uint32_t> stopped_in{0};  // the last emergency stop in which it took the safe one
     SafeReason standing{}, recorded{};
     Time since{};             // since when `standing` is the reason
     bool refused = false;     // the last safe command was refused
@@ -112,6 +117,7 @@ class Effectors {
   [[nodiscard]] std::span<Device> devices() const { return {devices_.get(), count_}; }
   [[nodiscard]] bool write(Device& device, Time now);
   [[nodiscard]] bool write_safe(Device& device, SafeReason why);
+  [[nodiscard]] bool is_stopped(Device& device) const;
   bool make_safe(SafeReason why, Busy busy, bool owing_only);
   static void record(Device& device, RecordingLane& lane);
 

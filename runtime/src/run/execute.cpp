@@ -334,6 +334,7 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
     console::print(LogLevel::warning, Time{}, "tessera",
                    "this process simulates a world of its own, which no other process sees");
   SteadyRun run(instances, give_up);
+  run.listen(assembly);
   std::optional<RunSummary> summary =
       with_lost_lines(drive_known(run, assembly, signals, known, error), assembly, session);
   if (run.has_given_up()) give_up.end_process(*summary);

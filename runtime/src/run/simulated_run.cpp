@@ -212,7 +212,7 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
     skip_to_ = assembly.options.skip_to;
     remote_ = std::make_unique<RemoteControl>(assembly, assembly.options.paused && !skip_to_,
                                               assembly.options.speed);
-    monitor_.emplace(assembly, clock_, remote_.get());
+    monitor_.emplace(assembly, clock_, Monitor::listen(assembly), remote_.get());
     monitor_->warn_of_failure(clock_.now());
   }
   calls_.emplace(assembly);

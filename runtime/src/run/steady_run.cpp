@@ -175,7 +175,17 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   return ending(assembly, upper);
 }
 
+void SteadyRun::listen(const Assembly& assembly) {
+  if (assembly.options.monitor) listening_ = Monitor::listen(assembly);
+}
+
+/// The monitor comes first: an emergency stop that came while the devices were opened is in force before a subsystem
+/// can send a command.
 void SteadyRun::start_threads(Assembly& assembly) {
+  if (listening_ != nullptr) {
+    monitor_.emplace(assembly, clock_, std::move(listening_));
+    monitor_->warn_of_failure(clock_.now());
+  }
   threads_.reserve(assembly.executors.size());
   if (assembly.links != nullptr) beside_.emplace_back([this, &assembly] { run_links(assembly); });
   if (assembly.world != nullptr) beside_.emplace_back([this, &assembly] { run_world(assembly); });
@@ -185,10 +195,7 @@ void SteadyRun::start_threads(Assembly& assembly) {
     });
     ++started_;
   }
-  if (!assembly.options.monitor) return;
-  monitor_.emplace(assembly, clock_);
-  monitor_->warn_of_failure(clock_.now());
-  if (assembly.carrier != nullptr) status_.emplace(assembly, clock_);
+  if (monitor_ && assembly.carrier != nullptr) status_.emplace(assembly, clock_);
 }
 
 void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {

@@ -33,6 +33,8 @@ class SteadyRun final : public Waker {
   ~SteadyRun() override;
   [[nodiscard]] const SteadyClock& clock() const { return clock_; }
   void wake(std::uint32_t instance) override { wake_words_[instance].wake(); }
+  /// Call it before the devices are opened: an emergency stop that comes then is in force from the start.
+  void listen(const Assembly& assembly);
   [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   /// Threads that run user code go on and use all of this: the process must end (GiveUp::end_process).
   [[nodiscard]] bool has_given_up() const { return given_up_after_.has_value(); }
@@ -90,7 +92,8 @@ class SteadyRun final : public Waker {
   std::vector<std::thread> threads_;        // per instance
   std::vector<std::thread> beside_;         // of the world and of the links
   std::optional<Securing> securing_;
-  std::optional<Monitor> monitor_;  // the last members: they look at the others
+  std::unique_ptr<MonitorSocket> listening_;  // until there is a monitor
+  std::optional<Monitor> monitor_;            // the last members: they look at the others
   std::optional<StatusSender> status_;
 };
 

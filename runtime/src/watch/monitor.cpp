@@ -25,7 +25,11 @@ namespace tessera {
 namespace {
 
 constexpr int send_period_ms = 200, controlled_period_ms = 40;
-constexpr std::size_t most_clients = 32;
+constexpr int look_at_devices_ms = 5;  // while an operator waits for them
+/// Clients that only watch must leave room for an emergency stop. One beyond their number gets the present state,
+/// and goes unless it sends a command: those of this project do that within two seconds.
+constexpr std::size_t most_watchers = 64, most_clients = 128;
+constexpr std::int64_t trial_ns = 3'000'000'000;
 /// A snapshot of a large system takes long to write. The thread then rests for this many times as long.
 constexpr std::int64_t rest_per_work = 50;
 
@@ -45,15 +49,22 @@ constexpr std::int64_t rest_per_work = 50;
 
 }  // namespace
 
-Monitor::Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote)
+std::unique_ptr<MonitorSocket> Monitor::listen(const Assembly& assembly) {
+  return std::make_unique<MonitorSocket>(name_of_controller(assembly));
+}
+
+Monitor::Monitor(Assembly& assembly, const Clock& clock, std::unique_ptr<MonitorSocket> listening,
+                 RemoteControl* remote)
     : assembly_(assembly),
       clock_(clock),
       recording_path_(absolute(assembly.options.recording)),
-      listening_(name_of_controller(assembly)),
-      remote_(remote) {
-  failure_ = listening_.failure();
-  if (listening_.descriptor() < 0) return;
+      listening_(std::move(listening)),
+      remote_(remote),
+      stops_(assembly.executors, assembly.control) {
+  failure_ = listening_->failure();
+  if (listening_->descriptor() < 0) return;
   ending_ = eventfd(0, EFD_CLOEXEC);
+  while (remote_ == nullptr && accept_client()) continue;
   try {
     thread_ = std::thread([this] { serve(); });
   } catch (const std::system_error& error) {
@@ -66,6 +77,10 @@ Monitor::~Monitor() {
     const std::uint64_t one = 1;
     [[maybe_unused]] const ssize_t written = write(ending_, &one, sizeof one);
     thread_.join();
+  }
+  try {
+    stops_.give_all(answer);
+  } catch (const std::exception&) {  // no memory: the end of the connection is the answer
   }
   for (std::unique_ptr<MonitorClient>& client : clients_) {
     try {
@@ -110,15 +125,17 @@ void Monitor::serve_until_ended() {
   for (;;) {
     std::vector<pollfd> sources{
         pollfd{.fd = ending_, .events = POLLIN, .revents = 0},
-        pollfd{.fd = cannot_accept_ ? -1 : listening_.descriptor(), .events = POLLIN, .revents = 0}};
+        pollfd{.fd = cannot_accept_ ? -1 : listening_->descriptor(), .events = POLLIN, .revents = 0}};
     for (const std::unique_ptr<MonitorClient>& client : clients_) {
       const int wanted = POLLIN | (client->up_to_date() ? 0 : POLLOUT);
       sources.push_back({.fd = client->socket(), .events = static_cast<short>(wanted), .revents = 0});
     }
     const std::int64_t left_ms = (due_ns - monotonic_ns()) / 1'000'000 + 1;
     // No client is connected: it does no work.
-    poll(sources.data(), sources.size(),
-         clients_.empty() && !cannot_accept_ ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0)));
+    int wait_ms =
+        clients_.empty() && !cannot_accept_ ? -1 : static_cast<int>(std::max<std::int64_t>(left_ms, 0));
+    if (!stops_.none()) wait_ms = std::min(wait_ms, look_at_devices_ms);
+    poll(sources.data(), sources.size(), wait_ms);
     if ((sources[0].revents & POLLIN) != 0) return;
     for (std::size_t client = 0; client + 2 < sources.size(); ++client) {
       const int ready = sources[client + 2].revents;
@@ -127,6 +144,7 @@ void Monitor::serve_until_ended() {
     }
     remove_gone_clients();
     if ((sources[1].revents & POLLIN) != 0) accept_client();
+    answer_stops();
     const std::int64_t begin_ns = monotonic_ns();
     if (begin_ns < due_ns) continue;
     cannot_accept_ = false;
@@ -137,18 +155,37 @@ void Monitor::serve_until_ended() {
   }
 }
 
-void Monitor::accept_client() {
-  const MonitorSocket::Accepted accepted = listening_.accept();
+/// false: none is waiting.
+bool Monitor::accept_client() {
+  const MonitorSocket::Accepted accepted = listening_->accept();
   cannot_accept_ = accepted.exhausted;
-  if (accepted.socket < 0) return;
+  if (accepted.socket < 0) return false;
   auto client = std::make_unique<MonitorClient>(accepted.socket);
-  if (clients_.size() >= most_clients) return;
+  if (clients_.size() >= most_clients && !make_room()) return true;
+  put_on_trial(*client);
   Snapshot first = snapshot();
   first.deployment = deployment_of(assembly_);
   client->add(to_line(first));
   client->send();
   clients_.push_back(std::move(client));
   if (remote_ != nullptr) remote_->show_recording();
+  receive(*clients_.back());  // before anybody else can take its room
+  return true;
+}
+
+/// The one that has been on trial for the longest time must go. false: there is none.
+bool Monitor::make_room() {
+  const auto oldest = std::ranges::find_if(clients_, [](const auto& one) { return one->is_on_trial(); });
+  if (oldest == clients_.end()) return false;
+  stops_.forget(**oldest);
+  clients_.erase(oldest);
+  return true;
+}
+
+void Monitor::put_on_trial(MonitorClient& client) const {
+  const auto watchers = std::ranges::count_if(
+      clients_, [](const auto& one) { return !one->has_asked() && !one->is_on_trial(); });
+  if (std::cmp_greater_equal(watchers, most_watchers)) client.expect_command_until(monotonic_ns() + trial_ns);
 }
 
 void Monitor::receive(MonitorClient& client) {
@@ -169,9 +206,13 @@ void Monitor::receive_rest(MonitorClient& client) {
 }
 
 void Monitor::remove_gone_clients() {
+  const std::int64_t now_ns = clients_.empty() ? 0 : monotonic_ns();
   std::erase_if(clients_, [&](const std::unique_ptr<MonitorClient>& client) {
-    if (!client->gone()) return false;
+    const bool has_failed = client->is_on_trial() && now_ns > client->command_until_ns();
+    if (!client->gone() && !has_failed) return false;
     receive_rest(*client);
+    if (!client->gone() && client->has_asked()) return false;
+    stops_.forget(*client);
     if (client->owns_run() && remote_ != nullptr) remote_->abandon();
     return true;
   });
@@ -225,6 +266,7 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
     const std::optional<Problem> wrong =
         std::visit([this](const auto& one) { return this->execute(one); }, *command);
     if (client.gone()) return;
+    if (is_answered_later(*command)) return stops_.await(client, request.id);
     client.add(answer_line(request.id, wrong, wrong && is_elsewhere(*command)));
   } else {
     if (client.gone()) return;
@@ -235,6 +277,18 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
     else
       client.add_piece(assembly_.options.recording);
   }
+  client.send();
+}
+
+/// In simulated time, the devices may stand still, and nobody is near them.
+bool Monitor::is_answered_later(const AnsweredCommand& command) const {
+  return remote_ == nullptr && std::holds_alternative<commands::EmergencyStop>(command);
+}
+
+void Monitor::answer_stops() { stops_.give(answer); }
+
+void Monitor::answer(MonitorClient& client, std::int64_t id, const std::optional<Problem>& wrong) {
+  client.add(answer_line(id, wrong));
   client.send();
 }
 
@@ -268,7 +322,12 @@ std::optional<Problem> Monitor::execute(const commands::EmergencyStop& command) 
   return std::nullopt;
 }
 
+/// A device that has not obeyed the stop must not move again. If it does not obey within Effectors::patience, the
+/// run fails.
 std::optional<Problem> Monitor::execute(const commands::Reset& /*command*/) {
+  if (remote_ == nullptr && assembly_.control.emergency())
+    if (const std::optional<Problem> wrong = stops_.not_safe_yet())
+      return Problem{fmt::format("not reset: {}", wrong->text)};
   if (assembly_.control.end_emergency(clock_.now() + Duration(1))) return std::nullopt;
   return Problem{"there is no emergency stop"};
 }

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -12,6 +13,7 @@
 #include "watch/monitor_protocol.hpp"
 #include "watch/monitor_socket.hpp"
 #include "watch/remote_control.hpp"
+#include "watch/stop_answers.hpp"
 
 namespace tessera {
 
@@ -23,8 +25,12 @@ namespace tessera {
 /// Threads: made and destroyed by one thread. The assembly must outlive it.
 class Monitor {
  public:
-  /// remote: receives the commands; nullptr: commands are not accepted.
-  Monitor(Assembly& assembly, const Clock& clock, RemoteControl* remote = nullptr);
+  /// The socket by itself: clients can connect, and their commands wait until there is a monitor.
+  [[nodiscard]] static std::unique_ptr<MonitorSocket> listen(const Assembly& assembly);
+  /// Executes the commands that have come to the socket before it returns. remote: receives the commands; nullptr:
+  /// commands are not accepted.
+  Monitor(Assembly& assembly, const Clock& clock, std::unique_ptr<MonitorSocket> listening,
+          RemoteControl* remote = nullptr);
   ~Monitor();
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
@@ -35,7 +41,9 @@ class Monitor {
  private:
   void serve();
   void serve_until_ended();
-  void accept_client();
+  bool accept_client();
+  [[nodiscard]] bool make_room();
+  void put_on_trial(MonitorClient& client) const;
   void receive(MonitorClient& client);
   void receive_rest(MonitorClient& client);
   void remove_gone_clients();
@@ -45,6 +53,9 @@ class Monitor {
 
   void execute_commands(MonitorClient& client);
   void execute_request(MonitorClient& client, const Request& request);
+  [[nodiscard]] bool is_answered_later(const AnsweredCommand& command) const;
+  void answer_stops();
+  static void answer(MonitorClient& client, std::int64_t id, const std::optional<Problem>& wrong);
   // Returns the mistake in the command; nullopt: it was executed.
   [[nodiscard]] static std::optional<Problem> execute(const commands::Malformed& command);
   [[nodiscard]] std::optional<Problem> execute(const SimulationCommand& command);
@@ -58,11 +69,12 @@ class Monitor {
   const Clock& clock_;
   std::string recording_path_;
   std::optional<Problem> failure_;
-  MonitorSocket listening_;
+  std::unique_ptr<MonitorSocket> listening_;
   int ending_ = -1;
   bool cannot_accept_ = false;  // no descriptor is left: try again after the next line
   RemoteControl* remote_;
   std::vector<std::unique_ptr<MonitorClient>> clients_;
+  StopAnswers stops_;
   std::thread thread_;
 };
 

@@ -41,6 +41,7 @@ std::optional<std::string> MonitorClient::take_line() {
   if (end == std::string::npos) return std::nullopt;
   std::string line = received_.substr(0, end);
   received_.erase(0, end + 1);
+  has_asked_ = true;
   return line;
 }
 

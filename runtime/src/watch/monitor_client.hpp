@@ -35,6 +35,13 @@ class MonitorClient {
   [[nodiscard]] bool owns_run() const { return owns_run_; }
   void own_run() { owns_run_ = true; }
 
+  /// Whether it has sent a command. Else it only watches.
+  [[nodiscard]] bool has_asked() const { return has_asked_; }
+  /// It must send a command until then, because enough others watch already.
+  void expect_command_until(std::int64_t ns) { command_until_ns_ = ns; }
+  [[nodiscard]] bool is_on_trial() const { return command_until_ns_ != 0 && !has_asked_; }
+  [[nodiscard]] std::int64_t command_until_ns() const { return command_until_ns_; }
+
   /// Receives some of the bytes that have arrived, and returns their number.
   std::size_t receive();
   /// Removes and returns the next complete line; nullopt: there is none.
@@ -64,6 +71,8 @@ class MonitorClient {
   std::int64_t took_ns_ = 0;                     // when the client last took some of it
   std::unique_ptr<GrowingRecording> recording_;  // nullptr: the client has not asked for it
   bool skipped_ = false;                         // a snapshot was left out
+  std::int64_t command_until_ns_ = 0;            // 0: it need not send one
+  bool has_asked_ = false;
   bool owns_run_ = false;
   bool gone_ = false;
 };

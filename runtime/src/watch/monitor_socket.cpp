@@ -74,6 +74,8 @@ void remove_left_behind(const std::string& folder) {
 
 namespace {
 
+/// Clients that come and go while the process is stopped fill the queue. It must have room for a command then.
+constexpr int longest_queue = 128;
 constexpr std::size_t longest_path = sizeof(sockaddr_un::sun_path) - 1;
 
 /// FNV-1a.
@@ -123,7 +125,8 @@ void MonitorSocket::listen(std::string_view name) {
   unlink(file.c_str());  // left by an earlier process with our number
   const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
   const auto* own = reinterpret_cast<const sockaddr*>(&address);
-  if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 || ::listen(descriptor, 4) != 0) {
+  if (descriptor < 0 || bind(descriptor, own, sizeof address) != 0 ||
+      ::listen(descriptor, longest_queue) != 0) {
     failure_ = Problem{fmt::format("cannot listen at '{}': {}", file, std::strerror(errno))};
     if (descriptor >= 0) close(descriptor);
     return;

@@ -1,5 +1,6 @@
 #include "project/process/control_connection.hpp"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 #include <sys/time.h>
@@ -10,6 +11,7 @@
 #include <array>
 #include <cerrno>
 #include <cstring>
+#include <thread>
 
 namespace tessera::project {
 
@@ -25,20 +27,30 @@ void limit(int descriptor, int direction, std::chrono::milliseconds time) {
 
 }  // namespace
 
-std::optional<ControlConnection> ControlConnection::to(const fs::path& socket_file) {
+ControlConnection::Attempt ControlConnection::attempt(const fs::path& socket_file) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string& name = socket_file.native();
-  if (name.size() >= sizeof address.sun_path) return std::nullopt;
+  if (name.size() >= sizeof address.sun_path) return {};
   std::memcpy(address.sun_path, name.c_str(), name.size() + 1);
-  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0);
-  if (descriptor < 0) return std::nullopt;
+  const int descriptor = socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0);
+  if (descriptor < 0) return {.connection = {}, .may_listen = true};
   ControlConnection made(descriptor);
-  limit(descriptor, SO_SNDTIMEO, std::chrono::seconds(1));  // limits connect, too
   const auto* raw = reinterpret_cast<const sockaddr*>(&address);
-  if (connect(descriptor, raw, sizeof address) != 0) return std::nullopt;
-  limit(descriptor, SO_SNDTIMEO, std::chrono::milliseconds(0));
-  return made;
+  if (connect(descriptor, raw, sizeof address) != 0)
+    return {.connection = {}, .may_listen = errno != ECONNREFUSED && errno != ENOENT};
+  fcntl(descriptor, F_SETFL, fcntl(descriptor, F_GETFL) & ~O_NONBLOCK);
+  return {.connection = std::move(made), .may_listen = true};
+}
+
+std::optional<ControlConnection> ControlConnection::to(const fs::path& socket_file) {
+  const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(1);
+  for (;;) {
+    Attempt made = attempt(socket_file);
+    if (made.connection || !made.may_listen || std::chrono::steady_clock::now() >= end)
+      return std::move(made.connection);
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  }
 }
 
 ControlConnection::~ControlConnection() {

@@ -21,6 +21,9 @@ class ControlConnection {
  public:
   /// nullopt: no process listens there, or it takes no connection within a second.
   [[nodiscard]] static std::optional<ControlConnection> to(const std::filesystem::path& socket_file);
+  struct Attempt;
+  /// Does not wait.
+  [[nodiscard]] static Attempt attempt(const std::filesystem::path& socket_file);
   ControlConnection(ControlConnection&& other) noexcept
       : descriptor_(std::exchange(other.descriptor_, std::nullopt)) {}
   ControlConnection& operator=(ControlConnection&& other) noexcept {
@@ -57,6 +60,13 @@ class ControlConnection {
   explicit ControlConnection(int descriptor) : descriptor_(descriptor) {}
   [[nodiscard]] Received receive(ControlReader& to, int flags) const;
   std::optional<int> descriptor_;
+};
+
+struct ControlConnection::Attempt {
+  std::optional<ControlConnection> connection;
+  /// There is no connection, but a process may listen all the same: one that is stopped or hangs, or whose queue
+  /// is full at the moment. false: no process listens there.
+  bool may_listen = false;
 };
 
 /// The control sockets in a folder, tessera::monitor_folder(), sorted by name. A process that was killed

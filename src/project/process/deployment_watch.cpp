@@ -15,7 +15,7 @@ namespace tessera::project {
 namespace {
 
 constexpr std::chrono::milliseconds look_period{500};
-/// The time until a socket without a listener is tried again: a stopped process may delay the connection.
+/// The time until a socket without a listener is tried again.
 constexpr std::chrono::seconds pause_after_refusal{5};
 
 /// Digits by their value, the rest letter by letter.
@@ -145,22 +145,30 @@ void DeploymentWatch::look_for_sockets() {
   next_look_ = now + look_period;
   for (const std::filesystem::path& file : control_sockets(folder_)) {
     const std::string name = file.filename().string();
-    if (!may_be_of(name, system_) || connected_.contains(name)) continue;
+    const auto known = connected_.find(name);
+    if (!may_be_of(name, system_) || (known != connected_.end() && !known->second.takes_none)) continue;
     if (const auto refused = refused_.find(name);
         refused != refused_.end() && now < refused->second + pause_after_refusal)
       continue;
-    std::optional<ControlConnection> made = ControlConnection::to(file);
-    if (!made) {
-      refused_[name] = Clock::now();
-      if (process_of_socket(name, system_).is_gone)
-        note_found(name, connected_[name], WatchedProcess::State::gone);
-      continue;
-    }
-    refused_.erase(name);
-    Connected& one = connected_[name];
-    one.connection = std::move(made);
-    one.made = Clock::now();
+    try_socket(file, name);
   }
+}
+
+void DeploymentWatch::try_socket(const std::filesystem::path& file, const std::string& name) {
+  ControlConnection::Attempt made = ControlConnection::attempt(file);
+  if (!made.may_listen) {
+    refused_[name] = Clock::now();
+    connected_.erase(name);
+    if (process_of_socket(name, system_).is_gone)
+      note_found(name, connected_[name], WatchedProcess::State::gone);
+    return;
+  }
+  refused_.erase(name);
+  const auto [known, is_new] = connected_.try_emplace(name);
+  Connected& one = known->second;
+  one.takes_none = !made.connection;
+  if (made.connection || is_new) one.made = Clock::now();
+  one.connection = std::move(made.connection);
 }
 
 /// The state of a process that has sent nothing.
@@ -245,7 +253,8 @@ bool DeploymentWatch::notice_silence() {
   bool changed = elsewhere_.notice_silence();
   const Clock::time_point now = Clock::now();
   for (auto& [socket, one] : connected_) {
-    if (!one.process && one.connection && !one.ignored && now >= one.made + longest_silence) {
+    const bool may_listen = one.connection || one.takes_none;
+    if (!one.process && may_listen && !one.ignored && now >= one.made + longest_silence) {
       note_found(socket, one, WatchedProcess::State::silent);
       if (one.process) one.process->heard = one.made;
       changed = true;

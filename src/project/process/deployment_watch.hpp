@@ -58,12 +58,14 @@ class DeploymentWatch {
  private:
   struct Connected {
     std::optional<ControlConnection> connection;
+    bool takes_none = false;  ///< a process may listen, but takes no connection: another is tried
     Clock::time_point made;
     ControlReader heard;
     std::optional<WatchedProcess> process;
     bool ignored = false;  ///< it is none of the deployment
   };
   void look_for_sockets();
+  void try_socket(const std::filesystem::path& file, const std::string& name);
   void note_found(const std::string& socket, Connected& one, WatchedProcess::State state) const;
   bool read(const std::string& socket, Connected& one, const EachLine& each_line);
   bool take(const std::string& socket, Connected& one, std::optional<ControlLine> line);

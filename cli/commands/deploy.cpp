@@ -178,7 +178,7 @@ class DeployedRun final : public ProcessSetListener {
     tell(fmt::format("{} is not started again: {}", name_of(placement_.here[which]), why));
     return Again::never;
   }
-  /// Of `--for`, which begins with the first start of a process. nullopt: no limit.
+  /// The rest of `--for`, which begins with the first start of a process. nullopt: no limit.
   [[nodiscard]] std::optional<std::chrono::milliseconds> time_left(std::size_t which) const {
     const std::optional<Duration> whole = parse_duration(options_.duration);
     if (!whole) return std::nullopt;

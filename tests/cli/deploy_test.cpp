@@ -453,11 +453,13 @@ TEST_F(Deploy, ATerminalThatIsClosedCostsNoFileOfARun) {
   const Started run(folder_, domain_, other_side, /*as_terminal=*/true,
                     "--process gate --json sum.json --record gate.tsr");
   close(other_side);
-  EXPECT_TRUE(eventually([&] {
+  const auto size = [&] {
     std::error_code missing;
     const auto bytes = fs::file_size(folder_ / "gate.tsr", missing);
-    return !missing && bytes > 0;
-  }));
+    return missing ? 0 : bytes;
+  };
+  EXPECT_TRUE(eventually([&] { return size() > 0; }));
+  EXPECT_TRUE(eventually([&, before = size()] { return size() > before + 1000; })) << "it does not fire";
   close(terminal);
   EXPECT_EQ(run.wait(), 128 + SIGHUP);
   const nlohmann::json summary = nlohmann::json::parse(content_of(folder_ / "sum.json"), nullptr, false);

@@ -56,7 +56,7 @@ class Starter : public testing::Test {
     return WIFEXITED(status) ? WEXITSTATUS(status) : 1000 + WTERMSIG(status);
   }
   void tell(int signal) const { kill(starter_, signal); }
-  /// What the starter does with the shell; it returns the exit code of the starter.
+  /// The starter runs the shell with this function, which returns the exit code of the starter.
   std::function<int(const Command&)> how_ = [](const Command& command) { return run(command).code; };
 
  private:

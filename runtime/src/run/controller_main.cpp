@@ -23,7 +23,11 @@ namespace {
 // The exit code after a signal is exit_signal plus the number of the signal.
 constexpr int exit_ok = 0, exit_failed = 1, exit_signal = 128;
 
-void complain(std::string_view what) { fmt::print(stderr, "error: {}\n", printable(what)); }
+/// A terminal that was closed must not end the process here: fmt::print would throw.
+void complain(std::string_view what) {
+  const std::string text = fmt::format("error: {}\n", printable(what));
+  static_cast<void>(std::fwrite(text.data(), 1, text.size(), stderr));
+}
 
 [[nodiscard]] bool write_summary(const std::string& file, const std::string& json) {
   if (file == "-") return static_cast<bool>(std::cout << json << std::flush);

@@ -53,7 +53,7 @@ class RestartGate {
     }
     [[nodiscard]] bool stands() const { return runs() && emergency.has_value(); }
   };
-  /// What is known about a process that has failed.
+  /// Knowledge about a process that has failed.
   struct Held {
     std::optional<Clock::time_point> asked;  ///< first
     std::set<std::string> stood;             ///< others that had an emergency stop since then

@@ -1,7 +1,7 @@
 import type { NetModel } from "../model/net/net";
 import type { Breakpoint } from "./protocol";
 
-/** Where a run pauses: a name, because the numbers of a net change with every edit. */
+/** A point at which a run pauses. It has a name, because the numbers of a net change with every edit. */
 export interface NamedBreakpoint {
   /** At a token in the place, a firing of the transition, or its condition that holds. */
   on: "place" | "transition" | "condition";

@@ -128,7 +128,7 @@ export class Runner {
     await this.attach();
   }
 
-  /** Of a run that is not known yet. */
+  /** The state for a run that is not known yet. */
   private fresh(): RunnerState {
     const { breakpoints, others } = this.store.get();
     return { ...idle, breakpoints, others };

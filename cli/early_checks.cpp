@@ -30,7 +30,7 @@ std::optional<Specification> read_quietly(const std::filesystem::path& given) {
   std::optional<spec::Model> model;
   if (!found.has_errors()) model = spec::parse(found);
   if (!model) return std::nullopt;
-  const std::filesystem::path absolute = std::filesystem::weakly_canonical(std::filesystem::absolute(file));
+  const std::filesystem::path absolute = located(file);
   return Specification{absolute, absolute.parent_path(), std::move(found), std::move(*model)};
 }
 

@@ -43,6 +43,7 @@ constexpr const char* usual_recording = ".tessera/last/recording.tsr";
 
 struct ReplayOptions {
   std::vector<std::string> recordings;
+  fs::path project;  ///< whose last run is read; empty: of none
   std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json, coverage;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
@@ -188,9 +189,13 @@ json to_json(const Recording& recording, const std::vector<replay::SubsystemStat
 
 // ---------------------------------------------------------------------------------------------- check
 
-/// The specification of a recording, in its folder or in one above.
+/// The specification of a recording: of the project that was named, else in its folder or in one above.
 std::string specification_of(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
+  // The recordings of a project that cannot be written are elsewhere.
+  if (fs::path file = options.project / file_names::specification;
+      !options.project.empty() && fs::exists(file))
+    return file.string();
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
     if (fs::path file = folder / file_names::specification; fs::exists(file)) return file.string();
     if (folder == folder.parent_path()) break;
@@ -221,7 +226,7 @@ bool known_values(const Recording& recording, const std::string& wanted) {
 }
 
 /// The last run of the project in this folder, wherever its files are.
-std::string last_recording(const fs::path& project = ".") {
+std::string last_recording(const fs::path& project) {
   const fs::path kept = state_folder(fs::canonical(project)) / "last";
   for (const fs::path& last : {(project / usual_recording).parent_path().lexically_normal(), kept}) {
     if (fs::exists(last / file_names::recording)) return (last / file_names::recording).string();
@@ -278,9 +283,15 @@ std::vector<std::string> all_recordings(const std::vector<std::string>& given) {
 }
 
 int replay_command(ReplayOptions options) {
-  if (options.recordings.empty()) options.recordings.push_back(last_recording());
-  for (std::string& given : options.recordings)
-    if (fs::exists(fs::path(given) / "spec.yaml")) given = last_recording(given);
+  if (options.recordings.empty()) {
+    options.project = ".";
+    options.recordings.push_back(last_recording(options.project));
+  }
+  for (std::string& given : options.recordings) {
+    if (!fs::exists(fs::path(given) / file_names::specification)) continue;
+    if (options.project.empty()) options.project = given;
+    given = last_recording(given);
+  }
   options.recordings = all_recordings(options.recordings);
   if (options.recordings.empty())
     return complain("there is no recording in this folder"), options.check ? usage : failed;

@@ -70,7 +70,7 @@ int studio_command(const StudioCommandOptions& options) {
         fmt::format("there is no specification {}; `tessera new NAME` makes a project", given.string()));
   const project::Installation installation = project::Installation::find();
   server::StudioOptions studio;
-  studio.spec = is_there ? fs::canonical(given) : fs::canonical(folder) / given.filename();
+  studio.spec = project::located(given);
   studio.port = options.port;
   studio.page = installation.share / "studio";  // in the build tree: a link to the output of Vite
   studio.share = installation.share;

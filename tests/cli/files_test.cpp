@@ -138,6 +138,16 @@ TEST_F(Files, OutputsReplaceOnlyTheirLike) {
   EXPECT_EQ(tessera("check p --json /dev/null").code, 0);
 }
 
+TEST_F(Files, ASpecificationThatIsALinkBelongsToTheProjectOfTheLink) {
+  write(folder_ / "common/spec.yaml", small);
+  fs::create_directories(folder_ / "left");
+  fs::create_symlink("../common/spec.yaml", folder_ / "left/spec.yaml");
+  const project::Exit done = tessera("generate left --stubs");
+  ASSERT_EQ(done.code, 0) << done.text;
+  EXPECT_TRUE(fs::exists(folder_ / "left/src/a/control.cpp")) << done.text;
+  EXPECT_EQ(files_in(folder_ / "common"), std::set<std::string>{"spec.yaml"});
+}
+
 TEST_F(Files, NewTakesNobodysPlaceAndLeavesNothingBehind) {
   fs::create_symlink("nowhere", folder_ / "rover");
   EXPECT_EQ(tessera("new rover").code, 1);

@@ -15,6 +15,11 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   const project::Exit checked = tessera("replay 01_line_follower/.tessera/last/recording.tsr --check");
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("legal: "), 0U) << checked.text;
+  // A project that cannot be written has its recordings elsewhere.
+  fs::rename(project / ".tessera", folder_ / "state");
+  const project::Exit elsewhere = tessera("--state state replay 01_line_follower --check");
+  EXPECT_EQ(elsewhere.code, 0) << elsewhere.text;
+  fs::rename(folder_ / "state", project / ".tessera");
 
   ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
   const project::Exit threads = tessera("replay threads.tsr --check --spec 01_line_follower");

@@ -28,12 +28,17 @@ fs::path spec_file(const fs::path& given) {
   return fs::exists(inside) ? inside : given;
 }
 
+fs::path located(const fs::path& file) {
+  const fs::path absolute = fs::absolute(file).lexically_normal();
+  return fs::weakly_canonical(absolute.parent_path()) / absolute.filename();
+}
+
 std::optional<Specification> read(const fs::path& given, Listener& listener) {
   const fs::path file = spec_file(given);
   diagnostics::Diagnostics diagnostics = diagnostics::load(file);
   std::optional<spec::Model> model;
   if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
-  const fs::path absolute = fs::weakly_canonical(fs::absolute(file));
+  const fs::path absolute = located(file);
   const bool found = model && find_messages(*model, absolute.parent_path(), diagnostics);
   listener.say(diagnostics);
   if (!found) return std::nullopt;

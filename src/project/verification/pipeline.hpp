@@ -27,6 +27,10 @@ struct Specification {
 /// The file that `given` means: `given` itself, or the spec.yaml of a folder.
 [[nodiscard]] std::filesystem::path spec_file(const std::filesystem::path& given);
 
+/// The absolute path of a file, in the folder where it is named: a specification that is a symbolic link belongs to
+/// the project of the link, whose sources and parameters are beside it.
+[[nodiscard]] std::filesystem::path located(const std::filesystem::path& file);
+
 /// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been reported.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given, Listener& listener);
 

@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <functional>
+#include <set>
+#include <string>
 #include <thread>
 
 namespace tessera::server {
@@ -17,8 +19,8 @@ class FileWatch {
   FileWatch& operator=(const FileWatch&) = delete;
 
  private:
-  void watch(const std::string& name);
-  [[nodiscard]] bool concerns(const std::string& name) const;
+  void watch(const std::set<std::string>& names);
+  [[nodiscard]] bool concerns(const std::set<std::string>& names) const;
 
   std::function<void()> changed_;
   int events_ = -1, ended_ = -1;

@@ -151,10 +151,12 @@ struct OtherFolder {
 };
 
 /// A controller of this user listens there, if its environment has XDG_RUNTIME_DIR as a login sets it, or not at all.
+/// None, if this process has a folder of its own choice: then its controllers are kept apart on purpose.
 std::vector<OtherFolder> other_folders() {
   const std::string user = std::to_string(geteuid()), login = "/run/user/" + user;
   std::vector<OtherFolder> folders{{login + "/tessera", "XDG_RUNTIME_DIR=" + login},
                                    {"/tmp/tessera-" + user, "-u XDG_RUNTIME_DIR"}};
+  if (std::ranges::count(folders, fs::path(monitor_folder()), &OtherFolder::path) == 0) return {};
   std::erase_if(folders, [](const OtherFolder& one) {
     struct stat status {};
     return one.path == monitor_folder() || lstat(one.path.c_str(), &status) != 0 ||

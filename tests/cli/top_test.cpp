@@ -3,6 +3,7 @@
 #include <utility>
 #include <vector>
 
+#include "../eventually.hpp"
 #include "../schema/judge.hpp"
 #include "command.hpp"
 #include "project/process/control_connection.hpp"
@@ -66,6 +67,14 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   EXPECT_EQ(times("the emergency stop is over"), 2U) << stopped.text;
 }
 
+/// Whether all threads of a process stand still.
+bool is_stopped(int process) {
+  for (const auto& thread : fs::directory_iterator("/proc/" + std::to_string(process) + "/task")) {
+    if (content_of(thread.path() / "stat").find(") T ") == std::string::npos) return false;
+  }
+  return true;
+}
+
 /// Two controllers run, and all the connections that one of them can queue are taken.
 TEST_F(Top, AControllerThatTakesNoConnectionIsNamedAndTheOtherIsStopped) {
   example("01_line_follower");
@@ -87,6 +96,8 @@ TEST_F(Top, AControllerThatTakesNoConnectionIsNamedAndTheOtherIsStopped) {
   };
   const std::string hanging = std::to_string(number(sockets[0])), other = std::to_string(number(sockets[1]));
   kill(number(sockets[0]), SIGSTOP);
+  // A thread that still runs for a moment would make room in the queue again.
+  ASSERT_TRUE(eventually([&] { return is_stopped(number(sockets[0])); }));
   std::vector<project::ControlConnection> taken;
   for (;;) {
     project::ControlConnection::Attempt made = project::ControlConnection::attempt(sockets[0]);

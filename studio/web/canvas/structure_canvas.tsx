@@ -140,7 +140,7 @@ function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): B
 const pathOf = (target: Element) =>
   target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
 
-/** What a click selects: a buffer has another name there than in paths. */
+/** The name that a click selects: a buffer has another one there than in paths. */
 const selectionOf = (target: Element) => target.closest("[data-path]")?.getAttribute("data-selection") ?? pathOf(target);
 
 /** The wires between virtual receptors and effectors and their devices. */

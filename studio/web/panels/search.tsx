@@ -9,7 +9,7 @@ import type { Structure } from "../model/structure/structure";
 interface Found {
   path: string;
   kind: string;
-  /** Of a buffer, if it is selected. */
+  /** The fields of a buffer, if it is selected. */
   selection?: string;
 }
 

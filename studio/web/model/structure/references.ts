@@ -67,7 +67,7 @@ function claimed(structure: Structure, reference: Reference): Reference["kind"] 
 const subsystemOf = ({ agents }: Structure, { agent, subsystem }: Reference): Subsystem | undefined =>
   agents.find(({ name }) => name === agent)?.subsystems.find(({ name }) => name === subsystem);
 
-/** Where the simulated world names a placed model besides its key: the objects that are not of the world file. */
+/** The places besides its key at which the simulated world names a placed model: the objects that are not of the world file. */
 export const placedReferences = ({ yaml }: Structure, name: string): Reference[] =>
   inWorld(yaml).filter(({ agent }) => agent === instanceName(name));
 

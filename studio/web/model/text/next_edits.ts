@@ -46,7 +46,7 @@ export function removeNext(structure: Structure, behaviour: Behaviour, index: nu
   );
 }
 
-/** What goes with entries of `next`: all of it, if none is left. */
+/** The parts to remove with entries of `next`: all of it, if none is left. */
 export function nextToRemove({ yaml }: Structure, behaviour: Behaviour, entries: readonly number[]): YamlPath[] {
   const paths = nextPaths(yaml, behaviour.yaml);
   if (entries.length === 0) return [];

@@ -68,7 +68,7 @@ export function renameBuffer(structure: Structure, subsystem: Subsystem, buffer:
   ]);
 }
 
-/** What holds a buffer in conditions: a receptor reads its real buffers, an effector writes them. */
+/** The object that holds a buffer in conditions: a receptor reads its real buffers, an effector writes them. */
 const sideOf = ({ kind }: Subsystem, { direction }: Buffer): "in" | "out" =>
   direction === "input" || (direction === "real" && kind === "receptor") ? "in" : "out";
 

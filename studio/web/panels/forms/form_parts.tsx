@@ -15,7 +15,7 @@ export const nameProblem =
         ? `The name ${text} is taken here`
         : undefined;
 
-/** Of an agent or template with subsystems of its own, or of a subsystem. */
+/** The hint below the name of a subsystem, or of an agent or template with subsystems of its own. */
 export const namespaceHint = "Its C++ namespace and headers have the same name: rename them there too";
 
 export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);

@@ -188,7 +188,11 @@ int read_to_end(Output& output, const std::function<void(std::string_view)>& eac
   ChildEnd end(output.child());
   bool ended = false;
   for (bool open = true; open;) {
-    ended = ended || end.look(WNOHANG);
+    if (!ended && end.look(WNOHANG)) {
+      ended = true;
+      // A program that was being started when the group got the signal has missed it.
+      if (asked_to_stop != 0) kill(receiver, asked_to_stop);
+    }
     pollfd source{.fd = output.descriptor(), .events = POLLIN, .revents = 0};
     if (poll(&source, 1, look_period_ms) > 0) open = output.read_on(each_line);
   }

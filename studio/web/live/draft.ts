@@ -206,7 +206,12 @@ export class Draft {
     this.onDisk(file);
     this.edit(merged, "disk");
     this.store.set({
-      notice: unsaved ? "The file changed on disk; both changes were merged" : "The file changed on disk; reloaded",
+      notice:
+        file.text === ""
+          ? "The file on disk is gone or empty. Undo brings its text back"
+          : unsaved
+            ? "The file changed on disk; both changes were merged"
+            : "The file changed on disk; reloaded",
     });
   }
 

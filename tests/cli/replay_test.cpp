@@ -1,7 +1,10 @@
 #include <fmt/core.h>
 
+#include <cstdlib>
+
 #include "../schema/judge.hpp"
 #include "command.hpp"
+#include "project/files/state_folder.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::cli_test {
@@ -16,10 +19,14 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("legal: "), 0U) << checked.text;
   // A project that cannot be written has its recordings elsewhere.
-  fs::rename(project / ".tessera", folder_ / "state");
-  const project::Exit elsewhere = tessera("--state state replay 01_line_follower --check");
+  setenv("TESSERA_STATE_DIR", (folder_ / "state").c_str(), 1);
+  const fs::path state = project::state_folder(fs::canonical(project));
+  fs::create_directories(state.parent_path());
+  fs::rename(project / ".tessera", state);
+  const project::Exit elsewhere = tessera("replay 01_line_follower --check");
   EXPECT_EQ(elsewhere.code, 0) << elsewhere.text;
-  fs::rename(folder_ / "state", project / ".tessera");
+  unsetenv("TESSERA_STATE_DIR");
+  fs::rename(state, project / ".tessera");
 
   ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
   const project::Exit threads = tessera("replay threads.tsr --check --spec 01_line_follower");

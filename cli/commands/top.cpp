@@ -139,7 +139,7 @@ int watch_one(SeenController& watched, const TopOptions& options) {
     since = std::chrono::steady_clock::now();
   }
   return complain(watched.controller.name() +
-                  " sends nothing any more: it hangs, was killed, or has too many " + "clients");
+                  " sends nothing any more: it hangs, was killed, or has too many clients");
 }
 
 /// The specification that the options name, or that of this folder; nullopt: there is no such file.

@@ -1,97 +1,17 @@
-#include <fcntl.h>
+#include "deploy.hpp"
+
 #include <fmt/core.h>
-#include <pty.h>
-#include <sys/ioctl.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
-#include <array>
 #include <csignal>
-#include <utility>
 
-#include "../eventually.hpp"
 #include "../schema/judge.hpp"
 #include "cli/commands/joint_check.hpp"
-#include "command.hpp"
 #include "tessera/process_claim.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera::cli_test {
 namespace {
-
-/// Three real processes that talk over loopback. The controller is built once.
-class Deploy : public Command {
- protected:
-  Deploy() : project_(folder_ / "11_crossing_apart") {
-    static bool built = false;
-    kept() = fs::temp_directory_path() / ("tessera_deploy_" + std::to_string(getpid()));
-    if (!std::exchange(built, true)) {
-      fs::rename(example("11_crossing_apart"), kept());
-      built = tessera("generate '" + kept().string() + "' --build").code == 0;
-    }
-    fs::create_directory_symlink(kept(), project_);
-    // Others may run the same system on this machine.
-    domain_ = " --domain " + std::to_string(1 + getpid() % 230);
-  }
-  static void TearDownTestSuite() { fs::remove_all(kept()); }
-  static fs::path& kept() {
-    static fs::path folder;
-    return folder;
-  }
-
-  [[nodiscard]] nlohmann::json deployment() const {
-    return nlohmann::json::parse(content_of(project_ / ".tessera/last/deployment.json"), nullptr, false);
-  }
-  [[nodiscard]] pid_t pid_of(std::size_t process) const {
-    return deployment().at("processes").at(process).at("starts").back().at("pid").get<pid_t>();
-  }
-  [[nodiscard]] bool any_is_left() const {
-    for (std::size_t process = 0; process < 3; ++process)
-      if (kill(pid_of(process), 0) == 0) return true;
-    return false;
-  }
-  /// Whether the processes of a run have started that is not over.
-  [[nodiscard]] bool all_run() const {
-    const nlohmann::json now = deployment();
-    if (!now.is_object()) return false;
-    for (const nlohmann::json& process : now.at("processes")) {
-      const nlohmann::json& starts = process.at("starts");
-      const std::string said = "process-" + process.at("name").get<std::string>() + ".tsr";
-      if (starts.empty() || starts.back().contains("ended")) return false;
-      std::error_code missing;
-      const auto bytes = fs::file_size(project_ / ".tessera/last" / said, missing);
-      if (missing || bytes == 0) return false;
-    }
-    return true;
-  }
-  [[nodiscard]] std::uintmax_t recorded(const char* process) const {
-    return fs::file_size(project_ / ".tessera/last" / fmt::format("process-{}.tsr", process));
-  }
-  /// Whether all processes fire. When their recordings begin, their devices are not open yet.
-  [[nodiscard]] bool all_fire() const {
-    if (!eventually([&] { return all_run(); })) return false;
-    for (const char* process : {"gate", "rover[0]", "rover[1]"}) {
-      const std::uintmax_t before = recorded(process);
-      if (!eventually([&] { return recorded(process) > before + 1000; })) return false;
-    }
-    return true;
-  }
-  /// Runs it, and kills rover[0] when all fire.
-  project::Exit run_and_kill(const std::string& options) const {
-    bool killed = false;
-    const std::string line = "cd '" + folder_.string() + "' && exec " + TESSERA_BINARY_DIR +
-                             "/tessera run 11_crossing_apart --deploy" + domain_ + options;
-    return project::capture({"sh", "-c", line}, [&](std::string_view said) {
-      if (killed || !said.starts_with("rover[0] |")) return;
-      killed = true;
-      EXPECT_TRUE(all_fire());
-      kill(pid_of(1), SIGKILL);
-    });
-  }
-
-  fs::path project_;
-  std::string domain_;
-};
 
 constexpr const char* checked = "replay 11_crossing_apart/.tessera/last --check";
 
@@ -364,107 +284,6 @@ TEST_F(Command, AConvoyOfProcessesDrivesAndItsRecordingsAreOneLegalRun) {
   const project::Exit joint = tessera("replay 13_fleet_apart/.tessera/last --check");
   EXPECT_EQ(joint.code, 0) << joint.text;
   EXPECT_NE(joint.text.find("in 5 recordings"), std::string::npos) << joint.text;
-}
-
-/// `tessera run --deploy` with its output where the test wants it.
-class Started {
- public:
-  Started(const fs::path& folder, const std::string& domain, int output, bool as_terminal,
-          const std::string& options = "--deploy")
-      : pid_(fork()) {
-    if (pid_ != 0) return;
-    if (as_terminal) {
-      setsid();
-      ioctl(output, TIOCSCTTY, 0);
-      dup2(output, STDIN_FILENO);
-    }
-    dup2(output, STDOUT_FILENO);
-    dup2(output, STDERR_FILENO);
-    for (int other = 3; other < 64; ++other) close(other);
-    const std::string line = "cd '" + folder.string() + "' && exec " + TESSERA_BINARY_DIR +
-                             "/tessera run 11_crossing_apart " + options + " --for 120s" + domain;
-    execl("/bin/sh", "sh", "-c", line.c_str(), nullptr);
-    _exit(127);
-  }
-  [[nodiscard]] pid_t pid() const { return pid_; }
-  /// Its exit code.
-  [[nodiscard]] int wait() const {
-    int status = 0;
-    waitpid(pid_, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
-  }
-
- private:
-  pid_t pid_;
-};
-
-TEST_F(Deploy, ItGoesOnWithoutAReaderAndOnAFullDisk) {
-  const project::Exit unread = shell("bash -c '" + std::string(TESSERA_BINARY_DIR) +
-                                     "/tessera run 11_crossing_apart --deploy --for 2s" + domain_ +
-                                     " | head -1; echo code ${PIPESTATUS[0]}'");
-  EXPECT_NE(unread.text.find("cannot write to standard output: Broken pipe; the processes go on"),
-            std::string::npos)
-      << unread.text;
-  EXPECT_NE(unread.text.find("code 0"), std::string::npos) << unread.text;
-  const project::Exit full = tessera("run 11_crossing_apart --deploy --for 2s >/dev/full" + domain_);
-  EXPECT_EQ(full.code, 0) << full.text;
-  EXPECT_NE(full.text.find("No space left on device; the processes go on"), std::string::npos) << full.text;
-  for (const nlohmann::json& process : deployment().at("processes"))
-    EXPECT_EQ(process.at("starts").back().at("ended"), "ended: duration");
-}
-
-TEST_F(Deploy, ATerminalThatTakesNothingHoldsUpNoStop) {
-  std::array<int, 2> ends{};
-  ASSERT_EQ(pipe2(ends.data(), O_CLOEXEC), 0);
-  fcntl(ends[1], F_SETFL, O_NONBLOCK);
-  const std::string some(4096, '.');
-  while (::write(ends[1], some.data(), some.size()) > 0) continue;
-  fcntl(ends[1], F_SETFL, 0);
-  const Started run(folder_, domain_, ends[1], /*as_terminal=*/false);
-  close(ends[1]);
-  ASSERT_TRUE(eventually([&] { return all_run(); }));
-  kill(run.pid(), SIGINT);
-  EXPECT_TRUE(eventually([&] { return !any_is_left(); })) << "it waits for the terminal";
-  std::string left(4096, ' ');
-  while (read(ends[0], left.data(), left.size()) > 0) continue;
-  close(ends[0]);
-  EXPECT_EQ(run.wait(), 128 + SIGINT);
-}
-
-TEST_F(Deploy, ATerminalThatIsClosedStopsAllSafely) {
-  int terminal = -1, other_side = -1;
-  ASSERT_EQ(openpty(&terminal, &other_side, nullptr, nullptr, nullptr), 0);
-  const Started run(folder_, domain_, other_side, /*as_terminal=*/true);
-  close(other_side);
-  ASSERT_TRUE(eventually([&] { return all_run(); }));
-  close(terminal);
-  EXPECT_EQ(run.wait(), 128 + SIGHUP)
-      << deployment() << content_of(project_ / ".tessera/last/process-gate.json")
-      << content_of(project_ / ".tessera/last/process-rover[1].json");
-  EXPECT_FALSE(any_is_left());
-  for (const nlohmann::json& process : deployment().at("processes"))
-    EXPECT_EQ(process.at("starts").back().at("ended"), "ended: SIGHUP") << deployment();
-}
-
-/// One process, which prints its result itself.
-TEST_F(Deploy, ATerminalThatIsClosedCostsNoFileOfARun) {
-  int terminal = -1, other_side = -1;
-  ASSERT_EQ(openpty(&terminal, &other_side, nullptr, nullptr, nullptr), 0);
-  const Started run(folder_, domain_, other_side, /*as_terminal=*/true,
-                    "--process gate --json sum.json --record gate.tsr");
-  close(other_side);
-  const auto size = [&] {
-    std::error_code missing;
-    const auto bytes = fs::file_size(folder_ / "gate.tsr", missing);
-    return missing ? 0 : bytes;
-  };
-  EXPECT_TRUE(eventually([&] { return size() > 0; }));
-  EXPECT_TRUE(eventually([&, before = size()] { return size() > before + 1000; })) << "it does not fire";
-  close(terminal);
-  EXPECT_EQ(run.wait(), 128 + SIGHUP);
-  const nlohmann::json summary = nlohmann::json::parse(content_of(folder_ / "sum.json"), nullptr, false);
-  ASSERT_TRUE(summary.is_object());
-  EXPECT_EQ(summary.at("ended"), "SIGHUP");
 }
 
 }  // namespace

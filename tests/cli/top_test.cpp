@@ -10,18 +10,24 @@
 
 namespace tessera::cli_test {
 
-using Top = Command;
+/// A built line follower, whose controllers have a folder of sockets of their own.
+class Top : public Command {
+ protected:
+  void SetUp() override {
+    example("01_line_follower");
+    fs::create_directories(folder_ / "runtime");
+    fs::permissions(folder_ / "runtime", fs::perms::owner_all);
+    ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);
+  }
+  /// The beginning of scripts.
+  const std::string watch_ =
+      "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) + "/tessera; ";
+};
 
 TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
-  example("01_line_follower");
-  fs::create_directories(folder_ / "runtime");
-  fs::permissions(folder_ / "runtime", fs::perms::owner_all);
-  const std::string watch =
-      "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) + "/tessera; ";
-  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);  // builds it
   // Until it listens, `top` reports that nothing is running.
   const project::Exit done =
-      shell(watch +
+      shell(watch_ +
             "$T top; $T run 01_line_follower --world --for 60s >run.txt 2>&1 & "
             "for i in $(seq 400); do $T top --once --json >line.json 2>none.txt && break; sleep 0.05; done; "
             "$T top --once; ls -l runtime/tessera; kill -INT $!; wait $!; ls runtime/tessera | wc -l");
@@ -40,7 +46,7 @@ TEST_F(Top, RunningControllersAreShownAndAllGetAnEmergencyStop) {
   // One of two controllers hangs: the other is stopped all the same, and the first as soon as it goes on.
   // Every wait is limited: `await` tries for 20 s.
   const project::Exit stopped = shell(
-      watch +
+      watch_ +
       "await() { for i in $(seq 400); do if \"$@\"; then return; fi; sleep 0.05; done; echo WAITED IN VAIN: "
       "$*; }; "
       "two() { test $(ls runtime/tessera | wc -l) = 2; }; "
@@ -77,15 +83,9 @@ bool is_stopped(int process) {
 
 /// Two controllers run, and all the connections that one of them can queue are taken.
 TEST_F(Top, AControllerThatTakesNoConnectionIsNamedAndTheOtherIsStopped) {
-  example("01_line_follower");
-  fs::create_directories(folder_ / "runtime");
-  fs::permissions(folder_ / "runtime", fs::perms::owner_all);
-  const std::string watch =
-      "export XDG_RUNTIME_DIR=$PWD/runtime; T=" + std::string(TESSERA_BINARY_DIR) + "/tessera; ";
-  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);  // builds it
   const std::string start = "$T run 01_line_follower --world --for 120s ";
   static_cast<void>(
-      shell(watch + start + ">a.txt 2>&1 & " + start + ">b.txt 2>&1 & " +
+      shell(watch_ + start + ">a.txt 2>&1 & " + start + ">b.txt 2>&1 & " +
             "for i in $(seq 400); do test $(ls runtime/tessera | wc -l) = 2 && break; sleep 0.05; done; "
             "for p in $(ls runtime/tessera | sed 's/[^.]*[.]//; s/[.]sock//'); do "
             "for i in $(seq 400); do $T top $p --once >>seen.txt 2>&1 && break; sleep 0.05; done; done"));
@@ -105,9 +105,9 @@ TEST_F(Top, AControllerThatTakesNoConnectionIsNamedAndTheOtherIsStopped) {
     taken.push_back(std::move(*made.connection));
     ASSERT_LT(taken.size(), 1000U);
   }
-  const std::string top = shell(watch + "$T top --once").text,
-                    stopped = shell(watch + "$T emergency-stop --why smoke; echo code $?").text,
-                    one = shell(watch + "$T emergency-stop --controller " + hanging + "; echo code $?").text;
+  const std::string top = shell(watch_ + "$T top --once").text,
+                    stopped = shell(watch_ + "$T emergency-stop --why smoke; echo code $?").text,
+                    one = shell(watch_ + "$T emergency-stop --controller " + hanging + "; echo code $?").text;
   EXPECT_NE(top.find("line_follower." + hanging + " does not answer"), std::string::npos) << top;
   for (const std::string& text : {stopped, one}) {
     EXPECT_NE(text.find("line_follower." + hanging + " does not answer (" + sockets[0].string() +

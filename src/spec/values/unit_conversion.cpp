@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cstdint>
 #include <cstdlib>
+#include <numbers>
 #include <string_view>
 #include <system_error>
 #include <utility>

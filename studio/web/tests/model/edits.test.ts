@@ -1,15 +1,9 @@
-import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
 import * as edits from "../../model/text/edits";
-import { findThing, readStructure, thingAt, type Buffer, type Structure, type Subsystem } from "../../model/structure/structure";
+import { findThing, readStructure, thingAt, type Buffer, type Subsystem } from "../../model/structure/structure";
 import { scalarText } from "../../model/text/yaml_text";
 import { changes } from "./changes";
-
-const example = readFileSync(new URL("../../../../examples/01_line_follower/spec.yaml", import.meta.url), "utf8");
-const structure = readStructure(example);
-const subsystem = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem }).of;
-const behaviour = (of: Structure, path: string) => (findThing(of, path) as { of: Subsystem["behaviours"][number] }).of;
-const buffer = (of: Structure, path: string) => (findThing(of, path) as { of: Buffer }).of;
+import { behaviour, buffer, example, structure, subsystem } from "./edited_example";
 
 const changed = (after: string) => changes(example, after);
 

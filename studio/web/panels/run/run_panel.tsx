@@ -41,7 +41,7 @@ export function RunPanel() {
       <Again />
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
       {(runner.state === "running" || runner.state === "paused") && <OperatorPanels />}
-      {(runner.state === "running" || runner.state === "paused") && <RunningNow />}
+      {(runner.state === "running" || runner.state === "paused") && studio.runner.track !== null && <RunningNow />}
       {(runner.state === "running" || runner.state === "paused") && <ParametersNow />}
       {runner.outcome && <OutcomeOf outcome={runner.outcome} />}
       <Breakpoints />

@@ -82,11 +82,12 @@ class LimitReader {
   }
 
   bool step(const Entry& entry, const std::string& name, Target& target) {
+    if (Types::is_unknown(*target.type)) return false;  // which has been said
     if (target.type->kind != Type::Kind::structure || target.type->extent > 0) {
       out_.error("E101", entry.span, in_quotes(entry.key) + " leads through something that has no fields");
       return false;
     }
-    const std::vector<Field>& fields = types_.structures()[target.type->structure].fields;
+    const std::vector<Field>& fields = types_.fields_of(*target.type);
     const auto found =
         std::find_if(fields.begin(), fields.end(), [&](const Field& one) { return one.name == name; });
     if (found == fields.end()) return unknown(entry, "field", name, fields).has_value();

@@ -300,11 +300,11 @@ bool ConditionNames::read_member(std::size_t at, Value& value, std::string& path
   const Token& member = tokens_[at];
   if (value.kind == Is::structure) {
     const StructureId structure = value.type.structure;
-    const Structure& shape = scope_.types.structures()[structure];
-    if (const auto field = index_of(shape.fields, member.text)) {
+    const std::vector<Field>& fields = scope_.types.fields_of(value.type);
+    if (const auto field = index_of(fields, member.text)) {
       path += "." + std::string(member.text);
       refer(Reference::Kind::field, path, field, member, structure);
-      value = value_of(shape.fields[*field].type);
+      value = value_of(fields[*field].type);
       statuses = nullptr;
       return true;
     }
@@ -328,7 +328,7 @@ bool ConditionNames::read_member(std::size_t at, Value& value, std::string& path
 void ConditionNames::unknown_member(const Token& member, const Value& value, const std::string& path,
                                     const std::vector<Status>* statuses) {
   std::vector<std::string> names;
-  if (value.kind == Is::structure) names = names_of(scope_.types.structures()[value.type.structure].fields);
+  if (value.kind == Is::structure) names = names_of(scope_.types.fields_of(value.type));
   if (statuses != nullptr)
     for (const Status& one : *statuses) names.emplace_back(one.first);
   Hint hint = guess_or_existing(member.text, names);

@@ -81,8 +81,8 @@ void ConditionOperators::need_truth(const Value& value, const std::string& where
   std::string hint;
   if (value.kind == Is::duration) hint = "compare it: " + text_of(value) + " > 500 ms";
   if (value.kind == Is::structure && value.declared) {
-    const Structure& shape = scope_.types.structures()[value.type.structure];
-    if (!shape.fields.empty()) hint = "choose a field: " + text_of(value) + "." + shape.fields.front().name;
+    const std::vector<Field>& fields = scope_.types.fields_of(value.type);
+    if (!fields.empty()) hint = "choose a field: " + text_of(value) + "." + fields.front().name;
   }
   if (value.kind == Is::array) hint = "choose an element: " + text_of(value) + "[0]";
   mistake("E212", value, where + " needs true or false; " + described(value), hint);
@@ -122,8 +122,8 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
         !(one.kind == Is::text && is_null)) {
       std::string hint;
       if (one.kind == Is::structure && one.declared) {
-        const Structure& shape = scope_.types.structures()[one.type.structure];
-        if (!shape.fields.empty()) hint = "choose a field: " + text_of(one) + "." + shape.fields.front().name;
+        const std::vector<Field>& fields = scope_.types.fields_of(one.type);
+        if (!fields.empty()) hint = "choose a field: " + text_of(one) + "." + fields.front().name;
       }
       if (one.kind == Is::array) hint = "choose an element: " + text_of(one) + "[0]";
       if (one.kind == Is::text) hint = "compare it with text in quotes: " + text_of(one) + R"( == "...")";

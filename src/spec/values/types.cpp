@@ -71,6 +71,12 @@ bool Types::is_unknown(const Type& type) {
   return type.kind == Type::Kind::structure && !type.structure.valid();
 }
 
+const std::vector<Field>& Types::fields_of(const Type& type) const {
+  static const std::vector<Field> none;
+  const bool known = type.kind == Type::Kind::structure && structures_.has(type.structure);
+  return known ? structures_[type.structure].fields : none;
+}
+
 void Types::read(const Entry* section, Diagnostics& out) {
   known_names_.assign(scalars.begin(), scalars.end());
   known_names_.emplace_back("string");

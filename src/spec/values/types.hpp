@@ -29,7 +29,12 @@ class Types {
   /// Each uses only earlier ones, unless one contains itself.
   [[nodiscard]] const Numbered<StructureId, Structure>& structures() const { return structures_; }
 
-  /// Stands for a type that could not be read, so that no second error follows from the first.
+  /// Those of the structure that `type` names, or that its elements are; none of a type without fields, and of
+  /// an unknown one.
+  [[nodiscard]] const std::vector<Field>& fields_of(const Type& type) const;
+
+  /// Stands for a type that could not be read, so that no second error follows from the first. It is a structure
+  /// without number: only fields_of may ask for its fields.
   [[nodiscard]] static Type unknown();
   [[nodiscard]] static bool is_unknown(const Type& type);
 

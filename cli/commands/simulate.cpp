@@ -17,6 +17,7 @@
 #include "cli/play_net.hpp"
 #include "cli/schedules.hpp"
 #include "cli/terminal.hpp"
+#include "diagnostics/source.hpp"
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/process/death.hpp"
@@ -151,7 +152,7 @@ bool schedules_fit(const SimulateOptions& options) {
 
 int simulate_command(SimulateOptions options) {
   if (!schedules_fit(options)) return usage;
-  if (options.spec.ends_with(".pnml"))
+  if (diagnostics::is_xml_file(options.spec))
     return play_net({options.spec, options.steps, options.seed, options.json});
   if (const int code = check_run(options, options.from.empty()); code != ok) return code;
   // A scenario shows a violation, so the controller must be made although the property is violated.

@@ -71,14 +71,14 @@ struct Judged {
 
 std::optional<Judged> load(const std::string& given) {
   Judged judged;
-  if (given.ends_with(".pnml")) {
-    diagnostics::Diagnostics source = diagnostics::load(given);
-    if (!source.has_errors()) judged.drawn = net::read_pnml(source);
+  diagnostics::Diagnostics source = diagnostics::load(spec_file(given));
+  if (diagnostics::is_xml(source.text())) {
+    judged.drawn = net::read_pnml(source);
     terminal().say(source);
     judged.file = given;
     return judged.drawn ? std::optional(std::move(judged)) : std::nullopt;
   }
-  std::optional<Specification> specification = read(given, terminal());
+  std::optional<Specification> specification = read(std::move(source), spec_file(given), terminal());
   if (!specification || !models_are_sound(*specification, terminal())) return std::nullopt;
   judged.nets = build(*specification, terminal());
   if (!judged.nets) return std::nullopt;

@@ -59,4 +59,24 @@ Diagnostics load(const fs::path& path) {
   return {path.string(), std::move(text)};
 }
 
+bool is_xml(std::string_view text) {
+  constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+  if (text.starts_with(byte_order_mark)) text.remove_prefix(byte_order_mark.size());
+  const std::size_t begin = text.find_first_not_of(" \t\r\n");
+  if (begin == std::string_view::npos || text[begin] != '<' || begin + 1 == text.size()) return false;
+  const char next = text[begin + 1];
+  return next == '?' || next == '!' || next == '_' || (next >= 'a' && next <= 'z') ||
+         (next >= 'A' && next <= 'Z');
+}
+
+bool is_xml_file(const fs::path& path) {
+  std::error_code ignored;
+  if (!fs::is_regular_file(path, ignored)) return false;
+  std::ifstream in(path, std::ios::binary);
+  std::string begin(4096, '\0');
+  in.read(begin.data(), static_cast<std::streamsize>(begin.size()));
+  begin.resize(static_cast<std::size_t>(in.gcount()));
+  return is_xml(begin);
+}
+
 }  // namespace tessera::diagnostics

@@ -1,6 +1,7 @@
 #include "net/pnml_reader.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <map>
 #include <pugixml.hpp>
@@ -11,6 +12,7 @@
 #include <vector>
 
 #include "diagnostics/utf8.hpp"
+#include "net/pnml_vocabulary.hpp"
 
 namespace tessera::net {
 namespace {
@@ -18,23 +20,20 @@ namespace {
 using diagnostics::in_quotes;
 using pugi::xml_node;
 
-/// The name without a namespace prefix.
-std::string_view local_name(const xml_node& node) {
-  const std::string_view name = node.name();
-  const std::size_t colon = name.find(':');
-  return colon == std::string_view::npos ? name : name.substr(colon + 1);
-}
+std::string_view name_of(const xml_node& node) { return local_name(node.name()); }
 
 xml_node child(const xml_node& node, std::string_view name) {
   for (const xml_node candidate : node.children())
-    if (local_name(candidate) == name) return candidate;
+    if (name_of(candidate) == name) return candidate;
   return {};
 }
 
-bool contains_ignoring_case(std::string_view text, std::string_view word) {
-  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
-  const auto same = [&](char a, char b) { return lower(a) == lower(b); };
-  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+/// "[0,inf)", the interval of an arc of TAPAAL that any age satisfies.
+bool is_any_time(std::string_view text) {
+  std::string plain;
+  for (const char c : text)
+    if (c != ' ') plain += c;
+  return plain == "[0,inf)";
 }
 
 /// Lines and columns of byte offsets.
@@ -65,7 +64,7 @@ class Positions {
 
 /// The element that an id of the document refers to.
 struct Element {
-  enum class Kind : std::uint8_t { place, transition, reference_place, reference_transition, other } kind;
+  enum class Kind : std::uint8_t { place, transition, reference_place, reference_transition } kind;
   std::uint32_t index = 0;  ///< of the place or transition, or into the references
 };
 
@@ -74,9 +73,18 @@ struct Reference {
   Span span;
 };
 
+bool contains_ignoring_case(std::string_view text, std::string_view word) {
+  const auto lower = [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; };
+  const auto same = [&](char a, char b) { return lower(a) == lower(b); };
+  return std::search(text.begin(), text.end(), word.begin(), word.end(), same) != text.end();
+}
+
+constexpr std::array coloured_types =
+    std::to_array<std::string_view>({"symmetric", "hlpn", "highlevel", "coloured", "colored"});
+
 class Reader {
  public:
-  explicit Reader(diagnostics::Diagnostics& out) : out_(out), positions_(out.text()) {}
+  explicit Reader(diagnostics::Diagnostics& out) : out_(out), positions_(out.text()), vocabulary_(out) {}
 
   std::optional<Net> result() {
     const std::size_t before = out_.error_count();
@@ -89,6 +97,7 @@ class Reader {
     for (const auto& [id, element] : elements_)
       if (is_reference(element)) static_cast<void>(resolved(element));
     for (const xml_node& arc : arcs_) connect(arc);
+    static_cast<void>(vocabulary_.report());
     if (out_.error_count() > before) return std::nullopt;
     return build();
   }
@@ -123,15 +132,16 @@ class Reader {
 
   xml_node only_net(const pugi::xml_document& document) {
     const xml_node root = document.document_element();
-    if (local_name(root) != "pnml") {
+    if (name_of(root) != "pnml") {
       out_.error("E422", positions_.of(root),
                  "this is not PNML: the root element is " + in_quotes(root.name()),
                  "a PNML file starts with <pnml>");
       return {};
     }
     xml_node found;
+    vocabulary_.judge(PnmlOwner::document, root, positions_.of(root));
     for (const xml_node candidate : root.children()) {
-      if (local_name(candidate) != "net") continue;
+      if (!is_read(PnmlOwner::document, candidate)) continue;
       if (found) {
         out_.error("E422", positions_.of(candidate), "the file has more than one net",
                    "keep one net per file");
@@ -145,20 +155,20 @@ class Reader {
 
   bool is_place_transition_net(const xml_node& net) {
     const std::string_view type = net.attribute("type").value();
-    if (type.empty() || contains_ignoring_case(type, "ptnet") || contains_ignoring_case(type, "p/t"))
-      return true;
-    const bool coloured = contains_ignoring_case(type, "symmetric") || contains_ignoring_case(type, "hlpn") ||
-                          contains_ignoring_case(type, "highlevel") ||
-                          contains_ignoring_case(type, "coloured");
+    if (type.empty() || is_place_transition_type(type)) return true;
+    const bool coloured = std::ranges::any_of(
+        coloured_types, [&](std::string_view word) { return contains_ignoring_case(type, word); });
     out_.error("E423", positions_.of(net),
                std::string(coloured ? "this is a coloured net" : "this is not a place/transition net") +
                    ": its type is " + in_quotes(type),
-               coloured ? "unfold it to a place/transition net first" : "");
+               coloured ? "unfold it to a place/transition net first"
+                        : "if it is one, its type is http://www.pnml.org/version-2009/grammar/ptnet");
     return false;
   }
 
   /// Walks the pages in document order. An explicit stack: a file may nest pages as deep as it likes.
   void collect(const xml_node& net) {
+    vocabulary_.judge(PnmlOwner::net, net, positions_.of(net));
     std::vector<xml_node> stack{net.first_child()};
     while (!stack.empty()) {
       const xml_node node = stack.back();
@@ -167,9 +177,10 @@ class Reader {
         continue;
       }
       stack.back() = node.next_sibling();
-      const std::string_view kind = local_name(node);
+      if (!is_read(stack.size() > 1 ? PnmlOwner::page : PnmlOwner::net, node)) continue;
+      const std::string_view kind = name_of(node);
       if (kind == "page") {
-        enter(node, {Element::Kind::other, 0});
+        vocabulary_.judge(PnmlOwner::page, node, positions_.of(node));
         stack.push_back(node.first_child());
       } else {
         add(node, kind);
@@ -177,9 +188,21 @@ class Reader {
     }
   }
 
+  /// A child that has no meaning for the net has been judged then.
+  bool is_read(PnmlOwner owner, const xml_node& node) {
+    std::string value;
+    if (PnmlVocabulary::has_value(owner, node)) {
+      std::optional<Value> given = value_of(node);
+      if (!given) return false;
+      value = std::move(given->text);
+    }
+    return vocabulary_.is_read(owner, node, positions_.of(node), value);
+  }
+
   void add(const xml_node& node, std::string_view kind) {
     if (kind == "place") {
       enter(node, {Element::Kind::place, static_cast<std::uint32_t>(places_.size())});
+      judge(PnmlOwner::place, node);
       Place place;
       place.name = label(node, "name");
       place.tokens = marking(node);
@@ -188,6 +211,10 @@ class Reader {
       place_ids_.emplace_back(node.attribute("id").value());
     } else if (kind == "transition") {
       enter(node, {Element::Kind::transition, static_cast<std::uint32_t>(transitions_.size())});
+      judge(PnmlOwner::transition, node);
+      for (const char* part : {"timed", "priority"})
+        if (!node.attribute(part) && !child(node, part))
+          vocabulary_.judge_same(part, "not given", positions_.of(node));
       Transition transition;
       transition.name = label(node, "name");
       transition.span = positions_.of(node);
@@ -197,47 +224,138 @@ class Reader {
       enter(node,
             {kind == "referencePlace" ? Element::Kind::reference_place : Element::Kind::reference_transition,
              static_cast<std::uint32_t>(references_.size())});
+      judge(PnmlOwner::reference, node);
       references_.push_back({node.attribute("ref").value(), positions_.of(node)});
-    } else if (kind == "arc") {
-      enter(node, {Element::Kind::other, 0});
+    } else {
+      judge(PnmlOwner::arc, node);
       arcs_.push_back(node);
     }
   }
 
+  /// The element and its children, each of which may stand there once.
+  void judge(PnmlOwner owner, const xml_node& node) {
+    vocabulary_.judge(owner, node, positions_.of(node));
+    std::vector<std::string_view> seen;
+    for (const xml_node part : node.children()) {
+      if (!is_read(owner, part)) continue;
+      if (std::ranges::find(seen, name_of(part)) != seen.end())
+        vocabulary_.refuse("E428", "twice " + std::string(name_of(part)), positions_.of(part),
+                           in_quotes(part.name()) + " is given twice to one " + std::string(name_of(node)),
+                           "keep one");
+      seen.push_back(name_of(part));
+    }
+  }
+
+  /// Nothing refers to arcs and pages: they need no id, and one that is taken does no harm.
   void enter(const xml_node& node, Element element) {
     const std::string_view id = node.attribute("id").value();
-    if (id.empty()) {
-      // Nothing refers to arcs and pages, so a missing id of theirs does no harm.
-      if (element.kind != Element::Kind::other)
-        out_.error("E424", positions_.of(node), "this " + std::string(local_name(node)) + " has no id");
-      return;
-    }
-    if (!elements_.emplace(id, element).second)
+    if (id.empty())
+      out_.error("E424", positions_.of(node), "this " + std::string(name_of(node)) + " has no id");
+    else if (!elements_.emplace(id, element).second)
       out_.error("E424", positions_.of(node), "the id " + in_quotes(id) + " is given twice");
   }
 
+  /// The name of an element: its label, as the standard says and as PIPE does, or its attribute, as TAPAAL does.
   static std::string label(const xml_node& node, std::string_view name) {
-    return child(child(node, name), "text").text().get();
+    const xml_node holder = child(node, name);
+    if (const xml_node text = child(holder, "text")) return text.text().get();
+    if (const xml_node text = child(holder, "value")) return text.text().get();
+    return holder ? "" : node.attribute(std::string(name).c_str()).value();
+  }
+
+  /// The text of a label, and where it stands. nullopt: it is not clear, which has been said.
+  struct Value {
+    std::string text;
+    Span span;
+  };
+  std::optional<Value> value_of(const xml_node& holder) {
+    vocabulary_.judge(PnmlOwner::label, holder, positions_.of(holder));
+    std::optional<Value> value;
+    std::size_t count = 0;
+    if (const pugi::xml_attribute attribute = holder.attribute("value")) {
+      value = {attribute.value(), positions_.of(holder)};
+      ++count;
+    }
+    for (const xml_node part : holder.children()) {
+      if (!is_read(PnmlOwner::label, part)) continue;
+      const xml_node text = part.first_child();
+      if (text && (text.next_sibling() || text.type() == pugi::node_element)) count = 2;
+      value = {text.value(), positions_.of(text ? text : part)};
+      ++count;
+    }
+    if (count == 1) return value;
+    vocabulary_.refuse("E428", "no single value", positions_.of(holder),
+                       in_quotes(holder.name()) + (count == 0 ? " has no value" : " has more than one value"),
+                       "a value stands in a <text>");
+    return std::nullopt;
   }
 
   std::uint32_t marking(const xml_node& place) {
-    return number(child(place, "initialMarking"), "marking", 0, 0);
+    return number(place, "initialMarking", place.attribute("initialMarking"), "marking", 0, 0);
   }
 
-  std::uint32_t number(const xml_node& holder, const char* what, std::uint32_t missing, std::uint32_t least) {
-    const xml_node text = child(holder, "text");
-    if (!text) return missing;
-    const std::string_view digits = text.text().get();
+  /// owner: has the number as a label, or as an attribute of its own.
+  std::uint32_t number(const xml_node& owner, const char* label, const pugi::xml_attribute& attribute,
+                       const char* what, std::uint32_t missing, std::uint32_t least) {
+    const xml_node holder = child(owner, label);
+    if (holder && attribute)
+      vocabulary_.refuse("E428", std::string("twice ") + label, positions_.of(holder),
+                         in_quotes(label) + " is given twice to one " + std::string(name_of(owner)),
+                         "keep one");
+    std::optional<Value> value;
+    if (holder)
+      value = value_of(holder);
+    else if (attribute)
+      value = {attribute.value(), positions_.of(owner)};
+    if (!value || (holder && is_any_time(value->text))) return missing;
+    return whole_number(*value, what, missing, least);
+  }
+
+  /// "3", or "Default,3" as PIPE writes it: the number of tokens of a class.
+  std::uint32_t whole_number(const Value& given, const char* what, std::uint32_t missing,
+                             std::uint32_t least) {
+    std::string_view digits = trimmed(given.text);
+    for (std::size_t comma = digits.find(','); comma != std::string_view::npos; comma = digits.find(',')) {
+      const std::string_view name = trimmed(digits.substr(0, comma)), rest = digits.substr(comma + 1);
+      const std::size_t next = rest.find(',');
+      const std::string_view count = trimmed(rest.substr(0, next));
+      if (name.empty()) break;
+      if (next == std::string_view::npos || count != "0") {
+        if (count != "0") vocabulary_.judge_same("class of tokens", name, given.span);
+        if (next != std::string_view::npos && !only_zeros(rest.substr(next + 1))) break;
+        digits = count;
+      } else {
+        digits = rest.substr(next + 1);
+      }
+    }
     std::uint32_t value = 0;
     const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
     if (problem == std::errc{} && end == digits.data() + digits.size() && value >= least &&
         value <= largest_pnml_number)
       return value;
-    const xml_node at = text.first_child() ? text.first_child() : text;
-    out_.error("E425", positions_.of(at),
-               std::string(what) + " " + in_quotes(digits) + " is not a whole number from " +
+    out_.error("E425", given.span,
+               std::string(what) + " " + in_quotes(given.text) + " is not a whole number from " +
                    std::to_string(least) + " to " + std::to_string(largest_pnml_number));
     return missing;
+  }
+
+  /// "Red,0,Blue,0": no token of these classes.
+  static bool only_zeros(std::string_view text) {
+    while (!text.empty()) {
+      const std::size_t comma = text.find(',');
+      if (comma == std::string_view::npos) return false;
+      text.remove_prefix(comma + 1);
+      const std::size_t end = std::min(text.find(','), text.size());
+      if (trimmed(text.substr(0, end)) != "0") return false;
+      text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return true;
+  }
+
+  static std::string_view trimmed(std::string_view text) {
+    const std::size_t begin = text.find_first_not_of(" \t\r\n");
+    if (begin == std::string_view::npos) return {};
+    return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
   }
 
   /// Keeps names that exist and are unique; otherwise uses the id, which is unique.
@@ -259,15 +377,8 @@ class Reader {
   }
 
   void connect(const xml_node& arc) {
-    if (const xml_node type = child(arc, "type")) {
-      const std::string_view value = type.attribute("value").value();
-      if (!value.empty() && value != "normal") {
-        out_.error("E423", positions_.of(type),
-                   "place/transition nets have no " + in_quotes(value) + " arcs");
-        return;
-      }
-    }
-    const std::uint32_t weight = number(child(arc, "inscription"), "weight", 1, 1);
+    if (!is_plain(arc)) return;
+    const std::uint32_t weight = weight_of(arc);
     const std::optional<Element> source = end_of(arc, "source"), target = end_of(arc, "target");
     if (!source || !target) return;
     if (source->kind == target->kind) {
@@ -286,10 +397,49 @@ class Reader {
     sum += weight;
   }
 
+  /// Whether tokens are taken or put. false: it is another kind of arc, which has been said.
+  bool is_plain(const xml_node& arc) {
+    std::string kind = arc.attribute("type").value();
+    for (const char* name : {"type", "arctype"})
+      if (const xml_node type = child(arc, name)) {
+        const std::optional<Value> value = value_of(type);
+        if (!value) return false;
+        if (trimmed(value->text) != "normal") kind = trimmed(value->text);
+      }
+    const std::string_view interval = arc.attribute("inscription").value();
+    if (kind == "timed" && !is_any_time(interval)) {
+      vocabulary_.refuse(
+          "E429", "interval", positions_.of(arc),
+          "the interval " + in_quotes(interval) + " of an arc: place/transition nets have no time",
+          "without invariants and intervals it can be read");
+      return false;
+    }
+    if (kind.empty() || kind == "normal" || kind == "timed") return true;
+    vocabulary_.refuse_arc(kind, arc, positions_.of(arc));
+    return false;
+  }
+
+  /// TAPAAL has the weight beside the inscription, which is an interval of time or 1.
+  std::uint32_t weight_of(const xml_node& arc) {
+    const pugi::xml_attribute weight = arc.attribute("weight"), inscription = arc.attribute("inscription");
+    const std::string_view text = inscription.value();
+    const bool says_nothing =
+        !inscription || is_any_time(text) || (weight && (text == "1" || text == weight.value()));
+    if (says_nothing) return number(arc, "inscription", weight, "weight", 1, 1);
+    if (weight) {
+      vocabulary_.refuse("E428", "weight and inscription", positions_.of(arc),
+                         "the weight " + in_quotes(weight.value()) + " and the inscription " +
+                             in_quotes(text) + " of an arc disagree",
+                         "keep one");
+      return 1;
+    }
+    return number(arc, "inscription", inscription, "weight", 1, 1);
+  }
+
   std::optional<Element> end_of(const xml_node& arc, const char* side) {
     const std::string_view id = arc.attribute(side).value();
     const auto found = elements_.find(std::string(id));
-    if (found == elements_.end() || found->second.kind == Element::Kind::other) {
+    if (found == elements_.end()) {
       out_.error(
           "E426", positions_.of(arc),
           "the " + std::string(side) + " of this arc, " + in_quotes(id) + ", is no place or transition");
@@ -328,7 +478,7 @@ class Reader {
   std::optional<Element> target_of(const Element& element) {
     const Reference& reference = references_[element.index];
     const auto target = elements_.find(reference.target);
-    if (target == elements_.end() || target->second.kind == Element::Kind::other) {
+    if (target == elements_.end()) {
       out_.error(
           "E427", reference.span,
           "this reference leads to " + in_quotes(reference.target) + ", which is no place or transition");
@@ -368,6 +518,7 @@ class Reader {
 
   diagnostics::Diagnostics& out_;
   Positions positions_;
+  PnmlVocabulary vocabulary_;
   std::unordered_map<std::string, Element> elements_;
   std::vector<Place> places_;
   std::vector<Transition> transitions_;

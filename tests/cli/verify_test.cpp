@@ -48,6 +48,25 @@ TEST_F(Verify, AViolationNamesTheRunTheLinesAndWhoWaitsForWhom) {
   EXPECT_EQ(traces[0].at("waits").size(), 2U);
 }
 
+TEST_F(Verify, AFileIsWhatItHoldsWhateverItIsCalled) {
+  const std::string bytes = "\xEF\xBB\xBF" + std::string("\n  ") + std::string(net_that_stops).substr(22);
+  for (const char* name : {"net.xml", "net.tapn", "net.PNML", "net", "net.yaml"}) {
+    write(folder_ / name, net_that_stops);
+    const project::Exit done = tessera(std::string("verify ") + name);
+    EXPECT_EQ(done.code, 1) << name << done.text;
+    EXPECT_NE(done.text.find("deadlock_free: violated"), std::string::npos) << name << done.text;
+    EXPECT_NE(tessera(std::string("simulate --steps 3 ") + name).text.find("1 firing"), std::string::npos)
+        << name;
+    EXPECT_NE(tessera(std::string("check ") + name).text.find("E005: this is XML"), std::string::npos)
+        << name;
+  }
+  write(folder_ / "late.txt", bytes);
+  EXPECT_EQ(tessera("verify late.txt").code, 1);
+  write(folder_ / "stuck.pnml", stuck_system);
+  EXPECT_NE(tessera("verify stuck.pnml").text.find("a.control waits for the acknowledgement"),
+            std::string::npos);
+}
+
 TEST_F(Verify, APnmlNetHasTwoPropertiesAndEveryDeadMarkingCounts) {
   write(folder_ / "net.pnml", net_that_stops);
   const project::Exit done = tessera("verify net.pnml --states --json -");

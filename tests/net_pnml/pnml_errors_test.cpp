@@ -61,15 +61,23 @@ const Wrong cases[] = {
      "(unfold it "
      "to a place/transition net first)\n"},
     {"OtherType", "<pnml><net id='n' type='timed'/></pnml>",
-     "1:8: E423: this is not a place/transition net: its type is 'timed'\n"},
+     "1:8: E423: this is not a place/transition net: its type is 'timed' (if it is one, its type is "
+     "http://www.pnml.org/version-2009/grammar/ptnet)\n"},
+    {"TypeThatContainsTheWord", "<pnml><net id='n' type='http://x/inhibitorptnet'/></pnml>",
+     "1:8: E423: this is not a place/transition net: its type is 'http://x/inhibitorptnet' (if it is one, "
+     "its type "
+     "is http://www.pnml.org/version-2009/grammar/ptnet)\n"},
     {"InhibitorArc",
      document("<place id='p'/><transition id='t'/>\n<arc id='a' source='p' target='t'><type "
               "value='inhibitor'/></arc>"),
-     "4:36: E423: place/transition nets have no 'inhibitor' arcs\n"},
+     "4:2: E423: the arc from 'p' to 't' is of the kind 'inhibitor', which place/transition nets do not have "
+     "(if the place can hold n tokens, give it a partner of n minus its tokens, filled where it is emptied, "
+     "and "
+     "read the partner with weight n)\n"},
     {"MissingIds", document("<place/>\n<transition id=''/>"),
      "3:2: E424: this place has no id\n4:2: E424: this transition has no id\n"},
     {"DuplicateIds", document("<place id='a'/>\n<transition id='a'/>\n<page id='a'/>"),
-     "4:2: E424: the id 'a' is given twice\n5:2: E424: the id 'a' is given twice\n"},
+     "4:2: E424: the id 'a' is given twice\n"},
     {"Markings",
      document("<place id='a'><initialMarking><text>-1</text></initialMarking></place>\n"
               "<place id='b'><initialMarking><text>99999999999999999999</text></initialMarking></place>\n"

@@ -35,7 +35,11 @@ fs::path located(const fs::path& file) {
 
 std::optional<Specification> read(const fs::path& given, Listener& listener) {
   const fs::path file = spec_file(given);
-  diagnostics::Diagnostics diagnostics = diagnostics::load(file);
+  return read(diagnostics::load(file), file, listener);
+}
+
+std::optional<Specification> read(diagnostics::Diagnostics diagnostics, const fs::path& file,
+                                  Listener& listener) {
   std::optional<spec::Model> model;
   if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
   const fs::path absolute = located(file);

@@ -33,6 +33,9 @@ struct Specification {
 
 /// given: a file, or a folder that holds spec.yaml. nullopt after its diagnostics have been reported.
 [[nodiscard]] std::optional<Specification> read(const std::filesystem::path& given, Listener& listener);
+/// The same of a text that has been loaded from `file`: a pipe can be read once.
+[[nodiscard]] std::optional<Specification> read(diagnostics::Diagnostics loaded,
+                                                const std::filesystem::path& file, Listener& listener);
 
 /// Judges every communication model of the specification by itself. false: one is not
 /// sound, which has been reported.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "diagnostics/source.hpp"
 #include "diagnostics/utf8.hpp"
 
 namespace tessera::spec {
@@ -38,6 +39,12 @@ bool check_lines(diagnostics::Diagnostics& out) {
 
 bool check_text(diagnostics::Diagnostics& out) {
   const std::string& text = out.text();
+  if (diagnostics::is_xml(text)) {
+    out.error("E005", {1, 1, 1}, "this is XML, and a specification is YAML",
+              "`tessera verify` and `tessera simulate` read nets in PNML; a model of a world stands under "
+              "`simulation`");
+    return false;
+  }
   const auto control = std::find_if(text.begin(), text.end(), is_forbidden);
   if (control != text.end()) {
     const auto position = static_cast<std::size_t>(control - text.begin());

@@ -16,7 +16,7 @@ inline constexpr std::size_t longest_line = std::size_t{1024} * 1024;
 
 /// Whether out.text() is a text and not binary data.
 ///
-/// Errors: E003 control characters (a binary file), E004 not UTF-8, E011 a line longer than longest_line
+/// Errors: E003 control characters (a binary file), E004 not UTF-8, E005 XML, E011 a line longer than longest_line
 ///         bytes. Reports the first of its kind only.
 [[nodiscard]] bool check_text(diagnostics::Diagnostics& out);
 

@@ -78,7 +78,8 @@ class Parameters {
             parameter.minimum.value_or(-infinity),
             parameter.maximum.value_or(infinity),
             text ? parameter.type.capacity : 0,
-            parameter.type.extent};
+            parameter.type.extent,
+            parameter.type.unit};
   }
 
   std::vector<std::byte> storage_;

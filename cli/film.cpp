@@ -40,7 +40,7 @@ struct Survey {
   std::string system;
   Recording::Scene scene;
   std::int64_t first_ns = std::numeric_limits<std::int64_t>::max(), last_ns = 0;
-  std::array<double, 3> least{}, greatest{};  ///< of the robots' positions, in the shown time
+  std::array<double, 3> least{}, greatest{};  ///< of the positions of all parts of robots, in the shown time
   std::vector<BodyPose> last;                 ///< poses
   struct Alarm {
     std::int64_t time_ns;
@@ -71,7 +71,7 @@ struct Survey {
 [[nodiscard]] Survey survey(const std::string& recording, std::int64_t from_ns, std::int64_t to_ns) {
   Survey found;
   replay::PoseReader reader(recording);
-  std::vector<replay::Robot> robots;
+  std::vector<std::size_t> parts;
   bool has_entries = false;
   while (const Recording::Entry* const entry = reader.next()) {
     const Event& event = entry->event;
@@ -84,7 +84,7 @@ struct Survey {
     if (found.scene.bodies.empty()) {
       found.scene = *reader.header()->scene;
       found.system = reader.header()->system;
-      robots = replay::robots_of(found.scene);
+      parts = replay::parts_of_robots(found.scene);
     }
     if (event.time_ns > to_ns && found.first_ns <= found.last_ns) continue;
     const bool first = found.first_ns > found.last_ns;
@@ -95,10 +95,10 @@ struct Survey {
     found.first_ns = std::min(found.first_ns, event.time_ns);
     found.last_ns = std::max(found.last_ns, event.time_ns);
     found.last = reader.poses();
-    for (const replay::Robot& robot : robots)
+    for (const std::size_t part : parts)
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        const double here = found.last[robot.body].position_m[axis];
-        const bool begins = first && &robot == &robots.front();
+        const double here = found.last[part].position_m[axis];
+        const bool begins = first && part == parts.front();
         found.least[axis] = begins ? here : std::min(found.least[axis], here);
         found.greatest[axis] = begins ? here : std::max(found.greatest[axis], here);
       }

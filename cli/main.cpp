@@ -1,6 +1,8 @@
 #include <cstdlib>
 #include <exception>
+#include <filesystem>
 #include <optional>
+#include <system_error>
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
@@ -35,6 +37,12 @@ int main(int argc, char** argv) {
     cli::terminal().say("tessera: " + tessera::signal_name(interrupted.signal) + ": " + interrupted.what() +
                         "\n");
     return 128 + interrupted.signal;
+  } catch (const std::filesystem::filesystem_error& error) {
+    const std::string what = error.path1().empty() ? "a file" : error.path1().string();
+    const int code = cli::complain("cannot use " + what + ": " + error.code().message());
+    if (error.code() == std::errc::no_such_file_or_directory)
+      cli::terminal().say("hint: it was there a moment ago; if something has removed it, run the command again\n");
+    return code;
   } catch (const std::exception& error) {
     return cli::complain(error.what());
   } catch (...) {  // from a library: MuJoCo's is no std::exception

@@ -179,14 +179,20 @@ void print_subsystems(const json& subsystems) {
     fmt::print("  ... and {} more\n", subsystems.size() - shown_subsystems);
 }
 
+/// "97", "1.0", "0.03": a robot in real time must not read as one that stands still.
+std::string speed_text(double factor) {
+  if (factor >= 2) return fmt::format("{:.0f}", factor);
+  return factor >= 0.1 ? fmt::format("{:.1f}", factor) : fmt::format("{:.1g}", factor);
+}
+
 }  // namespace
 
 void print(const RunOutcome& outcome) {
   const json& summary = outcome.summary;
   if (outcome.drive) fmt::print("{}", path_plot(outcome.drive->floor, outcome.drive->trace));
-  fmt::print("{:.1f} s in {:.2f} s ({:.0f} x real time), {} firings, ended by: {}\n",
+  fmt::print("{:.1f} s in {:.2f} s ({} x real time), {} firings, ended by: {}\n",
              summary.value("simulated_s", 0.0), summary.value("wall_s", 0.0),
-             summary.value("real_time_factor", 0.0), summary.value("firings", 0ULL),
+             speed_text(summary.value("real_time_factor", 0.0)), summary.value("firings", 0ULL),
              printable(summary.value("ended", "")));
   print_subsystems(summary.value("subsystems", json::array()));
   fmt::print("{}", printable(judgement_lines(summary.dump())));

@@ -20,6 +20,7 @@
 #include "cli/terminal.hpp"
 #include "diagnostics/diagnostics.hpp"
 #include "project/files/file_names.hpp"
+#include "project/files/files.hpp"
 #include "project/files/installation.hpp"
 #include "spec/document/names.hpp"
 
@@ -135,8 +136,8 @@ void copy_example(const fs::path& example, const fs::path& made, const std::stri
 
 /// Copies the world and the floor that come with Tessera into the project.
 void copy_shared_world(const fs::path& share, const fs::path& made) {
-  fs::copy_file(share / "worlds/line_world.xml", made / "line_world.xml");
-  fs::copy_file(share / "tracks/oval.png", made / "oval.png");
+  project::copy_whole(share / "worlds/line_world.xml", made / "line_world.xml");
+  project::copy_whole(share / "tracks/oval.png", made / "oval.png");
 }
 
 int new_command(const std::string& given, const std::string& wanted) {

@@ -82,7 +82,7 @@ FoundSystem find_system(const std::string& which, const std::string& unknown) {
   return {};
 }
 
-/// Each process that has the parameter takes its value. Returns the exit code.
+/// Each process that has the parameter takes its value, or tries it. Returns the exit code.
 int set_in_all(std::vector<SeenController>& processes, const project::command::Set& command) {
   for (SeenController& one : processes) tell(one.controller, command);
   bool taken = false, silent = false;
@@ -100,7 +100,7 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
         unknown = answer->problem->text;  // with a hint
     } else if (!answer->problem) {
       taken = true;
-      if (processes.size() > 1) fmt::print("{}: {}={}\n", name, command.path, command.value);
+      if (processes.size() > 1 && !command.only_try) fmt::print("{}: {}={}\n", name, command.path, command.value);
     } else {
       taken = true;
       code = complain(processes.size() > 1 ? name + ": " + answer->problem->text : answer->problem->text);
@@ -129,10 +129,19 @@ bool is_system(const std::string& which, const std::vector<SeenController>& proc
 int set_command(const OperateOptions& options) {
   auto [processes, code] = find_system(options.which, "it is unknown whether it takes the values");
   if (processes.empty()) return failed;
+  std::vector<project::command::Set> commands;
   for (const std::string& one : options.values) {
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
-    if (set_in_all(processes, {one.substr(0, equals), one.substr(equals + 1)}) != ok) code = failed;
+    commands.push_back({one.substr(0, equals), one.substr(equals + 1), /*only_try=*/true});
+  }
+  // All values or none: half of a change may be worse than either.
+  bool all_fit = true;
+  for (const project::command::Set& one : commands) all_fit = set_in_all(processes, one) == ok && all_fit;
+  if (!all_fit) return complain("no parameter was changed");
+  for (project::command::Set& one : commands) {
+    one.only_try = false;
+    if (set_in_all(processes, one) != ok) code = failed;
   }
   if (is_system(options.which, processes)) note_not_told(processes, "not told");
   return code;
@@ -240,7 +249,8 @@ void add_set(CommandLine& app, int& exit_code) {
       .required();
   declare_controller(command, *options);
   command.footer(
-      "A value that does not fit the parameter's type and range is refused. A subsystem takes the new value\n"
+      "A value that does not fit the parameter's type and range is refused, and then no value is set. A number\n"
+      "may have any unit of its quantity: v='30 cm/s'. A subsystem takes the new value\n"
       "just before it calls a transition function, and the recording says when. In a system of several\n"
       "processes, each one on this machine that has the parameter takes it and is named.\n"
       "Example: tessera set v=0.15 robot.control.w=1");

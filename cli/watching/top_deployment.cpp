@@ -42,10 +42,16 @@ bool any_is_there(const DeploymentWatch& deployment) {
   return std::ranges::any_of(deployment.processes(), [](const auto* one) { return one->is_there(); });
 }
 
-/// Whether all processes of this machine were heard, and with `all` those of other machines, too.
-bool has_heard(const DeploymentWatch& deployment, std::size_t found, bool all) {
-  const auto here = std::ranges::count_if(
-      deployment.processes(), [](const auto* one) { return one->is_there() && !one->by_network; });
+/// On a busy machine, a process that runs may need seconds for its first line.
+constexpr std::chrono::milliseconds answers_within{5000};
+
+/// Whether all processes of this machine were heard, and with `all` those of other machines, too. found: sockets
+/// of this machine. silent_counts: so does a process that has not sent anything for a while.
+bool has_heard(const DeploymentWatch& deployment, std::size_t found, bool silent_counts, bool all) {
+  const auto here = std::ranges::count_if(deployment.processes(), [&](const auto* one) {
+    if (one->by_network) return false;
+    return silent_counts ? one->is_there() : one->state != WatchedProcess::State::silent;
+  });
   if (here < static_cast<std::ptrdiff_t>(found)) return false;
   return !all || std::ranges::all_of(deployment.declared(), [&](const auto& declared) {
     const WatchedProcess* const one = deployment.find(declared.name);
@@ -60,8 +66,10 @@ void wait_for_all(DeploymentWatch& deployment, const WatchedSystem& system, bool
   for (;;) {
     const bool all = once && (deployment.watches_network() || (system.found == 0 && system.given));
     const std::chrono::milliseconds longest =
-        all ? meets_within : DeploymentWatch::longest_silence + std::chrono::milliseconds(200);
-    if (has_heard(deployment, system.found, all) || Clock::now() >= begin + longest) return;
+        all    ? meets_within
+        : once ? answers_within
+               : DeploymentWatch::longest_silence + std::chrono::milliseconds(200);
+    if (has_heard(deployment, system.found, /*silent_counts=*/!once, all) || Clock::now() >= begin + longest) return;
     deployment.poll(std::chrono::milliseconds(100), each_line);
   }
 }

@@ -48,6 +48,7 @@ std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const Drive
   buffer.require_reals(request.targets.size(), request.targets.size() == 1
                                                    ? "joint '" + request.targets[0] + "' takes"
                                                    : "these joints take");
+  buffer.require_si("the command of a joint");
   std::vector<Drive> drives;
   for (const Object& joint : objects_of(context, request, {Object::Type::joint})) {
     drives.push_back(

@@ -15,7 +15,13 @@ LockStep::LockStep(const WorldServer& server) : simulator_(server) {
   if (!simulator_.is_stopped()) end_abandoned(server.host + ":" + std::to_string(server.port));
   if (!server.scene.empty()) simulator_.load(server.scene);
   is_loaded_ = !server.scene.empty();
-  step_ = simulator_.time_step();
+  try {
+    simulator_.require_main_script();
+    step_ = simulator_.time_step();
+  } catch (...) {
+    static_cast<void>(finish());  // no destructor closes the loaded scene
+    throw;
+  }
 }
 
 /// Stops a simulation that a killed run has left. Errors: LinkError if another program may need it.

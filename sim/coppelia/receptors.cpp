@@ -76,6 +76,7 @@ std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverR
   Distort noise = noise_of(context, request, options, 0);
   options.refuse_others();
   buffer.require_reals(request.targets.size(), subject(request, "joint", "joints"));
+  buffer.require_si("a joint of the scene");
   return std::make_unique<Reading>(
       context, std::move(buffer),
       [joints = objects_of(context, request, {Type::joint}), read](Simulator& simulator,
@@ -120,6 +121,7 @@ std::unique_ptr<RealReceptor> sensor(const DeviceContext& context, const DriverR
   std::size_t count = 0;
   for (const Object& one : sensors) count += size_of(one);
   if (context.scene != nullptr) buffer.require_reals(count, subject(request, "sensor", "sensors"));
+  buffer.require_si("a sensor of the scene");
   return std::make_unique<Reading>(
       context, std::move(buffer),
       [sensors](Simulator& simulator, std::span<double> numbers) {
@@ -163,13 +165,16 @@ std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverReq
   Buffer buffer(request);
   Options(request).refuse_others();
   const Object object = only_object_of(context, request, {});
-  if (takes_whole_pose(buffer))
+  if (takes_whole_pose(buffer)) {
+    buffer.convert_from(sim::units_of_pose, "a pose");
     return std::make_unique<Reading>(context, std::move(buffer),
                                      [object](Simulator& simulator, std::span<double> numbers) {
                                        std::ranges::copy(simulator.pose(object), numbers.begin());
                                        return true;
                                      });
+  }
   const sim::PlanarFields fields(buffer);
+  buffer.convert_from(fields.units(), "a pose");
   return std::make_unique<Reading>(
       context, std::move(buffer), [object, fields](Simulator& simulator, std::span<double> numbers) {
         const std::array<double, 7> all = simulator.pose(object);

@@ -98,10 +98,33 @@ void Simulator::require_version() {
 void Simulator::load(const std::string& scene) {
   // Longer names would be taken for the content of a file.
   if (scene.size() > longest_scene_name) throw RefusedCall("the name of the scene is too long: " + scene);
-  // Other scenes stay open, so no unsaved work is lost.
-  const json values = client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
-                                    std::max(server_.timeout, least_patience_for_scene));
-  if (whole(values, 0, "sim.loadScene") < 0) throw RefusedCall("CoppeliaSim cannot load the scene " + scene);
+  const std::int64_t scene_of_user = scene_number();
+  std::string why;
+  try {
+    // Other scenes stay open, so no unsaved work is lost.
+    const json values = client_->call("sim.loadScene", json::array({scene + "@keepCurrent"}),
+                                      std::max(server_.timeout, least_patience_for_scene));
+    if (whole(values, 0, "sim.loadScene") >= 0) return;
+  } catch (const RefusedCall& refused) {
+    why = std::string(": ") + refused.what();
+  }
+  // CoppeliaSim opens an empty scene before it reads the file.
+  if (scene_number() != scene_of_user) close_scene();
+  throw RefusedCall("CoppeliaSim cannot load the scene " + scene + why);
+}
+
+std::int64_t Simulator::scene_number() {
+  return whole(call("sim.getInt32Param", constant("intparam_scene_unique_id")), 0, "sim.getInt32Param");
+}
+
+void Simulator::require_main_script() {
+  try {
+    const json values = call("sim.getScript", constant("scripttype_mainscript"));
+    if (whole(values, 0, "sim.getScript") >= 0) return;
+  } catch (const RefusedCall&) {
+  }
+  throw LinkError("the scene in CoppeliaSim at " + name_ +
+                  " has no main script, so its simulation cannot begin; add the default main script there");
 }
 
 void Simulator::close_scene() { static_cast<void>(call("sim.closeScene")); }

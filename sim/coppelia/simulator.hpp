@@ -57,7 +57,10 @@ class Simulator {
   void connect_again(Duration patience);
 
   // The following functions concern the simulation as a whole. scene: a file name on the server.
+  /// Errors: RefusedCall with the name of the file; the scene that was open before is open then.
   void load(const std::string& scene);
+  /// Errors: LinkError if the open scene has no main script, without which no simulation begins.
+  void require_main_script();
   void close_scene();
   [[nodiscard]] Duration time_step();
   [[nodiscard]] bool is_stopped();
@@ -103,6 +106,8 @@ class Simulator {
   [[nodiscard]] nlohmann::json call(const char* function, const Arguments&... arguments);
   [[nodiscard]] std::int64_t constant(const std::string& name) const;
   void require_version();
+  /// Tells open scenes apart.
+  [[nodiscard]] std::int64_t scene_number();
   [[nodiscard]] Object::Type type_of(std::int64_t type) const;
   [[nodiscard]] bool is_handled_explicitly(const Object& sensor);
   [[nodiscard]] Picture picture(const char* function, const Object& sensor, int options,

@@ -36,6 +36,26 @@ Drive drive_of(const mjModel& model, int id, const std::string& name) {
           model.actuator_ctrlrange[2 * id + 1]};
 }
 
+/// The unit of a command; empty: the model alone knows it.
+std::string unit_of_actuator(const mjModel& model, int id) {
+  const bool moves_joint = model.actuator_trntype[id] == mjTRN_JOINT;
+  const int joint = model.actuator_trnid[2 * id];
+  const bool slides = moves_joint && model.jnt_type[joint] == mjJNT_SLIDE;
+  const bool turns = moves_joint && model.jnt_type[joint] == mjJNT_HINGE;
+  const bool is_plain = model.actuator_gear[6 * id] == 1 && model.actuator_gaintype[id] == mjGAIN_FIXED;
+  if (!is_plain || (!slides && !turns)) return "";
+  const mjtNum* const bias = model.actuator_biasprm + mjNBIAS * id;
+  const mjtNum gain = model.actuator_gainprm[mjNGAIN * id];
+  const bool affine = model.actuator_biastype[id] == mjBIAS_AFFINE && gain != 0;
+  const bool to_position = affine && bias[1] == -gain;
+  if (model.actuator_dyntype[id] == mjDYN_INTEGRATOR && to_position) return slides ? "m/s" : "rad/s";
+  if (model.actuator_dyntype[id] != mjDYN_NONE) return "";
+  if (to_position) return slides ? "m" : "rad";
+  if (affine && bias[1] == 0 && bias[2] == -gain) return slides ? "m/s" : "rad/s";
+  if (model.actuator_biastype[id] == mjBIAS_NONE && gain == 1) return slides ? "N" : "N m";
+  return "";
+}
+
 /// A joint whose position moves back by a length: a belt.
 struct Wrap {
   int joint = 0;
@@ -69,16 +89,20 @@ std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const Drive
   Options options(request);
   const bool clamp = options.word("outside", {"clamp", "refuse"}) == "clamp";
   std::vector<Drive> drives;
+  std::vector<std::string> units;
   std::optional<Wrap> wrap;
   context.simulation->use([&](const Physics& physics) {
-    for (const std::string& name : request.targets)
+    for (const std::string& name : request.targets) {
       drives.push_back(drive_of(physics.model(), element_of(physics, mjOBJ_ACTUATOR, request, name), name));
+      units.push_back(unit_of_actuator(physics.model(), drives.back().id));
+    }
     wrap = wrap_of(physics, request, options);
   });
   options.refuse_others();
   buffer.require_reals(drives.size(), request.targets.size() == 1
                                           ? "actuator '" + request.targets[0] + "' takes"
                                           : "these actuators take");
+  buffer.convert_from(units, "the command of an actuator");
   for (const Drive& drive : drives) context.simulation->add_robot_of_actuator(drive.id);
   if (wrap) context.simulation->wrap(wrap->joint, wrap->length);
   return commanding(context.simulation, std::move(buffer),

@@ -2,6 +2,7 @@
 #include <array>
 #include <cmath>
 
+#include "sim/devices/pose_fields.hpp"
 #include "sim/devices/reading.hpp"
 
 namespace tessera::sim {
@@ -75,6 +76,7 @@ std::unique_ptr<RealEffector> weld(const DeviceContext& context, const DriverReq
 std::unique_ptr<RealEffector> mocap(const DeviceContext& context, const DriverRequest& request) {
   Buffer buffer(request);
   buffer.require_reals(7, "a pose takes");
+  buffer.convert_from(units_of_pose, "a pose");
   Options(request).refuse_others();
   const std::string& name = only_target(request);
   int mocap_body = -1;
@@ -100,6 +102,7 @@ std::unique_ptr<RealEffector> mocap(const DeviceContext& context, const DriverRe
 std::unique_ptr<RealEffector> place(const DeviceContext& context, const DriverRequest& request) {
   Buffer buffer(request);
   buffer.require_reals(7, "a pose takes");
+  buffer.convert_from(units_of_pose, "a pose");
   Options(request).refuse_others();
   const std::string& name = only_target(request);
   int joint = -1;

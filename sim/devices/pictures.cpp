@@ -185,6 +185,8 @@ std::unique_ptr<RealReceptor> depth(const DeviceContext& context, const DriverRe
   const PictureSize size = picture_size(request, options, depth_pixel);
   const double noise_m = options.number_from_zero("noise", 0, "m");
   options.refuse_others();
+  if (!request.units.empty() && request.units.front() != "m")
+    throw DeviceError("a depth is in m, and the buffer in " + request.units.front(), "declare it in m");
   return std::make_unique<DepthCamera>(context, request, size, noise_m);
 }
 

@@ -1,5 +1,7 @@
 #include <array>
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "sim/devices/pose_fields.hpp"
 #include "sim/devices/reading.hpp"
@@ -12,6 +14,22 @@ struct Run {
   int at = 0, count = 0;
 };
 
+/// Of each number of a joint's position or velocity; empty: a part of a quaternion.
+std::vector<std::string> units_of_joint(const mjModel& model, int joint, bool velocity) {
+  const std::string way = velocity ? "m/s" : "m", angle = velocity ? "rad/s" : "rad";
+  switch (model.jnt_type[joint]) {
+    case mjJNT_SLIDE:
+      return {way};
+    case mjJNT_HINGE:
+      return {angle};
+    case mjJNT_BALL:
+      return velocity ? std::vector(3, angle) : std::vector<std::string>(4);
+    default:
+      return velocity ? std::vector{way, way, way, angle, angle, angle}
+                      : std::vector<std::string>{way, way, way, "", "", "", ""};
+  }
+}
+
 /// velocity: velocities of the joints, not positions.
 std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverRequest& request,
                                      bool velocity) {
@@ -20,6 +38,7 @@ std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverR
   const double deviation = options.number_from_zero("noise", 0);
   options.refuse_others();
   std::vector<Run> runs;
+  std::vector<std::string> units;
   int total = 0;
   context.simulation->use([&](const Physics& physics) {
     const mjModel& model = physics.model();
@@ -28,11 +47,14 @@ std::unique_ptr<RealReceptor> joints(const DeviceContext& context, const DriverR
       runs.push_back(velocity ? Run{model.jnt_dofadr[joint], velocity_size(model, joint)}
                               : Run{model.jnt_qposadr[joint], position_size(model, joint)});
       total += runs.back().count;
+      const std::vector<std::string> own = units_of_joint(model, joint, velocity);
+      units.insert(units.end(), own.begin(), own.end());
     }
   });
   buffer.require_reals(static_cast<std::size_t>(total), request.targets.size() == 1
                                                             ? "joint '" + request.targets[0] + "' gives"
                                                             : "these joints give");
+  buffer.convert_from(units, velocity ? "the velocity of a joint" : "the position of a joint");
   Distort distort;
   if (deviation > 0)
     distort = [deviation, random = Noise(context.seed, request.path)](std::span<double> numbers) mutable {
@@ -101,12 +123,15 @@ std::unique_ptr<RealReceptor> pose(const DeviceContext& context, const DriverReq
     frame = frame_target(physics, request, only_target(request));
     refuse_place_of_model(physics.model(), frame);
   });
-  if (takes_whole_pose(buffer))
+  if (takes_whole_pose(buffer)) {
+    buffer.convert_from(units_of_pose, "a pose");
     return reading(context.simulation, std::move(buffer),
                    [frame](const Physics& physics, std::span<double> numbers) {
                      std::ranges::copy(pose_now(physics, frame), numbers.begin());
                    });
+  }
   const PlanarFields fields(buffer);
+  buffer.convert_from(fields.units(), "a pose");
   return reading(context.simulation, std::move(buffer),
                  [frame, fields](const Physics& physics, std::span<double> numbers) {
                    const std::array<double, 7> all = pose_now(physics, frame);

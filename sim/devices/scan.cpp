@@ -27,6 +27,7 @@ std::unique_ptr<RealReceptor> scan(const DeviceContext& context, const DriverReq
   if (!buffer.is_real() || buffer.size() == 0 || buffer.size() > most_rays)
     throw DeviceError("a scan gives one distance for each ray, and the buffer is " + buffer.type(),
                       "make the buffer float32[N] or float64[N], for N rays");
+  buffer.convert_from("m", "a scan");
   Options options(request);
   const double from = options.number("from", "rad").value_or(-std::numbers::pi);
   const double to = options.number("to", "rad").value_or(std::numbers::pi);

@@ -20,6 +20,49 @@ Channel channel_of(const mjModel& model, int id, const std::string& name) {
           model.sensor_type[id], model.sensor_cutoff[id], model.sensor_noise[id]};
 }
 
+/// Empty: it has none, or the model alone knows it.
+std::string unit_of_sensor(const mjModel& model, int id) {
+  const auto of_joint = [&](const char* slides, const char* turns) {
+    return model.jnt_type[model.sensor_objid[id]] == mjJNT_SLIDE ? slides : turns;
+  };
+  switch (model.sensor_type[id]) {
+    case mjSENS_RANGEFINDER:
+    case mjSENS_TENDONPOS:
+    case mjSENS_FRAMEPOS:
+    case mjSENS_SUBTREECOM:
+      return "m";
+    case mjSENS_VELOCIMETER:
+    case mjSENS_TENDONVEL:
+    case mjSENS_FRAMELINVEL:
+    case mjSENS_SUBTREELINVEL:
+      return "m/s";
+    case mjSENS_ACCELEROMETER:
+    case mjSENS_FRAMELINACC:
+      return "m/s^2";
+    case mjSENS_GYRO:
+    case mjSENS_BALLANGVEL:
+    case mjSENS_FRAMEANGVEL:
+      return "rad/s";
+    case mjSENS_FRAMEANGACC:
+      return "rad/s^2";
+    case mjSENS_JOINTPOS:
+    case mjSENS_JOINTLIMITPOS:
+      return of_joint("m", "rad");
+    case mjSENS_JOINTVEL:
+    case mjSENS_JOINTLIMITVEL:
+      return of_joint("m/s", "rad/s");
+    case mjSENS_TOUCH:
+    case mjSENS_FORCE:
+      return "N";
+    case mjSENS_TORQUE:
+      return "N m";
+    case mjSENS_CLOCK:
+      return "s";
+    default:
+      return "";
+  }
+}
+
 /// A small rotation about an axis in any direction.
 void turn(std::span<double> quaternion, double deviation, Noise& random) {
   mjtNum about[3], turned[4], small[4];
@@ -57,17 +100,21 @@ std::unique_ptr<RealReceptor> sensor(const DeviceContext& context, const DriverR
   const double deviation = options.number_from_zero("noise", 0);
   options.refuse_others();
   std::vector<Channel> channels;
+  std::vector<std::string> units;
   int total = 0;
   context.simulation->use([&](const Physics& physics) {
     for (const std::string& name : request.targets) {
       channels.push_back(channel_of(physics.model(), element_of(physics, mjOBJ_SENSOR, request, name), name));
       if (has_noise) channels.back().deviation = deviation;
       total += channels.back().size;
+      units.insert(units.end(), static_cast<std::size_t>(channels.back().size),
+                   unit_of_sensor(physics.model(), element_of(physics, mjOBJ_SENSOR, request, name)));
     }
   });
   buffer.require_reals(static_cast<std::size_t>(total), request.targets.size() == 1
                                                             ? "sensor '" + request.targets[0] + "' gives"
                                                             : "these sensors give");
+  buffer.convert_from(units, "a sensor of the world");
   return reading(
       context.simulation, std::move(buffer),
       [channels](const Physics& physics, std::span<double> numbers) {

@@ -2,21 +2,20 @@
 
 #include <array>
 #include <cstdlib>
+#include <optional>
+#include <tuple>
 #include <utility>
+
+#include "tessera/units.hpp"
 
 namespace tessera::checks {
 
 using Known = Dimension::Known;
 
 Dimension dimension_of_unit(std::string_view unit) {
-  if (const std::size_t slash = unit.find('/'); slash != std::string_view::npos)
-    return of_product(dimension_of_unit(unit.substr(0, slash)), dimension_of_unit(unit.substr(slash + 1)),
-                      -1);
   Dimension dimension{.known = Known::by_unit};
-  if (unit == "m") dimension.length = 1;
-  if (unit == "rad") dimension.angle = 1;
-  if (unit == "s") dimension.time = 1;
-  if (unit == "Hz") dimension.time = -1;
+  if (const std::optional<Unit> read = read_unit(unit))
+    std::tie(dimension.length, dimension.angle, dimension.time) = std::tuple_cat(read->powers);
   return dimension;
 }
 

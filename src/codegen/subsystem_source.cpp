@@ -14,16 +14,14 @@ namespace {
 
 using spec::SubsystemKind;
 
-std::string bound(const std::optional<double>& value, std::string_view absent) {
-  return value ? fmt::format("{}", *value) : std::string(absent);
-}
-
 std::string bind_parameter(const spec::Parameter& parameter) {
-  std::string range;
-  if (parameter.minimum || parameter.maximum)
-    range =
-        fmt::format(", {}, {}", bound(parameter.minimum, "-infinity"), bound(parameter.maximum, "infinity"));
-  return fmt::format("bindings.parameter(\"{0}\", parameters.{0}{1});", parameter.name, range);
+  std::vector<std::string> accepted;
+  if (parameter.minimum) accepted.push_back(fmt::format(".minimum = {}", *parameter.minimum));
+  if (parameter.maximum) accepted.push_back(fmt::format(".maximum = {}", *parameter.maximum));
+  if (!parameter.type.unit.empty())
+    accepted.push_back(fmt::format(".unit = {}", string_literal(parameter.type.unit)));
+  return fmt::format("bindings.parameter(\"{0}\", parameters.{0}{1});", parameter.name,
+                     accepted.empty() ? "" : fmt::format(", {{{}}}", fmt::join(accepted, ", ")));
 }
 
 /// whole: a driver serves all real buffers at once.
@@ -61,11 +59,6 @@ std::string bind(const Project& project, const Unit& unit) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   std::vector<std::string> lines;
   const auto parameters = parameters_of(project.model, unit);
-  const auto half_open = [](const spec::Parameter* parameter) {
-    return parameter->minimum.has_value() != parameter->maximum.has_value();
-  };
-  if (std::ranges::any_of(parameters, half_open))
-    lines.emplace_back("constexpr double infinity = std::numeric_limits<double>::infinity();");
   const bool whole = has_whole_driver(project, unit);
   if (whole) lines.emplace_back("yours::Real& real = bindings.all_real<yours::Real>();");
   for (const spec::RealId at : subsystem.real.ids()) {
@@ -140,7 +133,6 @@ File subsystem_source(const Project& project, const Unit& unit, const NetVariant
   const Conditions conditions(project, unit);
   std::set<std::string> headers{"<cstdint>", "<memory>", "<tessera/tables.hpp>"};
   const std::string body = subsystem_class(project, unit, conditions);
-  if (body.find("numeric_limits") != std::string::npos) headers.insert("<limits>");
   const bool times = needs_literals(*unit.subsystem);
   if (times || !conditions.declaration().empty()) headers.insert("<chrono>");
   const std::string space = generated_namespace(unit);

@@ -1,5 +1,6 @@
 #include "diagnostics/source.hpp"
 
+#include <algorithm>
 #include <cerrno>
 #include <fstream>
 #include <system_error>
@@ -28,6 +29,21 @@ std::vector<std::string> neighbours(const fs::path& path) {
   return names;
 }
 
+/// The specifications that the folder may hold.
+std::string hint_for_folder(const fs::path& folder) {
+  std::vector<std::string> found;
+  std::error_code ignored;
+  for (fs::directory_iterator it(folder, ignored), end; !ignored && it != end; it.increment(ignored))
+    if (const fs::path& file = it->path(); file.extension() == ".yaml" || file.extension() == ".yml")
+      found.push_back(file.string());
+  std::ranges::sort(found);
+  if (found.empty()) return "`tessera new NAME` makes a project";
+  constexpr std::size_t shown = 3;
+  std::string text = "name the file: " + found.front();
+  for (std::size_t at = 1; at < std::min(shown, found.size()); ++at) text += ", " + found[at];
+  return text + (found.size() > shown ? ", ..." : "");
+}
+
 }  // namespace
 
 Diagnostics load(const fs::path& path) {
@@ -38,7 +54,7 @@ Diagnostics load(const fs::path& path) {
     return failed(path, "no such file", did_you_mean(path.filename().string(), neighbours(path)));
   }
   if (fs::is_directory(status)) {
-    return failed(path, "this is a directory, not a file", "name the specification in it, e.g. spec.yaml");
+    return failed(path, "this is a folder without a spec.yaml", hint_for_folder(path));
   }
   if (!fs::is_regular_file(status) && !fs::is_fifo(status) && !fs::is_character_file(status)) {
     return failed(path, "this is not a file that can be read");

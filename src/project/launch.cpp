@@ -12,7 +12,6 @@
 #include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/files/simulation_file.hpp"
-#include "project/parameter_units.hpp"
 #include "project/verification/verdicts.hpp"
 #include "sim/track.hpp"
 
@@ -170,13 +169,6 @@ std::vector<GivenParameter> given_parameters(const Specification& specification,
   std::vector<GivenParameter> given;
   if (!options.parameters.empty() || fs::exists(file)) given = read_parameter_file(file);
   for (const std::string& assignment : options.set) given.push_back(read_assignment(assignment));
-  for (GivenParameter& one : given) {
-    try {
-      one.value = without_unit(specification.model, one.path, one.value);
-    } catch (const std::runtime_error& problem) {
-      throw std::runtime_error(one.where + problem.what());
-    }
-  }
   return given;
 }
 

@@ -50,6 +50,20 @@ std::vector<Robot> robots_of(const Recording::Scene& scene) {
   return robots;
 }
 
+std::vector<std::size_t> parts_of_robots(const Recording::Scene& scene) {
+  std::vector<bool> is_part(scene.bodies.size());
+  for (const Robot& robot : robots_of(scene)) is_part[robot.body] = true;
+  std::vector<std::size_t> parts;
+  for (std::size_t index = 0; index < scene.bodies.size(); ++index) {
+    std::size_t above = index;
+    for (std::size_t steps = 0; !is_part[above] && scene.bodies[above].parent && steps < scene.bodies.size();
+         ++steps)
+      above = *scene.bodies[above].parent;
+    if (is_part[above]) parts.push_back(index);
+  }
+  return parts;
+}
+
 RobotPoint from_above(std::int64_t time_ns, const BodyPose& pose) {
   const std::array<double, 3> ahead = turned(pose.rotation, {1, 0, 0});
   return {time_ns, pose.position_m[0], pose.position_m[1], std::atan2(ahead[1], ahead[0])};

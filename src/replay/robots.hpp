@@ -20,6 +20,8 @@ struct Robot {
   std::size_t body = 0;
 };
 [[nodiscard]] std::vector<Robot> robots_of(const Recording::Scene& scene);
+/// The robots and all bodies that are attached to them, such as the hand of an arm.
+[[nodiscard]] std::vector<std::size_t> parts_of_robots(const Recording::Scene& scene);
 
 /// A body seen from above.
 struct RobotPoint {

@@ -47,9 +47,12 @@ TEST_F(Load, AMissingFileIsNamedWithItsNeighbour) {
   EXPECT_EQ(only_message(load(folder_ / "no" / "such" / "folder.yaml")), "no such file|");
 }
 
-TEST_F(Load, ADirectoryIsNoFile) {
+TEST_F(Load, AFolderWithoutASpecificationSaysWhatItHas) {
   EXPECT_EQ(only_message(load(folder_)),
-            "this is a directory, not a file|name the specification in it, e.g. spec.yaml");
+            "this is a folder without a spec.yaml|`tessera new NAME` makes a project");
+  const std::string arm = write("arm.yaml", "x").string(), rover = write("rover.yml", "x").string();
+  EXPECT_EQ(only_message(load(folder_)),
+            "this is a folder without a spec.yaml|name the file: " + arm + ", " + rover);
 }
 
 TEST_F(Load, AFileAboveTheLimitIsRefused) {

@@ -40,9 +40,11 @@ TEST_F(Controlled, AParameterIsSetWhileItRunsAndRunsAgainFromTheRecording) {
     return command({{"command", "set"}, {"path", path}, {"value", value}});
   };
   EXPECT_EQ(set("robot.a.gain", "11"), "parameter robot.a.gain = 11: 11 is out of range 0 to 10");
+  EXPECT_EQ(command({{"command", "set"}, {"path", "gain"}, {"value", "3"}, {"try", true}}), "");
+  EXPECT_NE(command({{"command", "set"}, {"path", "gain"}, {"value", "11"}, {"try", true}}), "");
   EXPECT_EQ(set("gian", "2"), "unknown parameter 'gian'; did you mean 'gain'?");
   EXPECT_NE(command({{"command", "set"}, {"path", "gain"}, {"value", 2}}), "") << "a value is text";
-  EXPECT_EQ(set("gain", "2.5"), "");
+  EXPECT_EQ(set("gain", "250 cm/s"), "");
   EXPECT_TRUE(eventually([&] { return seen == 2.5; }));
   kill(getpid(), SIGTERM);
   running_.join();
@@ -53,7 +55,7 @@ TEST_F(Controlled, AParameterIsSetWhileItRunsAndRunsAgainFromTheRecording) {
   std::vector<std::string> changes;
   for (const auto& [event, text] : recording->entries)
     if (event.kind() == Event::Kind::parameter) changes.push_back(text);
-  EXPECT_THAT(changes, ::testing::UnorderedElementsAre("robot.a.gain=2.5", "robot.b.gain=2.5"));
+  EXPECT_THAT(changes, ::testing::UnorderedElementsAre("robot.a.gain=250 cm/s", "robot.b.gain=250 cm/s"));
   const auto again = rerun(system_.system(), RunOptions{}, options_.recording, error);
   ASSERT_TRUE(again) << error;
   EXPECT_FALSE(again->first) << again->first->what << ": " << again->first->recorded << ", "

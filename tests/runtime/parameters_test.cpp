@@ -66,11 +66,26 @@ TEST_F(Parameters, OfArraysAreLists) {
             "parameter points = [1, 2]: [1, 2] has 2 elements, and the parameter has 3: write [1, 2, 3]");
   EXPECT_EQ(
       set({{"points", "[1, 2, x]"}}),
-      "parameter points = [1, 2, x]: [1, 2, x] is wrong: element 2 (x) is no number (write it without a "
-      "unit)");
+      "parameter points = [1, 2, x]: [1, 2, x] is wrong: element 2 (x) is no number");
   EXPECT_EQ(set({{"points", "[1, -2, 3]"}}),
             "parameter points = [1, -2, 3]: [1, -2, 3] is wrong: element 1 (-2) is out of range 0 to inf");
   EXPECT_NE(set({{"points", ""}}), "");
+}
+
+TEST_F(Parameters, AnyUnitOfTheQuantityIsConverted) {
+  EXPECT_EQ(set({{"gain", "50 cm/s"}}), "");
+  EXPECT_EQ(gains(), (std::vector<double>{0.5, 0.5, 0.5}));
+  EXPECT_EQ(set({{"gain", "3.6 km/h"}}), "");
+  EXPECT_EQ(gains(), (std::vector<double>{1, 1, 1}));
+  EXPECT_EQ(set({{"gain", "2m/s"}}), "");
+  EXPECT_EQ(set({{"points", "[50 cm, 2 m, 3]"}}), "");
+  EXPECT_EQ(seen.at(0).points, (std::array<double, 3>{0.5, 2, 3}));
+  EXPECT_EQ(set({{"gain", "3 kg"}}),
+            "parameter gain = 3 kg: 3 kg has another unit: the parameter is in m/s; write a number in m/s");
+  EXPECT_EQ(set({{"gain", "20 m/s"}}), "parameter gain = 20 m/s: 20 m/s is out of range 0 to 10");
+  EXPECT_EQ(set({{"level", "30 cm"}}),
+            "parameter level = 30 cm: 30 cm has a unit, and the parameter has none; write the number alone: 0.3 "
+            "if it is in m");
 }
 
 TEST_F(Parameters, TheLastOneCounts) {
@@ -89,7 +104,7 @@ TEST_F(Parameters, AllKindsAreRead) {
 TEST_F(Parameters, WhatIsWrongIsSaid) {
   EXPECT_EQ(set({{"robot[1].a.gian", "2"}}),
             "unknown parameter 'robot[1].a.gian'; did you mean 'robot[1].a.gain'?");
-  EXPECT_EQ(set({{"gain", "fast"}}), "parameter gain = fast: fast is no number (write it without a unit)");
+  EXPECT_EQ(set({{"gain", "fast"}}), "parameter gain = fast: fast is no number");
   EXPECT_EQ(set({{"gain", "11"}}), "parameter gain = 11: 11 is out of range 0 to 10");
   EXPECT_EQ(set({{"gain", "nan"}}), "parameter gain = nan: nan is not finite");
   EXPECT_EQ(set({{"level", "2.5"}}), "parameter level = 2.5: 2.5 is no whole number");
@@ -97,7 +112,7 @@ TEST_F(Parameters, WhatIsWrongIsSaid) {
   EXPECT_EQ(set({{"flag", "maybe"}}), "parameter flag = maybe: maybe is neither true nor false");
   EXPECT_EQ(set({{"label", "far too long"}}),
             "parameter label = far too long: far too long is longer than 8 bytes");
-  EXPECT_EQ(set({{"gain", ""}}), "parameter gain = : nothing is no number (write it without a unit)");
+  EXPECT_EQ(set({{"gain", ""}}), "parameter gain = : nothing is no number");
 }
 
 TEST_F(Parameters, AllMistakesAreSaidAtOnce) {

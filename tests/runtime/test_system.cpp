@@ -40,11 +40,11 @@ class ScriptSubsystem final : public Subsystem {
       bindings.remember("map", state_.map);
       bindings.remember("word", state_.word);
     }
-    bindings.parameter("gain", state_.gain, 0, 10);
+    bindings.parameter("gain", state_.gain, {.minimum = 0, .maximum = 10, .unit = "m/s"});
     bindings.parameter("level", state_.level);
     bindings.parameter("flag", state_.flag);
     bindings.parameter("label", state_.label);
-    bindings.parameter("points", state_.points, 0);
+    bindings.parameter("points", state_.points, {.minimum = 0, .unit = "m"});
   }
   void call(std::uint16_t behaviour) override {
     state_.behaviour = behaviour;

@@ -177,8 +177,26 @@ TEST(CoppeliaErrors, ASceneThatDoesNotLoadIsTold) {
   SceneServer server({});
   WorldServer address = server.address();
   address.scene = "/tmp/hall.txt";
-  EXPECT_THAT(problem_with(address), HasSubstr("file could not be read"));
-  EXPECT_THAT(server.calls(), ::testing::Not(::testing::Contains("sim.closeScene")));
+  EXPECT_THAT(problem_with(address), AllOf(HasSubstr("/tmp/hall.txt"), HasSubstr("file could not be read")));
+  EXPECT_THAT(server.scenes(), ::testing::ElementsAre(1)) << "the scene of the user is open as before";
+
+  std::string error;
+  const auto world = open_world({.server = server.address()}, error);
+  ASSERT_NE(world, nullptr) << error;
+  EXPECT_NE(world->receptor(request_for<double>({"robot.s.a", "reflectance", {"eye_left"}, {}}), error), nullptr)
+      << error;
+}
+
+TEST(CoppeliaErrors, ASceneThatCannotBeSimulatedIsClosedAgain) {
+  SceneServer without({.no_main_script = true});
+  SceneServer too_fast({.step_s = 0});
+  for (SceneServer* server : {&without, &too_fast}) {
+    WorldServer address = server->address();
+    address.scene = "/tmp/hall.ttt";
+    EXPECT_THAT(problem_with(address), HasSubstr(server == &without ? "has no main script" : "unknown version"));
+    EXPECT_THAT(server->scenes(), ::testing::ElementsAre(1));
+  }
+  EXPECT_THAT(problem_with(without.address()), HasSubstr("has no main script"));
 }
 
 struct WhileItRuns : ::testing::Test {

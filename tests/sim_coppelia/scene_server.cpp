@@ -19,6 +19,7 @@ constexpr int advancing = 16, paused = 8;
 
 // The numbers are CoppeliaSim's. A client must take them from zmqRemoteApi.info, so some are others here.
 const json constants{{"intparam_program_version", 1007},
+                     {"intparam_scene_unique_id", 1020},
                      {"simulation_stopped", 0},
                      {"simulation_paused", 8},
                      {"simulation_advancing_abouttostop", 21},
@@ -124,15 +125,37 @@ std::optional<Bytes> SceneServer::answer(const Bytes& request) {
 }
 
 json SceneServer::execute(const std::string& function, const json& arguments) {
-  for (const auto part : {&SceneServer::of_simulation, &SceneServer::of_object, &SceneServer::of_joint,
+  for (const auto part : {&SceneServer::of_scenes, &SceneServer::of_simulation, &SceneServer::of_object, &SceneServer::of_joint,
                           &SceneServer::of_sensor})
     if (json values = (this->*part)(function, arguments); !values.is_null()) return values;
   throw std::runtime_error("No such function: " + function);
 }
 
+json SceneServer::of_scenes(const std::string& function, const json& arguments) {
+  if (function == "sim.getInt32Param") {
+    const bool number = arguments.at(0) == constant("intparam_scene_unique_id");
+    return json::array({number ? scenes_.back().number : settings_.version});
+  }
+  if (function == "sim.loadScene") {
+    const std::string scene = arguments.at(0).get<std::string>();
+    const std::size_t option = scene.find("@keepCurrent");
+    if (option == std::string::npos) refuse(function, "the test wants the open scene to stay");
+    // The real one does so, too, before it reads the file.
+    scenes_.push_back({++last_scene_, /*is_empty=*/true});
+    if (!scene.substr(0, option).ends_with(".ttt")) refuse(function, "file could not be read");
+    scenes_.back().is_empty = false;
+    return json::array({1});
+  }
+  if (function == "sim.closeScene") {
+    scenes_.pop_back();
+    if (scenes_.empty()) scenes_.push_back({++last_scene_, /*is_empty=*/true});
+    return json::array({1});
+  }
+  return nullptr;
+}
+
 json SceneServer::of_simulation(const std::string& function, const json& arguments) {
   if (function == "zmqRemoteApi.info") return json::array({info()[0]});
-  if (function == "sim.getInt32Param") return json::array({settings_.version});
   if (function == "sim.getSimulationState") return json::array({state_});
   if (function == "sim.getSimulationTimeStep") return json::array({settings_.step_s});
   if (function == "sim.getSimulationTime") return json::array({time_s_});
@@ -146,7 +169,7 @@ json SceneServer::of_simulation(const std::string& function, const json& argumen
     return json::array();
   }
   if (function == "sim.getScript") {
-    if (arguments.at(0) != constant("scripttype_mainscript")) refuse(function, "script does not exist.");
+    if (arguments.at(0) != constant("scripttype_mainscript") || settings_.no_main_script) refuse(function, "script does not exist.");
     return json::array({main_script});
   }
   if (function == "sim.callScriptFunction") {
@@ -161,12 +184,6 @@ json SceneServer::of_simulation(const std::string& function, const json& argumen
     if (found == signals_.end()) return json::array();
     return json::array({json::binary({found->second.begin(), found->second.end()})});
   }
-  if (function == "sim.loadScene") {
-    const std::string scene = arguments.at(0).get<std::string>();
-    if (!scene.ends_with(".ttt@keepCurrent")) refuse(function, "file could not be read");
-    return json::array({1});
-  }
-  if (function == "sim.closeScene") return json::array({1});
   return nullptr;
 }
 
@@ -180,7 +197,7 @@ json SceneServer::of_object(const std::string& function, const json& arguments) 
   if (function == "sim.getObject") {
     const auto found = std::ranges::find(things_, arguments.at(0).get<std::string>(), &Thing::path);
     return json::array(
-        {found == things_.end() ? -1 : static_cast<int>(found - things_.begin()) + first_handle});
+        {scenes_.back().is_empty || found == things_.end() ? -1 : static_cast<int>(found - things_.begin()) + first_handle});
   }
   if (function == "sim.getObjectsInTree") {
     json handles = json::array();
@@ -297,6 +314,13 @@ sim::Trace SceneServer::trace() const {
   const std::scoped_lock lock(mutex_);
   return trace_;
 }
+std::vector<int> SceneServer::scenes() const {
+  const std::scoped_lock lock(mutex_);
+  std::vector<int> numbers;
+  for (const OpenScene& one : scenes_) numbers.push_back(one.number);
+  return numbers;
+}
+
 bool SceneServer::is_running() const {
   const std::scoped_lock lock(mutex_);
   return state_ != 0;

@@ -35,6 +35,7 @@ class SceneServer {
     bool runs_already = false;     ///< a simulation that another client started
     std::uint16_t port = 0;        ///< 0: a free one
     int waits_per_step = 3;        ///< how often a step asks the client to wait
+    bool no_main_script = false;
     bool no_marks = false;         ///< refuses to call functions of scripts
     std::set<std::string> silent;  ///< functions that never answer
     std::string late;              ///< a function that answers late the first time
@@ -53,6 +54,8 @@ class SceneServer {
   [[nodiscard]] double joint(const std::string& path) const;
   /// Makes the simulation step without a request.
   void step_by_itself();
+  /// The numbers of the open scenes; the last one is the current one.
+  [[nodiscard]] std::vector<int> scenes() const;
   void pause();
   void stop_by_hand();
   /// As CoppeliaSim does it: the simulation still makes some steps, without waiting for clients.
@@ -73,6 +76,7 @@ class SceneServer {
   };
   std::optional<Bytes> answer(const Bytes& request);
   json execute(const std::string& function, const json& arguments);
+  json of_scenes(const std::string& function, const json& arguments);
   json of_simulation(const std::string& function, const json& arguments);
   json of_object(const std::string& function, const json& arguments);
   json of_joint(const std::string& function, const json& arguments);
@@ -87,6 +91,13 @@ class SceneServer {
   std::optional<sim::Track> floor_;
   sim::Pose robot_;
   std::vector<Thing> things_;  // a handle is the index and 10
+  /// As in CoppeliaSim, each open scene has a number, and one is open always.
+  struct OpenScene {
+    int number = 0;
+    bool is_empty = false;
+  };
+  std::vector<OpenScene> scenes_{{1, false}};
+  int last_scene_ = 1;
   double time_s_ = 0;
   int state_ = 0;
   bool is_stepping_ = false;

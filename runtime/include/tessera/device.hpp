@@ -127,6 +127,8 @@ struct DriverRequest {
   std::string type{};
   /// Reads and stores values of that type. nullptr: the device is only to be judged.
   const ValueEncoding* encoding = nullptr;
+  /// The declared unit of each scalar of the buffer, in the order of its type; empty: none has a unit.
+  std::vector<std::string> units{};
 
   /// The agent that owns the device: "robot[3]" of "robot[3].sensor.left".
   [[nodiscard]] std::string agent() const { return path.substr(0, path.find('.')); }

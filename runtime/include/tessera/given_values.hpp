@@ -27,6 +27,7 @@ struct ParameterOwner {
 
 /// Sets parameters in order. PATH is a name (every subsystem that has it), or the path of an agent or a
 /// subsystem and a name; `[*]` in the path stands for any index. The value of an array is "[1, 2, 3]".
+/// A number may have any unit of the quantity of its parameter (tessera/units.hpp).
 ///
 /// Errors: a path that names nothing (with the nearest that does), a value of another kind or out of range.
 ///         Reports all, one per line, and returns false. Correct assignments take effect all the same.

@@ -43,7 +43,8 @@
 ///
 /// Every run accepts these commands, and answers them like those below:
 ///
-///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   sets a parameter, as `--set v=0.3`
+///     {"id": 1, "command": "set", "path": "v", "value": "0.3"}   sets a parameter, as `--set v=0.3`;
+///                                                                with "try": true, only says whether it can
 ///     {"command": "emergency_stop", "why": text}                 gives every device its safe command, and
 ///                                                                nothing else until the reset; in real time
 ///                                                                the answer comes once all have taken it, or

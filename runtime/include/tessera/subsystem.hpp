@@ -175,6 +175,13 @@ struct Bindings {
     double minimum, maximum;   ///< of each element
     std::size_t capacity = 0;  ///< for a string
     std::size_t elements = 0;  ///< number of elements if it is an array of `kind`; otherwise 0
+    std::string_view unit{};   ///< of a number, as declared; empty: none
+  };
+  /// What a given value of a parameter has to be.
+  struct Accepted {
+    double minimum = -std::numeric_limits<double>::infinity();
+    double maximum = std::numeric_limits<double>::infinity();
+    std::string_view unit{};
   };
   /// A field of the memory, for display.
   struct Remembered {
@@ -249,16 +256,24 @@ struct Bindings {
     memory.push_back({name, &value, value_encoding_of<T>()});
   }
   template <class T>
-  void parameter(std::string_view name, T& value, double minimum = -std::numeric_limits<double>::infinity(),
-                 double maximum = std::numeric_limits<double>::infinity()) {
+  void parameter(std::string_view name, T& value) {
+    parameter(name, value, Accepted{});
+  }
+  template <class T>
+  void parameter(std::string_view name, T& value, const Accepted& accepted) {
     static_assert(std::is_trivially_copyable_v<T>);
-    if constexpr (requires { T::capacity(); })
-      parameters.push_back({name, ValueKind::string, &value, sizeof(T), minimum, maximum, T::capacity()});
-    else if constexpr (requires { std::tuple_size<T>::value; })
-      parameters.push_back({name, value_kind<typename T::value_type>(), &value, sizeof(T), minimum, maximum,
-                            0, std::tuple_size_v<T>});
-    else
-      parameters.push_back({name, value_kind<T>(), &value, sizeof(T), minimum, maximum});
+    Parameter made{name,  ValueKind::other, &value, sizeof(T), accepted.minimum, accepted.maximum, 0, 0,
+                   accepted.unit};
+    if constexpr (requires { T::capacity(); }) {
+      made.kind = ValueKind::string;
+      made.capacity = T::capacity();
+    } else if constexpr (requires { std::tuple_size<T>::value; }) {
+      made.kind = value_kind<typename T::value_type>();
+      made.elements = std::tuple_size_v<T>;
+    } else {
+      made.kind = value_kind<T>();
+    }
+    parameters.push_back(made);
   }
 
  private:

@@ -3,41 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <numbers>
+#include <optional>
+
+#include "tessera/units.hpp"
 
 namespace tessera {
 namespace {
-
-/// Units of one quantity can be converted into each other.
-struct Unit {
-  std::string_view name, quantity;
-  double in_base;
-};
-constexpr std::array units{Unit{"m", "length", 1},
-                           Unit{"km", "length", 1e3},
-                           Unit{"cm", "length", 1e-2},
-                           Unit{"mm", "length", 1e-3},
-                           Unit{"um", "length", 1e-6},
-                           Unit{"rad", "angle", 1},
-                           Unit{"deg", "angle", std::numbers::pi / 180},
-                           Unit{"s", "time", 1},
-                           Unit{"ms", "time", 1e-3},
-                           Unit{"us", "time", 1e-6},
-                           Unit{"ns", "time", 1e-9},
-                           Unit{"min", "time", 60},
-                           Unit{"h", "time", 3600},
-                           Unit{"Hz", "frequency", 1},
-                           Unit{"kHz", "frequency", 1e3},
-                           Unit{"MHz", "frequency", 1e6}};
-
-const Unit* find_unit(std::string_view name) {
-  const auto* const found =
-      std::find_if(units.begin(), units.end(), [&](const Unit& one) { return one.name == name; });
-  return found == units.end() ? nullptr : found;
-}
 
 /// "a number with the unit 'mm'"
 [[nodiscard]] std::string description(const DriverOption& option) {
@@ -56,18 +29,18 @@ const Unit* find_unit(std::string_view name) {
   const double* const number = std::get_if<double>(&option.value);
   if (number == nullptr) refuse(option, wanted);
   if (option.unit == unit || option.unit.empty()) return *number;
-  const Unit *const from = find_unit(option.unit), *const to = find_unit(unit);
-  if (from == nullptr || to == nullptr || from->quantity != to->quantity) refuse(option, wanted);
-  return *number * from->in_base / to->in_base;
+  const std::optional<double> wished = converted(*number, option.unit, unit);
+  if (!wished) refuse(option, wanted);
+  return *wished;
 }
 
 [[nodiscard]] Duration duration_of(const DriverOption& option) {
   constexpr double longest_s = 9e9;
   const double* const number = std::get_if<double>(&option.value);
-  const Unit* const unit = find_unit(option.unit);
-  if (number == nullptr || unit == nullptr || unit->quantity != "time")
-    refuse(option, "a time such as 200 ms");
-  const double length_s = *number * unit->in_base;
+  const std::optional<double> seconds =
+      number == nullptr ? std::nullopt : converted(*number, option.unit, "s");
+  if (!seconds) refuse(option, "a time such as 200 ms");
+  const double length_s = *seconds;
   if (!(std::abs(length_s) < longest_s))
     throw DriverError(fmt::format("option '{}' is longer than any run", option.name));
   return Duration(std::llround(length_s * 1e9));

@@ -35,6 +35,7 @@ using nlohmann::json;
                         .options = {}};
   if (const auto options = driver.find("options"); options != driver.end())
     for (const auto& [name, option] : options->items()) request.options.emplace(name, option_of(option));
+  request.units = driver.value("units", request.units);
   return request;
 }
 

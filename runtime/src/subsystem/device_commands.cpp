@@ -84,7 +84,9 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
       refused_since_ = Time::max();
       limits_.note_sent(now);
       effectors_.record(lane_);
-      if (was_held) reports_.log(LogLevel::info, "commands go to the devices again");
+      // At the start nothing has been interrupted.
+      if (std::exchange(has_commanded_, true) && was_held)
+        reports_.log(LogLevel::info, "commands go to the devices again");
   }
   return std::nullopt;
 }

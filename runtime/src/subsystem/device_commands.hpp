@@ -100,6 +100,7 @@ class DeviceCommands {
   CommandLimits limits_;
   Effectors effectors_;
   SafeReason last_safe_{};            // why it was given last
+  bool has_commanded_ = false;        // a device has taken a command of the transition function
   SafeReason held_{};                 // the safe command stands because of an input
   Time refused_since_ = Time::max();  // since when some device refuses the safe command
   bool heart_failed_ = false;         // the heartbeat of a device has failed

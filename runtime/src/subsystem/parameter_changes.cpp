@@ -17,4 +17,9 @@ std::optional<Problem> ParameterChanges::ask(const std::string& path, const std:
   return std::nullopt;
 }
 
+std::optional<Problem> ParameterChanges::try_out(const std::string& path, const std::string& value) const {
+  std::vector<CheckedValue> checked;
+  return check_parameter(owners_, path, value, checked);
+}
+
 }  // namespace tessera

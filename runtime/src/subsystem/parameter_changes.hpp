@@ -27,6 +27,8 @@ class ParameterChanges {
   /// Returns the mistake in the request; nullopt: the change will take place. path: as in set_parameters.
   /// Threads: any.
   [[nodiscard]] std::optional<Problem> ask(const std::string& path, const std::string& value);
+  /// The same mistakes; nothing changes. Threads: any.
+  [[nodiscard]] std::optional<Problem> try_out(const std::string& path, const std::string& value) const;
   /// Whether a subsystem here has a parameter that `path` names. Threads: any.
   [[nodiscard]] bool knows(const std::string& path) const { return has_parameter(owners_, path); }
 

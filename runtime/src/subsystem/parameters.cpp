@@ -12,6 +12,7 @@
 #include <string_view>
 
 #include "tessera/nearest.hpp"
+#include "tessera/units.hpp"
 
 namespace tessera {
 namespace {
@@ -48,17 +49,47 @@ using Parameter = Bindings::Parameter;
   return names;
 }
 
+/// The number of a text in the parameter's unit: "5 cm" for a parameter in m is "0.05". A text without a unit
+/// stays as it is, also if it is no number.
+[[nodiscard]] Result<std::string> in_its_unit(const Parameter& parameter, std::string_view text) {
+  const std::optional<Quantity> given = split_quantity(text);
+  if (!given || given->unit.empty()) return std::string(text);
+  if (given->unit == parameter.unit) return std::string(given->digits);
+  if (const std::optional<double> number = converted(given->number, given->unit, parameter.unit);
+      number && !parameter.unit.empty())
+    return fmt::format("{}", *number);
+  if (!parameter.unit.empty())
+    return Problem{
+        fmt::format("has another unit: the parameter is in {0}; write a number in {0}", parameter.unit)};
+  const std::optional<Unit> unit = read_unit(given->unit);
+  const std::string si = unit ? si_name(*unit) : "";
+  const std::string number =
+      unit ? fmt::format("{}", given->number * unit->above / unit->below) : std::string(given->digits);
+  return Problem{fmt::format("has a unit, and the parameter has none; write the number alone: {}{}", number,
+                             !si.empty() && si != given->unit ? " if it is in " + si : "")};
+}
+
 // Each `store` returns the mistake in the text.
 
 template <class Number>
+[[nodiscard]] std::optional<Problem> store_bare_number(const Parameter& parameter, std::string_view text);
+
+template <class Number>
 [[nodiscard]] std::optional<Problem> store_number(const Parameter& parameter, std::string_view text) {
+  const Result<std::string> number = in_its_unit(parameter, text);
+  if (!number) return Problem{number.problem()};
+  return store_bare_number<Number>(parameter, *number);
+}
+
+template <class Number>
+[[nodiscard]] std::optional<Problem> store_bare_number(const Parameter& parameter, std::string_view text) {
   Number value{};
   if (text.starts_with('+')) text.remove_prefix(1);
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem == std::errc::result_out_of_range) return Problem{"does not fit its type"};
   if (problem != std::errc{} || end != text.data() + text.size())
     return Problem{std::is_integral_v<Number> ? "is no whole number"
-                                              : "is no number (write it without a unit)"};
+                                              : "is no number"};
   const auto real = static_cast<double>(value);
   if (!std::isfinite(real)) return Problem{"is not finite"};
   if (real < parameter.minimum || real > parameter.maximum)

@@ -13,6 +13,7 @@
 
 #include "system/line_ring.hpp"
 #include "system/patient_output.hpp"
+#include "system/repeated_lines.hpp"
 #include "system/service.hpp"
 #include "system/stop_signals.hpp"
 #include "system/waker.hpp"
@@ -169,6 +170,12 @@ class Writer {
 
 std::atomic<int> sessions{0};
 
+/// Never destroyed: a thread may print to the very end.
+[[nodiscard]] RepeatedLines& repeated() {
+  static RepeatedLines& only = *new RepeatedLines;
+  return only;
+}
+
 template <std::size_t Size>
 [[nodiscard]] std::string_view cut(std::array<char, Size>& line, std::size_t wanted) {
   if (wanted > Size) line[Size - 1] = '\n';
@@ -194,7 +201,16 @@ Session::Session(Overflow overflow) : outermost_(sessions++ == 0) {
 }
 
 Session::~Session() {
-  if (outermost_) writer().end();
+  if (outermost_) {
+    repeated().tell_left_out([](std::string_view path, std::string_view text, std::uint64_t left_out) {
+      std::array<char, longest_line> line, room;
+      const auto end = fmt::format_to_n(line.data(), line.size(),
+                                        "{}{}  {} more like this were not printed: {}\n",
+                                        journal_level(LogLevel::info), path, left_out, printable(text, room));
+      writer().put(cut(line, end.size));
+    });
+    writer().end();
+  }
   --sessions;
 }
 
@@ -202,11 +218,17 @@ std::uint64_t Session::settle() { return writer().settle(); }
 
 void print(LogLevel level, Time time, std::string_view path, std::string_view text) {
   if (silent.load(std::memory_order_relaxed)) return;
+  RepeatedLines::Turn turn;
+  if (level != LogLevel::info) turn = repeated().next(static_cast<int>(level), path, text);
+  if (!turn.printed) return;
+  std::array<char, 32> times{};
+  if (turn.count > 1) fmt::format_to_n(times.data(), times.size() - 1, " ({} times)", turn.count);
   std::array<char, longest_line> line, room;  // text of user code, too
   const char* mark = level == LogLevel::info ? "" : level == LogLevel::warning ? "warning: " : "error: ";
   const auto end =
-      fmt::format_to_n(line.data(), line.size(), "{}{}{:.3f} s  {}  {}{}\n", journal_level(level),
-                       erase_progress(), seconds(time.time_since_epoch()), path, mark, printable(text, room));
+      fmt::format_to_n(line.data(), line.size(), "{}{}{:.3f} s  {}  {}{}{}\n", journal_level(level),
+                       erase_progress(), seconds(time.time_since_epoch()), path, mark, printable(text, room),
+                       times.data());
   writer().put(cut(line, end.size));
 }
 

@@ -38,6 +38,8 @@ class Session {
   bool outermost_;
 };
 
+/// Warnings and errors that differ in their numbers only are counted after the third: the 10th, the 100th and so
+/// on are printed with the count, and the outermost Session says at its end how many were not.
 void print(LogLevel level, Time time, std::string_view path, std::string_view text);
 /// Prints the text unchanged, line by line.
 void say(std::string_view text);

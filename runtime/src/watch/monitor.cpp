@@ -302,6 +302,7 @@ std::optional<Problem> Monitor::execute(const SimulationCommand& command) {
 }
 
 std::optional<Problem> Monitor::execute(const commands::SetParameter& command) {
+  if (command.only_try) return assembly_.changes->try_out(command.path, command.value);
   return assembly_.changes->ask(command.path, command.value);
 }
 

@@ -106,6 +106,7 @@ namespace commands {
 struct Malformed {};
 struct SetParameter {
   std::string path, value;
+  bool only_try = false;  ///< the answer says whether the value fits; nothing changes
 };
 /// The input of an operator, or of one who lets go.
 struct FeedPanel {

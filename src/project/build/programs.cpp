@@ -68,7 +68,7 @@ fs::path keep_program(const fs::path& state, const fs::path& built, const std::s
     fs::create_directories(folder);
     fs::path beside = kept;
     beside += fmt::format(".{}", getpid());
-    fs::copy_file(built, beside, fs::copy_options::overwrite_existing);
+    copy_whole(built, beside);
     fs::rename(beside, kept);
   }
   utimensat(AT_FDCWD, kept.c_str(), nullptr, 0);  // used now

@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cerrno>
 #include <cstring>
@@ -64,6 +65,44 @@ void write_file(const fs::path& file, std::string_view text) {
   if (wrong == 0) return;
   unlink(beside.c_str());
   fail(file, wrong);
+}
+
+namespace {
+
+/// Returns an error number; 0: all bytes are copied.
+int copy_bytes(int from, int to) {
+  std::array<char, std::size_t{1} << 16U> block;
+  for (;;) {
+    const ssize_t count = ::read(from, block.data(), block.size());
+    if (count < 0 && errno == EINTR) continue;
+    if (count < 0) return errno;
+    if (count == 0) return 0;
+    if (!write_all(to, {block.data(), static_cast<std::size_t>(count)})) return errno;
+  }
+}
+
+}  // namespace
+
+// std::filesystem::copy_file reports a full disk as an "Input/output error".
+void copy_whole(const fs::path& from, const fs::path& to) {
+  const int source = open(from.c_str(), O_RDONLY | O_CLOEXEC);
+  if (source < 0)
+    throw std::runtime_error(fmt::format("cannot read {}: {}", from.string(), std::strerror(errno)));
+  struct stat status {};
+  int wrong = fstat(source, &status) == 0 ? 0 : errno;
+  if (wrong == 0 && unlink(to.c_str()) != 0 && errno != ENOENT) wrong = errno;
+  const int target = wrong != 0 ? -1
+                                : open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
+                                       status.st_mode & 07777U);
+  if (wrong == 0 && target < 0) wrong = errno;
+  if (target >= 0) {
+    wrong = copy_bytes(source, target);
+    if (wrong == 0 && fchmod(target, status.st_mode & 07777U) != 0) wrong = errno;
+    if (close(target) != 0 && wrong == 0) wrong = errno;
+    if (wrong != 0) unlink(to.c_str());
+  }
+  close(source);
+  if (wrong != 0) fail(to, wrong);
 }
 
 std::string hash_of(std::string_view text) {

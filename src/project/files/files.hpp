@@ -17,6 +17,12 @@ namespace tessera::project {
 /// Threads: any.
 void write_file(const std::filesystem::path& file, std::string_view text);
 
+/// Copies bytes and mode. Replaces `to`, which is removed again if it cannot be written whole.
+///
+/// Errors:  throws std::runtime_error with the path and the reason, such as a full disk.
+/// Threads: any.
+void copy_whole(const std::filesystem::path& from, const std::filesystem::path& to);
+
 /// All of it. false: errno says why.
 [[nodiscard]] bool write_all(int descriptor, std::string_view text);
 

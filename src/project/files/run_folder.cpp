@@ -228,7 +228,7 @@ fs::path RunFolder::own_copy_of(const fs::path& program) const {
   const fs::path own = path_ / "controller";
   std::error_code problem;
   fs::create_hard_link(program, own, problem);
-  if (problem) fs::copy_file(program, own);  // another disk, or another user's file
+  if (problem) copy_whole(program, own);  // another disk, or another user's file
   return own;
 }
 

@@ -43,6 +43,7 @@ Json json_of(const WorldOption& option) {
 Json json_of(const DriverRequest& request) {
   Json driver{{"path", request.path}, {"kind", request.kind}, {"targets", request.targets}};
   for (const auto& [name, option] : request.options) driver["options"][name] = json_of(option);
+  if (!request.units.empty()) driver["units"] = request.units;
   return driver;
 }
 
@@ -85,14 +86,32 @@ Json json_of(const checks::Measure& measure) {
   return {{"number", checks::text_of(measure.number)}, {"unit", measure.unit}};
 }
 
+bool has_unit(const spec::Model& model, const spec::Type& type) {
+  if (type.kind != spec::Type::Kind::structure) return !type.unit.empty();
+  return std::ranges::any_of(model.structures[type.structure].fields,
+                             [&](const spec::Field& field) { return has_unit(model, field.type); });
+}
+
+/// One for each scalar, in the order of the layout.
+void add_units(const spec::Model& model, const spec::Type& type, std::vector<std::string>& units) {
+  for (std::size_t element = 0; element < std::max<std::size_t>(type.extent, 1); ++element)
+    if (type.kind == spec::Type::Kind::structure)
+      for (const spec::Field& field : model.structures[type.structure].fields)
+        add_units(model, field.type, units);
+    else
+      units.push_back(type.unit);
+}
+
 }  // namespace
 
 DriverRequest request_of(const spec::Model& model, const spec::Driver& driver) {
   DriverRequest request{.path = model.driver_path(driver), .kind = driver.kind, .targets = {}, .options = {}};
   for (const spec::Driver::Target& target : driver.targets) request.targets.push_back(target.name);
   for (const auto& [name, option] : driver.options) request.options.emplace(name, option_of(option));
-  if (driver.real.valid())
-    request.type = model.layout_of(model.subsystem(driver.instance).real[driver.real].type);
+  if (!driver.real.valid()) return request;
+  const spec::Type& type = model.subsystem(driver.instance).real[driver.real].type;
+  request.type = model.layout_of(type);
+  if (has_unit(model, type)) add_units(model, type, request.units);
   return request;
 }
 

@@ -114,13 +114,13 @@ class Packing {
  private:
   void put_programs(const fs::path& own) {
     fs::create_directories(own);
-    fs::copy_file(controller_.program, own / "controller");
+    copy_whole(controller_.program, own / "controller");
     std::vector<fs::path> files{own / "controller"};
     const auto add = [&](const char* library) {
       const fs::path from = options_.libraries / library;
       if (!fs::exists(from))
         throw std::runtime_error(fmt::format("this installation has no {}", from.string()));
-      fs::copy_file(from, own / library);
+      copy_whole(from, own / library);
       files.push_back(own / library);
     };
     if (model_.deployment) add(carrier_library_name);
@@ -128,7 +128,7 @@ class Packing {
       add(ros2_drivers_name);
     needs_ = libraries_of(files, options_.architecture.empty());
     for (const fs::path& library : needs_.foreign)
-      fs::copy_file(fs::canonical(library), own / library.filename());
+      copy_whole(fs::canonical(library), own / library.filename());
   }
 
   [[nodiscard]] std::vector<ServiceUnit> units_here() const {

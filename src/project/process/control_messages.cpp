@@ -174,7 +174,9 @@ json json_of(const command::Recording&) { return {{"command", "recording"}}; }
 json json_of(const command::Scene& scene) { return {{"command", "scene"}, {"from", scene.from}}; }
 json json_of(const command::Own&) { return {{"command", "own"}}; }
 json json_of(const command::Set& set) {
-  return {{"command", "set"}, {"path", set.path}, {"value", set.value}};
+  json object{{"command", "set"}, {"path", set.path}, {"value", set.value}};
+  if (set.only_try) object["try"] = true;
+  return object;
 }
 json json_of(const command::Panel& panel) {
   json object{{"command", "panel"}, {"path", panel.path}, {"operator", panel.who}};

@@ -124,6 +124,7 @@ struct Scene {
 struct Own {};
 struct Set {
   std::string path, value;
+  bool only_try = false;  ///< whether the value fits; nothing changes
 };
 /// An input of an operator for the panel of a real buffer.
 struct Panel {

@@ -89,14 +89,14 @@ class Cutter {
     const std::string_view digits = text_.substr(position_, end - position_);
     const std::string_view suffix = suffix_of(digits);
     if (is_duration_unit(suffix)) return token(Token::Kind::duration, end);
-    if (si_factor(suffix)) return token(Token::Kind::quantity, with_divisor(suffix, end));
+    if (read_unit(suffix)) return token(Token::Kind::quantity, with_divisor(suffix, end));
     std::size_t unit = end;
     while (is_blank(at(unit))) ++unit;
     if (unit == end || !begins_name(at(unit)) || !suffix.empty()) return token(Token::Kind::number, end);
     const std::size_t unit_end = end_of_name(unit);
     const std::string_view name = text_.substr(unit, unit_end - unit);
     if (is_duration_unit(name)) return token(Token::Kind::duration, unit_end);
-    if (!si_factor(name)) return token(Token::Kind::number, end);
+    if (!read_unit(name)) return token(Token::Kind::number, end);
     return token(Token::Kind::quantity, with_divisor(name, unit_end));
   }
 
@@ -108,7 +108,7 @@ class Cutter {
   [[nodiscard]] std::size_t with_divisor(std::string_view unit, std::size_t end) const {
     if (at(end) != '/') return end;
     const std::size_t longer = end_of_name(end + 1);
-    return si_factor(text_.substr(end - unit.size(), longer - end + unit.size())) ? longer : end;
+    return read_unit(text_.substr(end - unit.size(), longer - end + unit.size())) ? longer : end;
   }
 
   /// "ms" of "500ms"; empty: a plain number, or a suffix of C++ is no unit.

@@ -1,9 +1,8 @@
 #include "spec/values/quantities.hpp"
 
+#include <algorithm>
 #include <array>
-#include <charconv>
 #include <cmath>
-#include <numbers>
 #include <span>
 #include <string>
 
@@ -15,29 +14,27 @@ namespace {
 
 using diagnostics::in_quotes;
 
-struct Unit {
-  std::string_view name;
-  double factor;
-};
-
-constexpr std::array time_units = {Unit{"ns", 1},  Unit{"us", 1e3},   Unit{"\u00b5s", 1e3}, Unit{"ms", 1e6},
-                                   Unit{"s", 1e9}, Unit{"min", 6e10}, Unit{"h", 3.6e12}};
-constexpr std::array rate_units = {Unit{"Hz", 1}, Unit{"kHz", 1e3}};
-constexpr std::array length_units = {Unit{"m", 1}, Unit{"cm", 1e-2}, Unit{"mm", 1e-3}, Unit{"", 1}};
-constexpr std::array angle_units = {Unit{"deg", std::numbers::pi / 180}, Unit{"rad", 1}};
+/// The units that people write for each quantity; tessera/units.hpp has their values.
+constexpr auto time_units = std::to_array<std::string_view>({"ns", "us", "\u00b5s", "ms", "s", "min", "h"});
+constexpr auto rate_units = std::to_array<std::string_view>({"Hz", "kHz"});
+constexpr auto length_units = std::to_array<std::string_view>({"m", "cm", "mm"});
+constexpr auto angle_units = std::to_array<std::string_view>({"deg", "rad"});
 
 constexpr double longest_time_ns = 24 * 3.6e12;
 constexpr double lowest_rate_hz = 0.001;
 constexpr double highest_rate_hz = 100e3;
 
-std::string_view trimmed(std::string_view text) {
-  const std::size_t first = text.find_first_not_of(" \t\r\n");
-  if (first == std::string_view::npos) return {};
-  return text.substr(first, text.find_last_not_of(" \t\r\n") - first + 1);
+/// "ns, us, ms": those of them that every keyboard has.
+std::string listed(std::span<const std::string_view> units) {
+  std::string known;
+  for (const std::string_view unit : units)
+    if (static_cast<unsigned char>(unit[0]) < 0x80) known += (known.empty() ? "" : ", ") + std::string(unit);
+  return known;
 }
 
-/// Reads a number with one of `units`. like: how to write it, e.g. "200 ms".
-std::optional<double> read(const Node& node, Span at, std::string_view what, std::span<const Unit> units,
+/// Reads a number with one of `units`, in `in`. like: how to write it, e.g. "200 ms".
+std::optional<double> read(const Node& node, Span at, std::string_view what,
+                           std::span<const std::string_view> units, std::string_view in,
                            const std::string& like, Diagnostics& out) {
   const Node* text = text_of(node, at, what, out, "for example " + like);
   if (text == nullptr) return std::nullopt;
@@ -48,18 +45,13 @@ std::optional<double> read(const Node& node, Span at, std::string_view what, std
               "for example " + like);
     return std::nullopt;
   }
-  for (const Unit& unit : units) {
-    if (unit.name == quantity->unit) return quantity->number * unit.factor;
-  }
-  std::string known;
-  for (const Unit& unit : units) {
-    if (!unit.name.empty()) known += (known.empty() ? "" : ", ") + std::string(unit.name);
-  }
+  if (std::ranges::find(units, quantity->unit) != units.end())
+    return converted(quantity->number, quantity->unit, in);
   const bool bare = quantity->unit.empty();
   out.error("E205", text->span,
             bare ? std::string(what) + " needs a unit"
                  : "unknown unit " + in_quotes(quantity->unit) + " of " + std::string(what),
-            "write one of " + known + "; for example " + like);
+            "write one of " + listed(units) + "; for example " + like);
   return std::nullopt;
 }
 
@@ -74,24 +66,8 @@ Duration nanoseconds(double value) { return Duration(static_cast<Duration::rep>(
 
 }  // namespace
 
-std::optional<Quantity> split_quantity(std::string_view text) {
-  text = trimmed(text);
-  const bool plus = text.starts_with('+');
-  const std::string_view digits = text.substr(plus ? 1 : 0);
-  // from_chars also accepts "inf", "nan" and similar texts.
-  const std::size_t first = digits.find_first_not_of("-.");
-  if (first == std::string_view::npos || digits[first] < '0' || digits[first] > '9') return std::nullopt;
-  Quantity result;
-  const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), result.number);
-  if (error != std::errc() || !std::isfinite(result.number)) return std::nullopt;
-  const auto length = static_cast<std::size_t>(end - digits.data());
-  result.digits = digits.substr(0, length);
-  result.unit = trimmed(digits.substr(length));
-  return result;
-}
-
 std::optional<Duration> read_duration(const Node& node, Span at, std::string_view what, Diagnostics& out) {
-  auto value = read(node, at, what, time_units, "200 ms", out);
+  auto value = read(node, at, what, time_units, "ns", "200 ms", out);
   if (!value) return std::nullopt;
   value = in_range(value, *value > 0, node, std::string(what) + " must be longer than zero", out);
   if (!value) return std::nullopt;
@@ -101,7 +77,7 @@ std::optional<Duration> read_duration(const Node& node, Span at, std::string_vie
 }
 
 std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out) {
-  auto value = read(node, at, "a rate", rate_units, "20 Hz", out);
+  auto value = read(node, at, "a rate", rate_units, "Hz", "20 Hz", out);
   if (!value) return std::nullopt;
   value = in_range(value, *value > 0, node, "a rate must be positive", out);
   if (!value) return std::nullopt;
@@ -112,7 +88,9 @@ std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out) {
 
 std::optional<double> read_length(const Node& node, Span at, std::string_view what, Diagnostics& out) {
   constexpr double longest_m = 1e6;
-  const auto value = read(node, at, what, length_units, "8 mm", out);
+  const auto bare = node.is_scalar() ? split_quantity(node.text) : std::nullopt;
+  const auto value = bare && bare->unit.empty() ? std::optional(bare->number)
+                                                : read(node, at, what, length_units, "m", "8 mm", out);
   return in_range(value, value && std::abs(*value) <= longest_m, node,
                   std::string(what) + " is longer than 1000 km", out);
 }
@@ -122,52 +100,13 @@ std::optional<double> read_angle(const Node& node, Span at, std::string_view wha
     const auto quantity = split_quantity(node.text);
     if (quantity && quantity->number == 0 && quantity->unit.empty()) return 0.0;
   }
-  return read(node, at, what, angle_units, "90 deg", out);
+  return read(node, at, what, angle_units, "rad", "90 deg", out);
 }
-
-namespace {
-
-struct Quantities {
-  std::string_view base;
-  double in_base;  ///< of the units' own factors
-  std::span<const Unit> units;
-};
-constexpr std::array quantities = {Quantities{"m", 1, length_units}, Quantities{"rad", 1, angle_units},
-                                   Quantities{"s", 1e-9, time_units}, Quantities{"Hz", 1, rate_units}};
-
-}  // namespace
-
-std::optional<double> si_factor(std::string_view unit) {
-  if (const std::size_t slash = unit.find('/'); slash != std::string_view::npos) {
-    const auto way = si_factor(unit.substr(0, slash)), time = si_factor(unit.substr(slash + 1));
-    return way && time ? std::optional(*way / *time) : std::nullopt;
-  }
-  for (const Quantities& one : quantities)
-    for (const Unit& known : one.units)
-      if (!unit.empty() && known.name == unit) return known.factor * one.in_base;
-  return std::nullopt;
-}
-
-namespace {
-
-/// "m/s" for "cm/min"; empty: there is no such unit.
-std::string si_unit(std::string_view unit) {
-  if (const std::size_t slash = unit.find('/'); slash != std::string_view::npos) {
-    const std::string way = si_unit(unit.substr(0, slash)), time = si_unit(unit.substr(slash + 1));
-    return way.empty() || time.empty() ? "" : way + "/" + time;
-  }
-  for (const Quantities& one : quantities)
-    for (const Unit& known : one.units)
-      if (!unit.empty() && known.name == unit) return std::string(one.base);
-  return "";
-}
-
-}  // namespace
 
 std::optional<SiQuantity> in_si(const Quantity& quantity) {
-  const auto factor = si_factor(quantity.unit);
-  if (!factor) return std::nullopt;
-  return SiQuantity{quantity.number * *factor, si_unit(quantity.unit)};
+  const std::optional<Unit> unit = read_unit(quantity.unit);
+  if (!unit) return std::nullopt;
+  return SiQuantity{quantity.number * unit->above / unit->below, si_name(*unit)};
 }
 
 std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
@@ -180,14 +119,12 @@ std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::st
     return std::nullopt;
   }
   if (quantity->unit.empty()) return BaseQuantity{quantity->number, ""};
+  if (const std::optional<Unit> unit = simple_unit(quantity->unit))
+    return BaseQuantity{quantity->number * unit->above / unit->below, si_name(*unit)};
+  constexpr std::array<std::span<const std::string_view>, 4> quantities{length_units, angle_units, time_units,
+                                                                        rate_units};
   std::string known;
-  for (const Quantities& one : quantities)
-    for (const Unit& unit : one.units) {
-      if (unit.name == quantity->unit)
-        return BaseQuantity{quantity->number * unit.factor * one.in_base, one.base};
-      if (!unit.name.empty() && static_cast<unsigned char>(unit.name[0]) < 0x80)
-        known += (known.empty() ? "" : ", ") + std::string(unit.name);
-    }
+  for (const auto units : quantities) known += (known.empty() ? "" : ", ") + listed(units);
   out.error("E205", text->span, "unknown unit " + in_quotes(quantity->unit) + " of " + std::string(what),
             "write one of " + known);
   return std::nullopt;

@@ -6,19 +6,10 @@
 
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"
+#include "tessera/units.hpp"
 
 /// Numbers with units as people write them: "200 ms", "20 Hz", "90 deg", "8 mm".
 namespace tessera::spec {
-
-/// A number and the text after it, trimmed.
-struct Quantity {
-  double number = 0;
-  std::string_view digits;  ///< the number as written
-  std::string_view unit;
-};
-
-/// nullopt if the text does not begin with a finite decimal number.
-[[nodiscard]] std::optional<Quantity> split_quantity(std::string_view text);
 
 /// at: position for a complaint about a missing value; what: the quantity in words, e.g. "timeout".
 /// Errors: E205 no number or an unknown unit; E206 zero, negative or absurd.
@@ -35,15 +26,12 @@ struct Quantity {
 /// A number in the base unit of its quantity: m, rad, s or Hz; empty: the number has no unit.
 struct BaseQuantity {
   double number = 0;
-  std::string_view unit;
+  std::string unit;
 };
 /// A number of any quantity, with or without a unit. Errors: E205 an unknown unit.
 [[nodiscard]] std::optional<BaseQuantity> read_any_quantity(const Node& node, Span at, std::string_view what,
                                                             Diagnostics& out);
-/// The value of a unit of a length, an angle, a time, a rate or a speed ("m/s") in m, rad, s, Hz or m/s.
-/// nullopt: there is no such unit.
-[[nodiscard]] std::optional<double> si_factor(std::string_view unit);
-/// A quantity in the base unit of its kind: m, rad, s, Hz, m/s. nullopt: there is no such unit.
+/// A quantity in the SI unit of its kind: m, rad, s, Hz, m/s, m/s^2. nullopt: its unit is not known.
 struct SiQuantity {
   double number = 0;
   std::string unit;

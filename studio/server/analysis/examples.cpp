@@ -6,6 +6,7 @@
 #include <system_error>
 
 #include "project/files/file_names.hpp"
+#include "project/files/files.hpp"
 
 namespace tessera::server {
 
@@ -77,9 +78,14 @@ Begun begin_with(const fs::path& examples, const std::string& name, const fs::pa
       return begun;
     }
     fs::create_directories(to.parent_path(), problem);
-    if (problem ||
-        !fs::copy_file(example->second / file, to, fs::copy_options::overwrite_existing, problem)) {
+    if (problem) {
       begun.problem = Problem{to.string() + ": " + problem.message()};
+      return begun;
+    }
+    try {
+      project::copy_whole(example->second / file, to);
+    } catch (const std::runtime_error& failure) {
+      begun.problem = Problem{failure.what()};
       return begun;
     }
     begun.files.push_back(file.generic_string());

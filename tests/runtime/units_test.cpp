@@ -1,10 +1,10 @@
-#include "spec/values/unit_conversion.hpp"
+#include "tessera/units.hpp"
 
 #include <gtest/gtest.h>
 
 #include <string>
 
-namespace tessera::spec {
+namespace tessera {
 namespace {
 
 TEST(Units, OfTheSameQuantityAreConverted) {
@@ -21,7 +21,7 @@ TEST(Units, OfTheSameQuantityAreConverted) {
         Case{"2 m^-1", "1/cm", 0.02}, Case{"250 ms", "s", 0.25}, Case{"1 m/s*s", "cm", 100}}) {
     const auto quantity = split_quantity(one.given);
     ASSERT_TRUE(quantity) << one.given;
-    const auto number = converted(*quantity, one.unit);
+    const auto number = converted(quantity->number, quantity->unit, one.unit);
     ASSERT_TRUE(number) << one.given << " in " << one.unit;
     EXPECT_DOUBLE_EQ(*number, one.number) << one.given << " in " << one.unit;
   }
@@ -38,9 +38,9 @@ TEST(Units, OfAnotherQuantityOrUnknownOnesAreNotConverted) {
                                     {"3 m s", "m"}}) {
     const auto quantity = split_quantity(given);
     ASSERT_TRUE(quantity) << given;
-    EXPECT_FALSE(converted(*quantity, unit)) << given << " in " << unit;
+    EXPECT_FALSE(converted(quantity->number, quantity->unit, unit)) << given << " in " << unit;
   }
 }
 
 }  // namespace
-}  // namespace tessera::spec
+}  // namespace tessera

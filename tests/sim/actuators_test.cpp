@@ -43,6 +43,23 @@ TEST(Actuators, RefuseWhatIsBeyondTheirRangeOrClampIt) {
   EXPECT_NEAR(read_as<double>(*angle), 1.5, 0.02);
 }
 
+TEST(Actuators, CommandsAndReadingsAreConvertedToTheDeclaredUnit) {
+  const auto world = open_text("units", workshop);
+  using Two = std::array<double, 2>;
+  DriverRequest command{"a.m.c", "actuator", {"shoulder", "wrist"}, {}};
+  command.units = {"deg", "mm"};
+  EXPECT_TRUE(write_as(*effector<Two>(*world, std::move(command)), Two{60.0, 50.0}));
+  world->advance_to(Time(3s));
+  DriverRequest reading{"a.s.p", "joint_position", {"shoulder", "wrist"}, {}};
+  const Two bare = read_as<Two>(*receptor<Two>(*world, reading));
+  EXPECT_NEAR(bare[0], 1.047, 0.02) << "60 deg in rad";
+  EXPECT_NEAR(bare[1], 0.05, 0.005) << "50 mm in m";
+  reading.units = {"deg", "cm"};
+  const Two declared = read_as<Two>(*receptor<Two>(*world, reading));
+  EXPECT_DOUBLE_EQ(declared[0], bare[0] * 180 / std::acos(-1.0));
+  EXPECT_DOUBLE_EQ(declared[1], bare[1] * 100);
+}
+
 TEST(Actuators, AListIsTakenAsAWholeOrNotAtAll) {
   const auto world = open_text("whole", workshop);
   const auto both = effector<std::array<double, 2>>(*world, {"a.m.c", "actuator", {"shoulder", "wrist"}, {}});

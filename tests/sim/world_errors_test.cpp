@@ -147,5 +147,19 @@ TEST(WorldErrors, AnErrorOfTheEngineWhileLoadingDoesNotEndTheProcess) {
   EXPECT_THAT(error, HasSubstr("tack overflow"));
 }
 
+TEST(WorldErrors, AFileOfTheWorldThatIsMissingIsNamedWithTheLine) {
+  const auto problem = [](const std::string& mjcf) {
+    const std::string file = file_with("missing.xml", mjcf);
+    std::string error;
+    EXPECT_EQ(open_world({.world = file}, error), nullptr);
+    return error;
+  };
+  EXPECT_THAT(problem("<mujoco>\n  <worldbody/>\n  <include file='gone.xml'/>\n</mujoco>"),
+              ::testing::AllOf(HasSubstr("there is no file "), HasSubstr("gone.xml, which an <include> names (line 3)")));
+  EXPECT_THAT(problem("<mujoco>\n  <asset><mesh name='m' file='gone.stl'/></asset>\n  <worldbody>\n"
+                      "    <geom type='mesh' mesh='m'/></worldbody>\n</mujoco>"),
+              ::testing::AllOf(HasSubstr("the file "), HasSubstr("gone.stl cannot be opened (line 2)")));
+}
+
 }  // namespace
 }  // namespace tessera::testing

@@ -189,12 +189,16 @@ std::string explained(const std::string& engine_message) {
   static const std::regex bad_include("Include error.*Error=XML_ERROR_([A-Z_]*) .*Line number=([0-9]+)");
   static const std::regex no_file("could not open (?:[A-Z]+ )?file '([^']*)'.*line = ([0-9]+)");
   const Where where = where_in(engine_message);
+  const std::string line = on_one_line(engine_message);
   std::smatch found;
-  if (std::regex_search(engine_message, found, no_include))
-    return "there is no file " + found[1].str() + ", which an <include> names" + where.line;
-  if (std::regex_search(engine_message, found, bad_include))
+  if (std::regex_search(line, found, no_include)) {
+    std::string file = found[1].str();
+    file.erase(file.find_last_not_of(' ') + 1);
+    return "there is no file " + file + ", which an <include> names" + where.line;
+  }
+  if (std::regex_search(line, found, bad_include))
     return "the file of an <include>" + where.line + " is no well-formed XML: in its line " + found[2].str();
-  if (std::regex_search(engine_message, found, no_file))
+  if (std::regex_search(line, found, no_file))
     return "the file " + found[1].str() + " cannot be opened (line " + found[2].str() + ")";
   if (engine_message.find("model type: 'mujocoinclude'") != std::string::npos)
     return "is a part for an <include>, no model of its own: open the file that includes it";

@@ -24,11 +24,10 @@ constexpr double longest_time_ns = 24 * 3.6e12;
 constexpr double lowest_rate_hz = 0.001;
 constexpr double highest_rate_hz = 100e3;
 
-/// "ns, us, ms": those of them that every keyboard has.
+/// "ns, us, ms"
 std::string listed(std::span<const std::string_view> units) {
   std::string known;
-  for (const std::string_view unit : units)
-    if (static_cast<unsigned char>(unit[0]) < 0x80) known += (known.empty() ? "" : ", ") + std::string(unit);
+  for (const std::string_view unit : units) known += (known.empty() ? "" : ", ") + std::string(unit);
   return known;
 }
 

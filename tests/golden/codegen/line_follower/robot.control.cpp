@@ -20,8 +20,8 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
   void bind(tessera::Bindings& bindings) override {
     bindings.input("line", in.line);
     bindings.output("motion", out.motion);
-    bindings.parameter("v", parameters.v);
-    bindings.parameter("w", parameters.w);
+    bindings.parameter("v", parameters.v, {.unit = "m/s"});
+    bindings.parameter("w", parameters.w, {.unit = "rad/s"});
   }
 
   void call(std::uint16_t behaviour) override {

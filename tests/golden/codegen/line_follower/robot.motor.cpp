@@ -21,10 +21,10 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
     bindings.real_output("left", out.left, double{0.0});
     bindings.real_output("right", out.right, double{0.0});
     bindings.input("velocity", in.velocity);
-    bindings.parameter("v", parameters.v);
-    bindings.parameter("w", parameters.w);
-    bindings.parameter("r", parameters.r);
-    bindings.parameter("b", parameters.b);
+    bindings.parameter("v", parameters.v, {.unit = "m/s"});
+    bindings.parameter("w", parameters.w, {.unit = "rad/s"});
+    bindings.parameter("r", parameters.r, {.unit = "m"});
+    bindings.parameter("b", parameters.b, {.unit = "m"});
   }
 
   void call(std::uint16_t) override { yours::drive(context_, in, memory, out); }

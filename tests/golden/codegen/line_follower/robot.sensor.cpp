@@ -22,8 +22,8 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
     bindings.real_input("middle", in.middle);
     bindings.real_input("right", in.right);
     bindings.output("line", out.line);
-    bindings.parameter("v", parameters.v);
-    bindings.parameter("w", parameters.w);
+    bindings.parameter("v", parameters.v, {.unit = "m/s"});
+    bindings.parameter("w", parameters.w, {.unit = "rad/s"});
     bindings.parameter("threshold", parameters.threshold);
   }
 

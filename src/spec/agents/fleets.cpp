@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
+#include <string>
+#include <string_view>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/definitions.hpp"
@@ -14,6 +17,18 @@ namespace {
 using diagnostics::in_quotes;
 
 constexpr std::uint32_t largest_fleet = 100'000;
+/// A net of so many agents takes a quarter of a gigabyte.
+constexpr std::size_t usual_most_agents = 10'000;
+constexpr const char* most_agents_variable = "TESSERA_MOST_AGENTS";
+
+std::size_t most_agents() {
+  const char* const given = std::getenv(most_agents_variable);
+  if (given == nullptr) return usual_most_agents;
+  const std::string_view text = given;
+  std::size_t most = 0;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), most);
+  return error == std::errc() && stop == text.data() + text.size() ? most : usual_most_agents;
+}
 
 std::uint32_t read_count(const Entry& entry, Diagnostics& out) {
   const Node* text = text_of(*entry.value, entry.span, "count", out, "write a number of agents");
@@ -68,11 +83,25 @@ class Builder {
     if (const Entry* count = section.find("count")) {
       group.fleet = true;
       group.count = read_count(*count, out_);
+      limit(group.count, count->value->span);
     }
     if (const Entry* ring = section.find("ring")) {
       group.ring = bool_of(*ring, "ring", out_);
       if (!group.fleet) out_.error("E103", ring->span, "'ring' needs 'count'", "for example count: 50");
     }
+  }
+
+  /// The whole system has at most most_agents().
+  void limit(std::uint32_t& count, Span span) {
+    const std::size_t most = most_agents(), all = model_.agents.size() + count;
+    if (all <= most) return;
+    out_.error("E206", span,
+               "the system has " + std::to_string(all) + " agents with these, and Tessera takes at most " +
+                   std::to_string(most),
+               std::string(most_agents_variable) + "=" + std::to_string(all) +
+                   " in the environment raises the limit; a net takes about 25 MB for 1000 agents");
+    const std::size_t left = most > model_.agents.size() ? most - model_.agents.size() : 1;
+    count = static_cast<std::uint32_t>(std::max<std::size_t>(left, 1));
   }
 
   void create(const AgentGroup& group, Span span) {

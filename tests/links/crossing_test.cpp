@@ -109,6 +109,48 @@ TEST(Crossing, ANonBlockingSenderIsNeverHeldUpAndTheNewestValueArrives) {
   EXPECT_GT(crossing.read.back(), 1'900) << "the newest is repeated until it was taken";
 }
 
+/// A sender that writes its output from its fourth iteration on, and begins again in the middle of the run.
+TEST(Crossing, AnOutputThatWasNotWrittenSinceTheStartOfItsProcessIsInvalid) {
+  TestSystem system;
+  Script sender{.call =
+                    [](ScriptState& state) {
+                      if (state.context.iteration >= 3) state.out_x = 7;
+                    },
+                .writes = false};
+  struct Seen {
+    double value;
+    bool fresh, valid, failed;
+    Duration age;
+  };
+  std::vector<Seen> seen;
+  Script receiver{.call = [&](ScriptState& state) {
+    const auto& x = state.x;
+    seen.push_back({x, x.fresh, x.valid, x.failed, x.age});
+  }};
+  const auto from = system.add("robot.talk", nets::far_nb_sender, sender, 10ms);
+  const auto to = system.add("base.listen", nets::far_nb_receiver, receiver, 10ms);
+  system.connect(from, "x", to, "x", networked, 0s, 0s);
+  system.deploy({0, 1});
+  RunOptions options = over("delay=1ms", {"process:p0:restart=200ms@1s"});
+  options.duration = 2s;
+  EXPECT_FALSE(run(system, options).failed);
+  std::vector<Seen> invalid;
+  for (const Seen& one : seen) {
+    EXPECT_FALSE(one.valid && one.failed);
+    if (one.valid) EXPECT_EQ(one.value, 7);
+    if (!one.failed) continue;
+    EXPECT_FALSE(one.fresh);
+    invalid.push_back(one);
+  }
+  ASSERT_GE(invalid.size(), 4U) << "after both starts";
+  EXPECT_EQ(invalid.front().value, 0);
+  EXPECT_EQ(invalid.front().age, Duration::max());
+  EXPECT_EQ(invalid.back().value, 7) << "the last valid value stays";
+  EXPECT_GT(invalid.back().age, 200ms);
+  EXPECT_LT(invalid.back().age, 2s);
+  EXPECT_TRUE(seen.back().valid && seen.back().fresh);
+}
+
 TEST(Crossing, WhoNeverWaitsReadsTheLatest) {
   Crossing skips(nets::far_b_sender_timed, nets::far_nb_receiver, networked, 500, 20ms, 7ms, 100ms);
   EXPECT_EQ(run(skips.system, over(bad)).ended, "stopped: enough");

@@ -48,6 +48,10 @@ class ScriptSubsystem final : public Subsystem {
   }
   void call(std::uint16_t behaviour) override {
     state_.behaviour = behaviour;
+    if (script_.writes) {
+      state_.out_x = state_.out_x.value();
+      state_.out_y = state_.out_y.value();
+    }
     script_.call(state_);
   }
   Outcome decide(std::uint16_t, bool failed) override {

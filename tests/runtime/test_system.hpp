@@ -38,6 +38,7 @@ struct Script {
   std::function<int(const ScriptState&, bool failed)> route = [](const ScriptState&, bool) { return 0; };
   bool senses = false, acts = false;  ///< has a real receptor, a real effector
   bool remembers = false;             ///< has memory
+  bool writes = true;                 ///< `call` follows a write of the present values of x and y
   double safe = -1;
   Bindings::Limits limits{};  ///< of the command
 };

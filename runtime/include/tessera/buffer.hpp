@@ -7,13 +7,17 @@
 namespace tessera {
 
 /// The status of the value in an input buffer.
+///
+/// A value is valid if its producer has written it and did not fail. An invalid value that comes changes only
+/// `valid` and `failed`: the buffer keeps the last valid value, with its stamp and age.
 struct Arrival {
-  bool fresh = false;              ///< new since the last iteration
+  bool fresh = false;              ///< a valid value has come since the last iteration
   bool timed_out = false;          ///< the last receive gave up waiting
-  bool valid = false;              ///< the producer has written it, and its transition function did not fail
-  Time stamp{};                    ///< when the producer wrote it
-  Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first value
+  bool valid = false;              ///< what came last is valid
+  Time stamp{};                    ///< when the producer wrote the last valid value
+  Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first valid value
   bool disconnected = false;       ///< the producer is in another process, which is not reachable
+  bool failed = false;             ///< what came last is invalid: its producer failed, or has not written it
 };
 
 /// The status of the value in an output buffer.
@@ -21,7 +25,22 @@ struct Departure {
   bool timed_out = false;     ///< the last blocking send gave up waiting for its acknowledgement
   Time stamp{};               ///< when it was last written to the channel
   bool disconnected = false;  ///< the consumer is in another process, which is not reachable
+  bool tessera_assigned = false;  ///< it was assigned as a whole since the runtime has reset this
 };
+
+/// Notes that an output was written.
+template <class Status>
+void note_assignment(Status& status) {
+  if constexpr (requires { status.tessera_assigned; }) status.tessera_assigned = true;
+}
+/// An output that is assigned to another gives it its value. An input gives its status too.
+template <class Status>
+void assign_status(Status& status, const Status& other) {
+  if constexpr (requires { status.tessera_assigned; })
+    status.tessera_assigned = true;
+  else
+    status = other;
+}
 
 /// A value with its status. If the value is a structure, its fields and the status are members side by side
 /// (`in.line.left`, `in.line.fresh`); the names of the status are reserved in specifications.
@@ -30,8 +49,15 @@ struct Buffer : T, Status {
   Buffer() : T{}, Status{} {}
   // NOLINTNEXTLINE(google-explicit-constructor): a value is a buffer of it
   Buffer(const T& value) : T(value), Status{} {}
+  Buffer(const Buffer&) = default;
   Buffer& operator=(const T& value) {
     static_cast<T&>(*this) = value;
+    note_assignment<Status>(*this);
+    return *this;
+  }
+  Buffer& operator=(const Buffer& other) {
+    static_cast<T&>(*this) = other;
+    assign_status<Status>(*this, other);
     return *this;
   }
   friend T& payload(Buffer& buffer) { return buffer; }
@@ -42,8 +68,15 @@ template <class T, class Status>
 struct Buffer<T, Status, false> : Status {
   Buffer() = default;
   Buffer(T value) : value_(value) {}  // NOLINT(google-explicit-constructor)
+  Buffer(const Buffer&) = default;
   Buffer& operator=(T value) {
     value_ = value;
+    note_assignment<Status>(*this);
+    return *this;
+  }
+  Buffer& operator=(const Buffer& other) {
+    value_ = other.value_;
+    assign_status<Status>(*this, other);
     return *this;
   }
   Buffer& operator+=(T value) { return *this = static_cast<T>(value_ + value); }

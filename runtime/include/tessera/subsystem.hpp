@@ -16,6 +16,7 @@
 #include "tessera/buffer.hpp"
 #include "tessera/context.hpp"
 #include "tessera/value_encoding.hpp"
+#include "tessera/write_trace.hpp"
 
 namespace tessera {
 
@@ -139,6 +140,7 @@ struct Bindings {
     bool (*finite)(const void* value) = nullptr;         ///< nullptr: always
     void (*fill)(void* value, double number) = nullptr;  ///< fill_floats; nullptr: there are none
     const ValueEncoding* encoding = nullptr;             ///< nullptr: cannot be recorded
+    const WriteTrace* trace = nullptr;                   ///< of its type
   };
   struct RealOutgoing : Outgoing {
     std::shared_ptr<const void> safe;  ///< the safe command, of the same type
@@ -285,6 +287,7 @@ struct Bindings {
   static Outgoing outgoing(std::string_view name, Output<T>& buffer) {
     Outgoing made{name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
     made.encoding = value_encoding_of<T>();
+    made.trace = write_trace_of<T>();
     if constexpr (has_floats<T>()) {
       made.finite = [](const void* at) { return all_finite(*static_cast<const T*>(at)); };
       made.fill = [](void* at, double number) { fill_floats(*static_cast<T*>(at), number); };

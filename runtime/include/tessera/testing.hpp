@@ -92,7 +92,15 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
                                     .valid = true,
                                     .stamp = this->context.now - age,
                                     .age = age,
-                                    .disconnected = false};
+                                    .disconnected = false,
+                                    .failed = false};
+  }
+  /// Makes an invalid value arrive in an input, as from a producer that failed. The input keeps its last
+  /// value and the age of it.
+  template <class T>
+  void receive_invalid(Input<T>& input) {
+    input.fresh = input.valid = false;
+    input.failed = true;
   }
 
   /// A whole iteration of the behaviour: its transition function and its conditions. Returns the behaviour

@@ -61,11 +61,11 @@ void ValueRecorder::write(Buffer& buffer, Time now, std::uint32_t flags, std::sp
   lane_.value(now, buffer.number, flags | ValueFlags::hashed, stamp, std::as_bytes(std::span(numbers)));
 }
 
-void ValueRecorder::input(std::size_t index, Time now, bool newer) {
+void ValueRecorder::input(std::size_t index, Time now, Time written, bool newer) {
   Buffer& buffer = inputs_[index];
   if (buffer.encoding == nullptr) return;
   const Arrival& arrival = *arrivals_[index];
-  const std::array stamp{arrival.stamp.time_since_epoch().count()};
+  const std::array stamp{written.time_since_epoch().count()};
   const auto stamp_bytes = std::as_bytes(std::span(stamp));
   const std::uint32_t flags =
       ValueFlags::stamped | (arrival.valid ? ValueFlags::valid : 0) | (newer ? ValueFlags::fresh : 0);

@@ -26,8 +26,8 @@ class ValueRecorder {
   void call(Time now, std::uint32_t behaviour, std::uint64_t iteration) {
     lane_.call(now, behaviour, iteration);
   }
-  /// newer: than all values that have been read.
-  void input(std::size_t index, Time now, bool newer);
+  /// stamp: of what has been read, which may be invalid. newer: than all that has been read.
+  void input(std::size_t index, Time now, Time stamp, bool newer);
   enum class Reading : std::uint8_t { value, silent, failed };
   void real_input(std::size_t index, Time now, Reading reading);
   /// Records the outputs and the fields of memory that have changed.

@@ -17,6 +17,7 @@ class TestedParts final : public Substitutes {
   std::unique_ptr<Subsystem> subsystem(std::uint32_t instance, std::unique_ptr<Subsystem> own) override {
     return std::make_unique<Watched>(test_, instance, std::move(own));
   }
+  bool scripts(std::uint32_t instance) const override { return test_.instead_[instance] != nullptr; }
   std::unique_ptr<RealReceptor> receptor(const std::string& path) override {
     const auto found = test_.sensed_.find(path);
     return std::make_unique<Sensed>(found == test_.sensed_.end() ? nullptr : found->second);

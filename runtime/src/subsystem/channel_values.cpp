@@ -67,9 +67,7 @@ void ChannelValues::read(std::uint32_t port, std::uint16_t slot, Time now) {
   input.arrival->timed_out = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
   if (memory.sequence == 0 || memory.sequence == state.sequence) return;
-  assign(input.value, memory.bytes.data(), input.size, input.type);
   const bool newer = memory.sequence > state.newest;
-  input.arrival->fresh = input.arrival->fresh || newer;
   state.newest = std::max(state.newest, memory.sequence);
   state.sequence = memory.sequence;
   if (memory.valid && memory.stamp >= control_.valid_from()) {
@@ -77,9 +75,15 @@ void ChannelValues::read(std::uint32_t port, std::uint16_t slot, Time now) {
     state.known = true;
   }
   input.arrival->valid = memory.valid;
-  input.arrival->stamp = memory.stamp;
-  input.arrival->age = age(memory.stamp, now);
-  if (parts_.values != nullptr) parts_.values->input(link.buffer, now, newer);
+  input.arrival->failed = !memory.valid;
+  if (memory.valid) {
+    assign(input.value, memory.bytes.data(), input.size, input.type);
+    state.given = true;
+    input.arrival->fresh = input.arrival->fresh || newer;
+    input.arrival->stamp = memory.stamp;
+    input.arrival->age = age(memory.stamp, now);
+  }
+  if (parts_.values != nullptr) parts_.values->input(link.buffer, now, memory.stamp, newer);
 }
 
 void ChannelValues::note_timeout(std::uint32_t port) {
@@ -102,7 +106,7 @@ void ChannelValues::await_inputs(std::uint16_t behaviour) {
 
 void ChannelValues::refresh_ages(Time now) {
   for (const Input& input : inputs_)
-    if (input.sequence != 0) input.arrival->age = age(input.arrival->stamp, now);
+    if (input.given) input.arrival->age = age(input.arrival->stamp, now);
   for (const PortLink* const port : remote_) {
     const bool disconnected = port->end->disconnected();
     if (port->side == Side::receive)

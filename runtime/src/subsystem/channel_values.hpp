@@ -18,8 +18,9 @@ class ChannelValues {
  public:
   ChannelValues(const SubsystemParts& parts, const RunControl& control);
 
-  /// valid: the transition function that has made the value has not failed.
+  /// valid: the transition function that has made the value has not failed, and the output was ever written.
   void write(std::uint32_t port, std::uint16_t slot, Time now, bool valid);
+  /// An invalid value does not change the buffer, only its status.
   void read(std::uint32_t port, std::uint16_t slot, Time now);
   /// A timeout transition of that port has fired.
   void note_timeout(std::uint32_t port);
@@ -46,7 +47,8 @@ class ChannelValues {
     std::uint64_t newest = 0;    // of all values read
     Time last_valid{};
     InstanceId source{};
-    bool known = false;    // a valid value has come
+    bool given = false;    // a valid value has come
+    bool known = false;    // one that allows commands to devices
     bool used = false;     // some behaviour receives it
     bool awaited = false;  // a behaviour that was called receives it
   };

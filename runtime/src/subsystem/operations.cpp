@@ -36,7 +36,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
       lane_(lane),
       reports_(parts_, control, clock, lane),
       channels_(parts_, control),
-      devices_(parts_, channels_, reports_, control, clock, lane) {
+      devices_(parts_, channels_, reports_, control, clock, lane),
+      written_(parts_) {
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
@@ -75,6 +76,7 @@ void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view wha
   devices_.note_fault(what);
   failed_ = true;
   parts_.subsystem->restore_outputs();
+  written_.undo();
 }
 
 /// The place of the token while that behaviour's transition function runs.
@@ -105,6 +107,7 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   ++calls_;
   channels_.await_inputs(behaviour);
   parts_.subsystem->keep_outputs();
+  written_.keep();
   context_.now = now;
   context_.iteration = iteration_;
   if (std::exchange(has_ended_, false)) began_at_ = now;
@@ -118,7 +121,23 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
     if (!read) return;
   }
   refresh_ages(now);
-  static_cast<void>(survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }));
+  written_.before_call();
+  if (survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }))
+    written_.after_call();
+}
+
+void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
+  const std::uint32_t output = parts_.ports[port].buffer;
+  channels_.write(port, slot, now, !failed_ && written_.has(output));
+  if (failed_ || written_.has(output) || !written_.should_explain(output)) return;
+  const std::string_view name = parts_.bindings.outputs[output].name;
+  std::array<char, 256> text;
+  const auto end = fmt::format_to_n(
+      text.data(), text.size(),
+      "output '{}' is sent as invalid: nothing was written to it, or only fields with the values that they "
+      "began with (if you mean those, assign the whole: out.{} = {{...}})",
+      name, name);
+  reports_.log(LogLevel::info, {text.data(), std::min(end.size, text.size())});
 }
 
 void Operations::fail_late(std::uint64_t missed) {
@@ -169,14 +188,19 @@ void Operations::check_outputs() {
 }
 
 void Operations::read_receptors(Time now) {
+  for (const Bindings::Incoming& input : parts_.bindings.real_inputs) input.arrival->fresh = false;
   for (std::size_t index = 0; index < parts_.receptors.size(); ++index) {
-    const Bindings::Incoming& input = parts_.bindings.real_inputs[index];
-    Arrival& arrival = *input.arrival;
+    Arrival& arrival = *parts_.bindings.real_inputs[index].arrival;
     reading_.store(static_cast<std::uint32_t>(index) + 1, std::memory_order_relaxed);
-    arrival.fresh = read_receptor(index, now);
-    if (!arrival.fresh) continue;
-    arrival.valid = true;
+    const bool was_valid = std::exchange(arrival.valid, false);
+    const bool had_failed = std::exchange(arrival.failed, true);
+    const bool read = read_receptor(index, now);  // if it throws, the input has failed
+    arrival.valid = read || was_valid;
+    arrival.failed = !read && had_failed;
+    if (!read) continue;
+    arrival.fresh = true;
     arrival.stamp = now;
+    arrival.age = Duration::zero();
   }
 }
 
@@ -210,7 +234,7 @@ void Operations::refresh_ages(Time now) {
   context_.in_behaviour = now - began_at_;
   channels_.refresh_ages(now);
   for (const Bindings::Incoming& input : parts_.bindings.real_inputs)
-    if (input.arrival->valid) input.arrival->age = now - input.arrival->stamp;
+    if (input.arrival->age != Duration::max()) input.arrival->age = now - input.arrival->stamp;
 }
 
 // -------------------------------------------------------------------------------------------- conditions

@@ -13,6 +13,7 @@
 #include "subsystem/device_commands.hpp"
 #include "subsystem/reports.hpp"
 #include "subsystem/subsystem_parts.hpp"
+#include "subsystem/written_outputs.hpp"
 #include "system/clock.hpp"
 #include "tessera/context.hpp"
 #include "tessera/tables.hpp"
@@ -24,8 +25,8 @@ namespace tessera {
 ///
 /// *Failure.* An iteration fails when user code throws, a device fails, an output is not finite, or the
 /// transition function takes longer than the watchdog allows. The outputs then become those of the iteration
-/// before, and are sent marked as invalid until an iteration succeeds. An effector gets its safe command at
-/// once. The outcome is error, whatever the conditions say.
+/// before, and are sent marked as invalid until an iteration succeeds. So is an output that was never written
+/// (WrittenOutputs). An effector gets its safe command at once. The outcome is error, whatever the conditions say.
 ///
 /// Channels and devices have classes of their own (ChannelValues, DeviceCommands).
 ///
@@ -43,7 +44,7 @@ class Operations final : public ContextServices {
   void start_call(std::uint16_t behaviour, Time now, std::uint64_t missed = 0);
   void finish_call(Time now);
   void count() { ++iteration_; }
-  void write(std::uint32_t port, std::uint16_t slot, Time now) { channels_.write(port, slot, now, !failed_); }
+  void write(std::uint32_t port, std::uint16_t slot, Time now);
   void read(std::uint32_t port, std::uint16_t slot, Time now) { channels_.read(port, slot, now); }
   /// A timeout transition of that port has fired.
   void note_timeout(std::uint32_t port) { channels_.note_timeout(port); }
@@ -111,6 +112,7 @@ class Operations final : public ContextServices {
   Reports reports_;
   ChannelValues channels_;
   DeviceCommands devices_;
+  WrittenOutputs written_;
   std::vector<const Bindings::Outgoing*> checked_;  // outputs that must be finite
   Time called_at_{};
   Time began_at_{};              // the behaviour: its first call

@@ -45,6 +45,7 @@ struct SubsystemParts {
   FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
   std::unique_ptr<ValueRecorder> values;                 ///< nullptr: values are not recorded
   ParameterChanges* changes = nullptr;                   ///< nullptr: parameters never change
+  bool scripted = false;  ///< a test calls a script in place of its transition functions
 };
 
 /// Destroys the drivers, the last one first, so that one whose destructor does not return can be named.

@@ -94,7 +94,8 @@ class Buffer:
         else:
             stamp = count_of(base["stamp"]["__d"])
             words.append(f"sent at {seconds_text(stamp)}")
-        words += [word.replace("_", " ") for word in ("timed_out", "disconnected") if base[word]]
+        words += [word.replace("_", " ") for word in ("failed", "timed_out", "disconnected")
+                  if word in names and base[word]]
         return ", ".join(words)
 
     def to_string(self):

@@ -16,9 +16,9 @@ using diagnostics::in_quotes;
 using Is = Value::Kind;
 using Status = std::pair<std::string_view, Is>;
 
-const std::vector<Status> arrivals{{"fresh", Is::boolean},     {"age", Is::duration},
-                                   {"stamp", Is::time},        {"valid", Is::boolean},
-                                   {"timed_out", Is::boolean}, {"disconnected", Is::boolean}};
+const std::vector<Status> arrivals{
+    {"fresh", Is::boolean},  {"age", Is::duration},      {"stamp", Is::time},          {"valid", Is::boolean},
+    {"failed", Is::boolean}, {"timed_out", Is::boolean}, {"disconnected", Is::boolean}};
 const std::vector<Status> departures{
     {"stamp", Is::time}, {"timed_out", Is::boolean}, {"disconnected", Is::boolean}};
 

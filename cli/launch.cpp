@@ -48,6 +48,7 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
   command.flag("--accept-stuck", options.accept_stuck,
                "Do not fail if a subsystem waits for ever while others go on");
   declare_verification_gate(command, options.gate);
+  command.flag("--also", options.also, "Start although another run uses the same real devices");
   command.flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }
 

@@ -15,6 +15,7 @@
 #include "cli/watching/running_controller.hpp"
 #include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
+#include "tessera/monitor.hpp"
 #include "tessera/result.hpp"
 
 /// Commands of an operator to a running controller: `tessera set`, `emergency-stop`, `reset`.
@@ -178,7 +179,10 @@ int emergency_stop_command(const OperateOptions& options) {
   // Each gets the command as soon as it is reached: one that hangs must not delay the others.
   FoundControllers found =
       look_for_controllers(options.which, [&](RunningController& one) { tell(one, command); });
-  const int elsewhere = complain_of_other_folders(options.which);
+  int elsewhere = complain_of_other_folders(options.which);
+  if (options.which.empty() && complain_of_unreachable() != ok) elsewhere = failed;
+  if (const std::optional<Problem> wrong = wrong_with_monitor_folder())
+    elsewhere = complain("it is unknown whether other controllers run: " + wrong->text);
   if (found.none()) return elsewhere == ok ? complain_of_none(options.which) : elsewhere;
   NotReached others;
   int code = confirm_stops(found.running, options.which, others);

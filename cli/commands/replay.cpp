@@ -139,7 +139,8 @@ void print_summary(const Recording& recording, const std::vector<replay::Subsyst
         print_distribution("wait for " + one.waits[wait].channel, one.waits[wait].time);
   }
   for (const Recording::Entry& entry : recording.entries)
-    if (entry.event.kind() == Event::Kind::stop) fmt::print("\nended: {}\n", printable(entry.text));
+    if (entry.event.kind() == Event::Kind::stop)
+      fmt::print("\n{}: {}\n", entry.event.version == 0 ? "ended" : "failed", printable(entry.text));
 }
 
 json to_json(const Distribution& distribution) {
@@ -265,8 +266,9 @@ int joint_command(const ReplayOptions& options) {
   }
   const std::optional<replay::Legality> legality = check_against(specification_of(options), recordings);
   if (!legality) return failed;
-  if (options.json != "-") print_verdict(*legality, recordings.front().net_hash, recordings.size());
-  if (!options.json.empty()) write_output(options.json, json{{"check", json_of(*legality)}}.dump(2) + "\n");
+  if (options.json != "-") print_verdict(*legality, recordings);
+  if (!options.json.empty())
+    write_output(options.json, json{{"check", json_of(*legality, recordings)}}.dump(2) + "\n");
   return exit_code_of(legality->verdict);
 }
 
@@ -327,9 +329,9 @@ int replay_command(ReplayOptions options) {
     const std::optional<replay::Legality> legality = check_against(specification_of(options), {*recording});
     if (!legality) return failed;
     exit_code = exit_code_of(legality->verdict);
-    result["check"] = json_of(*legality);
+    result["check"] = json_of(*legality, {&*recording, 1});
     if (lacks_beginning(*recording)) result["recorded_from_s"] = recorded_from_s(*recording);
-    if (!to_output) print_verdict(*legality, recording->net_hash, 1);
+    if (!to_output) print_verdict(*legality, {&*recording, 1});
   }
   if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
   if (other && lacks_beginning(*recording)) {

@@ -328,6 +328,8 @@ void add_run(CommandLine& app, int& exit_code) {
                "With the simulated drivers, in the simulated world if there is one, in real time");
   command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
   command.option("--report", options->report, "Folder for a page and a picture of the run");
+  command.flag("--no-monitor", options->no_monitor,
+               "Without a control socket: `tessera emergency-stop`, `set` and `top` cannot reach this run");
   declare_deployment_options(command, *options);
   command.footer(
       "Examples:\n  tessera run\n  tessera run --world --for 10s\n"

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <fstream>
 #include <thread>
 #include <utility>
 #include <variant>
@@ -138,6 +139,9 @@ int complain_of_silent(const std::vector<fs::path>& silent, const std::string& w
 }
 
 int complain_of_none(const std::string& which) {
+  // A controller may have been started before that.
+  if (const std::optional<Problem> wrong = wrong_with_monitor_folder())
+    return complain("it is unknown whether a controller is running: " + wrong->text);
   return complain((which.empty() ? "no controller is running" : "no controller '" + which + "' is running") +
                   " in real time as this user (its socket would be in " + monitor_folder() +
                   "); `tessera run` starts one");
@@ -177,6 +181,38 @@ int complain_of_other_folders(const std::string& which) {
     if (!names.empty())
       code = complain("NOT STOPPED, because their sockets are in " + folder.path.string() + ": " + names +
                       ". Type `env " + folder.environment + " tessera emergency-stop`, too");
+  }
+  return code;
+}
+
+namespace {
+
+/// The words of a process of this user; empty: it has gone, or is another user's.
+std::vector<std::string> words_of(const fs::path& process) {
+  struct stat status {};
+  std::vector<std::string> words;
+  if (stat(process.c_str(), &status) != 0 || status.st_uid != geteuid()) return words;
+  std::ifstream stream(process / "cmdline", std::ios::binary);
+  for (std::string word; std::getline(stream, word, '\0');) words.push_back(word);
+  return words;
+}
+
+}  // namespace
+
+int complain_of_unreachable() {
+  int code = ok;
+  std::error_code problem;
+  for (fs::directory_iterator entry("/proc", problem), end; !problem && entry != end;
+       entry.increment(problem)) {
+    const std::string number = entry->path().filename().string();
+    if (number.find_first_not_of("0123456789") != std::string::npos) continue;
+    const std::vector<std::string> words = words_of(entry->path());
+    // `tessera run --no-monitor` has a controller, which is named.
+    if (words.size() < 3 || words[1] != "run" || std::ranges::count(words, "--no-monitor") == 0 ||
+        fs::path(words[0]).filename() == "tessera")
+      continue;
+    code = complain("NOT STOPPED, because it runs without a control socket (--no-monitor): process " +
+                    number + " (" + words[0] + "). `kill " + number + "` ends it safely");
   }
   return code;
 }

@@ -76,7 +76,10 @@ using Greet = std::function<void(RunningController&)>;
 /// Names controllers of this user whose sockets are in a folder where this process does not look, as its environment
 /// is another one, and says how to stop them. Returns `ok` if there is none.
 int complain_of_other_folders(const std::string& which);
-/// Prints "tessera: error: no controller is running ...".
+/// Names controllers of this user that run without a control socket. Returns `ok` if there is none.
+int complain_of_unreachable();
+/// Prints "tessera: error: no controller is running ...", or that it is unknown, because the folder of the sockets is
+/// not this user's.
 int complain_of_none(const std::string& which);
 /// Prints for each: "tessera: error: NAME does not answer (socket ...): WHAT". Returns `ok` if there is none.
 int complain_of_silent(const std::vector<std::filesystem::path>& silent, const std::string& what);

@@ -207,7 +207,11 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   "--summary",
                   files.summary.string(),
                   "--seed",
-                  std::to_string(options.seed)};
+                  std::to_string(options.seed),
+                  "--project",
+                  specification.project.string()};
+  if (options.also) command.push_back("--also");
+  if (options.no_monitor && mode == "run") command.push_back("--no-monitor");
   if (options.progress) command.push_back("--progress");
   const std::string limit = options.record_limit.empty() ? usual_record_limit : options.record_limit;
   if (limit != "none") append(command, {"--record-limit", limit});

@@ -26,6 +26,8 @@ struct LaunchOptions {
   bool accept_stuck = false;  ///< a subsystem that is stuck for good at the end is not a failure
   /// paths of the subsystems and buffers with real drivers in a simulated run
   std::vector<std::string> hardware;
+  bool also = false;        ///< start although another run uses the same real devices
+  bool no_monitor = false;  ///< in real time: without a control socket
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error
   VerificationGate gate;

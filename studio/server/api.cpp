@@ -16,6 +16,7 @@
 #include "server/http/answer.hpp"
 #include "server/http/guard.hpp"
 #include "server/runs/controller_link.hpp"
+#include "tessera/monitor.hpp"
 
 namespace tessera::server {
 
@@ -103,6 +104,8 @@ void Api::serve_work(HttpServer& server) {
   server.Get("/api/runs",
              [this](const Request&, Response& response) { answer(response, text_of(parts_.runs.list())); });
   server.Get("/api/controllers", [](const Request&, Response& response) {
+    if (const std::optional<Problem> wrong = wrong_with_monitor_folder())
+      return answer_error(response, 409, "it is unknown whether a controller is running: " + wrong->text);
     answer(response, text_of(json(listening_sockets())));
   });
   server.Get("/api/runs/(\\d+)",

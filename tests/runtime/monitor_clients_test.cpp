@@ -7,12 +7,16 @@
 #include <cstdint>
 #include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <functional>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "../eventually.hpp"
 #include "controlled_run.hpp"
+#include "nets.hpp"
 #include "tessera/monitor.hpp"
 #include "test_system.hpp"
 #include "watch/monitor_socket.hpp"
@@ -48,6 +52,56 @@ TEST(MonitorSocket, ListensWhateverTheLengthOfTheNameOrOfTheFolder) {
   else
     setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
   std::filesystem::remove_all(folder);
+}
+
+/// Sockets of another user would answer what that user likes, so nothing listens there, and the reason is told.
+TEST(MonitorSocket, AFolderThatIsNotOfThisUserAloneIsNamed) {
+  namespace fs = std::filesystem;
+  const std::string before = std::getenv("XDG_RUNTIME_DIR") == nullptr ? "" : std::getenv("XDG_RUNTIME_DIR");
+  const fs::path above = fs::temp_directory_path() / ("n" + std::to_string(getpid()));
+  const fs::path folder = above / "tessera";
+  fs::create_directories(above / "other");
+  setenv("XDG_RUNTIME_DIR", above.c_str(), 1);
+  EXPECT_FALSE(wrong_with_monitor_folder()) << "it can be made";
+  struct Wrong {
+    std::function<void()> make;
+    std::string what;
+  };
+  std::vector<Wrong> all{
+      {[&] { fs::create_directory(folder), fs::permissions(folder, fs::perms(0755)); },
+       "may be entered by other users: remove it, or set XDG_RUNTIME_DIR to a folder of your own"},
+      {[&] { fs::permissions(above / "other", fs::perms(0700)), fs::create_symlink("other", folder); },
+       "is a link"},
+      {[&] { std::ofstream(folder) << "text"; }, "is no folder"},
+      {[&] { setenv("XDG_RUNTIME_DIR", (above / "nowhere").c_str(), 1); }, "No such file or directory"}};
+  if (geteuid() == 0)
+    all.insert(all.begin(), {[&] { fs::create_directory(folder), lchown(folder.c_str(), 1, 1); },
+                             "belongs to another user (number 1)"});
+  for (const Wrong& wrong : all) {
+    wrong.make();
+    const std::optional<Problem> told = wrong_with_monitor_folder();
+    ASSERT_TRUE(told) << wrong.what;
+    EXPECT_NE(told->text.find(wrong.what), std::string::npos) << told->text;
+    const MonitorSocket socket("robot");
+    EXPECT_LT(socket.descriptor(), 0) << wrong.what;
+    ASSERT_TRUE(socket.failure());
+    EXPECT_NE(socket.failure()->text.find(wrong.what), std::string::npos) << socket.failure()->text;
+    TestSystem system;
+    system.add("robot.a", nets::alone, {}, 1ms);
+    RunOptions options = steady(1min);
+    options.monitor = true;
+    std::string error;
+    EXPECT_FALSE(execute(system.system(), options, error)) << wrong.what;
+    EXPECT_TRUE(
+        error.starts_with("the run could not be stopped from outside, since it has no control socket: "))
+        << error;
+    fs::remove_all(folder);
+  }
+  if (before.empty())
+    unsetenv("XDG_RUNTIME_DIR");
+  else
+    setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
+  fs::remove_all(above);
 }
 
 TEST_F(Controlled, TheRecordingComesThroughTheSocketAsFarAsTheRunHasCome) {

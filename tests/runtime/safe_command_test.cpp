@@ -151,6 +151,49 @@ TEST(SafeCommand, ReachesTheOtherDevicesWhenADriverDoesNotReturn) {
   EXPECT_TRUE(effectors.unsafe().empty());
 }
 
+/// Nobody knows what the device does that does not take its safe command, so the others stand still, too. They go on
+/// when it has taken it.
+TEST(SafeCommand, IsOfAllDevicesWhileOneDoesNotTakeIt) {
+  for (const bool hangs : {true, false}) {
+    TestSystem system;
+    std::atomic<bool> resists{false}, held{false}, drives_again{false};
+    Script bad = driver(-1), good = driver(-2);
+    bad.call = [&](ScriptState& state) {
+      state.command = 5;
+      if (held || state.context.iteration < 5) return;
+      resists = true;
+      if (!hangs) throw std::runtime_error("oops");
+    };
+    bad.route = [](const ScriptState&, bool) { return 0; };
+    good.call = [&](ScriptState& state) {
+      state.command = 6;
+      if (drives_again) state.context.stop("enough");
+    };
+    good.route = bad.route;
+    system.devices.accept = [&](double value) {
+      if (value == -2 && resists) held = true;
+      if (value == 6 && held) drives_again = true;
+      if (!resists || held || value == 6) return true;
+      if (!hangs) return false;
+      while (value == 5 && !held) std::this_thread::sleep_for(1ms);
+      return true;
+    };
+    Policies policies;
+    policies.watchdog = 30ms;
+    system.add("robot.bad", nets::two_behaviours, bad, 1ms, 0ms, Kind::effector, policies);
+    system.add("robot.good", nets::two_behaviours, good, 1ms, 0ms, Kind::effector);
+    RunOptions options = steady(1min);
+    options.recording = scratch_file("run");
+    EXPECT_EQ(run(system, options).ended, "stopped: enough")
+        << (hangs ? "a driver hangs" : "a device refuses");
+    EXPECT_TRUE(drives_again);
+    const std::vector<std::string> events = safe_events(options.recording);
+    EXPECT_GE(std::ranges::count(
+                  events, "robot.good.command: safe command: another device does not take its safe command"),
+              1);
+  }
+}
+
 /// The subsystem's thread goes on before the supervisor knows that the guardian has acted.
 TEST(SafeCommand, OfTheGuardianIsFollowedByNoOtherCommand) {
   struct Counted final : RealEffector {

@@ -142,17 +142,19 @@ pid_t start(const std::vector<std::string>& command, const std::vector<std::stri
   return child;
 }
 
+}  // namespace
+
 /// The commands of a device, in the order in which they were given.
-struct Last {
+struct RobotProcess::Last {
   std::int64_t safe_since_ns = 0;
   bool safe = false, drove = false;
 };
 
-std::array<Last, command_log::devices> last_commands(const command_log::Log& log) {
+std::array<RobotProcess::Last, command_log::devices> RobotProcess::last_commands() const {
   std::array<Last, command_log::devices> last;
-  const std::uint64_t count = std::min<std::uint64_t>(log.count, log.commands.size());
+  const std::uint64_t count = std::min<std::uint64_t>(log_->count, log_->commands.size());
   for (std::uint64_t index = 0; index < count; ++index) {
-    const command_log::Command& command = log.commands[index];
+    const command_log::Command& command = log_->commands[index];
     const std::int64_t at_ns = command.at_ns.load(std::memory_order_acquire);
     if (at_ns == 0) continue;
     Last& device = last[command.device];
@@ -161,10 +163,9 @@ std::array<Last, command_log::devices> last_commands(const command_log::Log& log
     device.safe = safe;
     device.drove = device.drove || !safe;
   }
+  if (ignored_) last[*ignored_] = {.safe = true};
   return last;
 }
-
-}  // namespace
 
 const Project& project() {
   static const Project made = make_project();
@@ -227,13 +228,13 @@ void RobotProcess::do_harm(Harm harm, Place place) {
   log_->harm = harm;
 }
 
-void RobotProcess::kill_guardian() const {
+void RobotProcess::send_guardian(int signal) const {
   const std::string line = "PPid:\t" + std::to_string(child_) + "\n";
   for (const auto& entry : fs::directory_iterator("/proc")) {
     std::ifstream stream(entry.path() / "status");
     const std::string status(std::istreambuf_iterator<char>(stream), {});
     if (status.starts_with("Name:\ttessera-guard\n") && status.find(line) != std::string::npos)
-      return kill_process(std::stoi(entry.path().filename()), SIGKILL);
+      return kill_process(std::stoi(entry.path().filename()), signal);
   }
   throw std::runtime_error("the controller has no guardian");
 }
@@ -297,7 +298,7 @@ bool RobotProcess::await_nobody_left(milliseconds limit) {
 bool RobotProcess::await_safe(milliseconds still, milliseconds limit) {
   const Clock::time_point end = Clock::now() + limit;
   while (Clock::now() < end) {
-    const auto last = last_commands(*log_);
+    const auto last = last_commands();
     std::int64_t since_ns = 0;
     for (const Last& device : last) since_ns = std::max(since_ns, device.safe_since_ns);
     if (is_safe() && command_log::now_ns() - since_ns > std::chrono::nanoseconds(still).count()) return true;
@@ -313,13 +314,13 @@ bool RobotProcess::await_text(std::string_view wanted, milliseconds limit) {
 }
 
 bool RobotProcess::is_safe() const {
-  const auto last = last_commands(*log_);
+  const auto last = last_commands();
   return std::all_of(last.begin(), last.end(), [](const Last& device) { return device.safe; });
 }
 
 std::int64_t RobotProcess::safe_since_ns() const {
   std::int64_t since_ns = 0;
-  for (const Last& device : last_commands(*log_))
+  for (const Last& device : last_commands())
     if (device.drove) since_ns = std::max(since_ns, device.safe_since_ns);
   return since_ns;
 }

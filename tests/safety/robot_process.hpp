@@ -2,6 +2,7 @@
 
 #include <sys/types.h>
 
+#include <array>
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
@@ -42,9 +43,13 @@ class RobotProcess {
   /// Until every device has had so many more commands that drive. false: that did not happen in time.
   [[nodiscard]] bool await_driving(unsigned commands = 3);
   void do_harm(Harm harm, Place place);
+  /// From now on, the driver of device 0 does not return from a safe command.
+  void hang_in_safe_commands() { log_->hangs_when_safe = true; }
   void send(int signal) const { kill_process(child_, signal); }
-  /// Kills its guardian. Throws std::runtime_error: it has none.
-  void kill_guardian() const;
+  /// Throws std::runtime_error: it has no guardian.
+  void send_guardian(int signal) const;
+  /// Nothing counts that happens to that device from now on: no program can make it safe.
+  void ignore(std::uint32_t device) { ignored_ = device; }
   /// Its first thread, which supervises the run, gets a processor only when no other thread wants it. All
   /// threads share one. false: as before, for every thread that it has then.
   void delay_supervisor(bool delayed) const;
@@ -80,6 +85,8 @@ class RobotProcess {
 
  private:
   [[nodiscard]] bool is_ours(pid_t process) const;
+  struct Last;
+  [[nodiscard]] std::array<Last, command_log::devices> last_commands() const;
   static void kill_process(pid_t process, int signal);
   void read_some(int timeout_ms);
 
@@ -89,6 +96,7 @@ class RobotProcess {
   int descriptor_ = -1;  // the terminal's other end, or that of the pipe
   bool reading_ = true, ended_of_text_ = false;
   std::optional<int> status_;
+  std::optional<std::uint32_t> ignored_;
   std::string text_;
 };
 

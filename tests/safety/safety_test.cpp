@@ -1,12 +1,22 @@
 // Whatever happens to a controller, the last command of every device is the safe one: the rows of
 // docs/safety.md. TESSERA_SAFETY_RUNS=100 is the long form.
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <sys/wait.h>
 
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "project/process/process.hpp"
+#include "tessera/recording.hpp"
 #include "trials.hpp"
 
 namespace tessera::safety_test {
@@ -14,6 +24,24 @@ namespace {
 
 using After = Case::After;
 using Output = RobotProcess::Output;
+
+/// A folder of one test, which only its user may enter.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    std::string name = (fs::temp_directory_path() / "tessera_safety_XXXXXX").string();
+    if (mkdtemp(name.data()) == nullptr) throw std::runtime_error("cannot make " + name);
+    path_ = name;
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  ~ScratchFolder() { fs::remove_all(path_); }
+  [[nodiscard]] const fs::path& path() const { return path_; }
+  [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  fs::path path_;
+};
 
 constexpr char ctrl_c = '\x03', ctrl_backslash = '\x1c', ctrl_z = '\x1a', ctrl_s = '\x13';
 
@@ -48,7 +76,28 @@ std::int64_t stand_still(RobotProcess& robot) {
 
 std::int64_t kill_guardian(RobotProcess& robot) {
   const std::int64_t now_ns = command_log::now_ns();
-  robot.kill_guardian();
+  robot.send_guardian(SIGKILL);
+  return now_ns;
+}
+std::int64_t stop_guardian(RobotProcess& robot) {
+  const std::int64_t now_ns = command_log::now_ns();
+  robot.send_guardian(SIGSTOP);
+  return now_ns;
+}
+
+/// Both signals wait until it goes on.
+std::function<std::int64_t(RobotProcess&)> stands_still_and_gets(int signal) {
+  return [signal](RobotProcess& robot) {
+    const std::int64_t now_ns = sends(SIGSTOP)(robot);
+    robot.send(signal);
+    return now_ns;
+  };
+}
+
+/// The one below `tessera run`.
+std::int64_t kill_controller(RobotProcess& robot) {
+  const std::int64_t now_ns = command_log::now_ns();
+  for (const pid_t process : robot.commanders()) kill(process, SIGKILL);
   return now_ns;
 }
 
@@ -211,6 +260,196 @@ TEST(Safety, TheGuardianActsWhereTheControllerCannot) {
   cases.push_back(unguarded);
   for (Case& one : cases) one.output = Output::pipe;
   try_all(cases);
+}
+
+/// Whatever else ends the run, and whatever comes first when it goes on.
+TEST(Safety, ARunInWhichTheGuardianActedHasFailed) {
+  std::vector<Case> cases{
+      {.name = "SIGSTOP, and the time of --for passes",
+       .strike = sends(SIGSTOP),
+       .says = "the controller stands still, since it is stopped",
+       .arguments = {"--for", "2s"}},
+      {.name = "SIGSTOP and SIGINT", .strike = stands_still_and_gets(SIGINT)},
+      {.name = "SIGSTOP and SIGTERM", .strike = stands_still_and_gets(SIGTERM)},
+      {.name = "SIGSTOP and SIGTSTP", .strike = stands_still_and_gets(SIGTSTP)},
+  };
+  for (Case& one : cases) {
+    one.after = After::halts;
+    one.output = Output::pipe;
+    one.bar = milliseconds(2600);
+    if (one.says.empty()) one.says = "the controller stands still, since it is stopped";
+    one.code = 1;
+  }
+  try_all(cases);
+}
+
+TEST(Safety, TheRecordingAndTheSummarySayThatTheGuardianActed) {
+  const ScratchFolder folder;
+  RobotProcess robot({project().controller.string(), "run", "--also", "--record", folder / "run.tsr",
+                      "--summary", folder / "summary.json"},
+                     Output::pipe);
+  ASSERT_TRUE(robot.await_driving()) << robot.text();
+  robot.send(SIGSTOP);
+  ASSERT_TRUE(robot.await_text("since it is stopped", std::chrono::seconds(30))) << robot.text();
+  robot.send(SIGINT);
+  robot.send(SIGCONT);
+  ASSERT_TRUE(robot.await_end(std::chrono::seconds(30))) << robot.text();
+  const std::string what = "the guardian has given the devices the safe command";
+  const auto summary = nlohmann::json::parse(std::ifstream(folder / "summary.json"));
+  EXPECT_TRUE(summary.at("failed"));
+  EXPECT_NE(summary.at("ended").get<std::string>().find(what), std::string::npos) << summary;
+  std::string error;
+  const std::optional<Recording> recording = read_recording(folder / "run.tsr", error);
+  ASSERT_TRUE(recording) << error;
+  const auto& [event, text] = recording->entries.back();
+  EXPECT_EQ(event.kind(), Event::Kind::stop);
+  EXPECT_EQ(event.version, 1U) << "it has failed";
+  EXPECT_NE(text.find(what), std::string::npos) << text;
+}
+
+TEST(Safety, AGuardianThatStandsStillStopsTheRun) {
+  Case stopped{.name = "SIGSTOP of the guardian",
+               .strike = stop_guardian,
+               .output = Output::pipe,
+               .bar = milliseconds(2600),
+               .says = "the guardian of the devices stands still",
+               .code = 1};
+  Case in_the_loop = stopped;
+  in_the_loop.name += ", hardware in the loop";
+  in_the_loop.command = {
+      project().controller.string(), "simulate", "--hardware", "robot.motor", "--hardware", "robot.arm"};
+  try_all({stopped, in_the_loop});
+}
+
+/// Nobody knows what the device does whose driver hangs. The supervisor knows it from the watchdog of its subsystem.
+TEST(Safety, ADriverThatHangsLeavesTheDevicesOfOtherSubsystemsSafe) {
+  try_all(
+      {{.name = "endless loop in a driver",
+        .strike = does(Harm::loop, Place::driver),
+        .after = After::hangs,
+        .output = Output::pipe,
+        .bar = milliseconds(150),  // watchdog + 100 ms
+        .says = "robot.motor.left has not taken its safe command; until then the other devices have theirs",
+        .hangs = 0}});
+}
+
+/// Whatever the safe commands are for: the driver of the first device of the motor does not return from its own.
+TEST(Safety, ADriverThatHangsInItsSafeCommandLeavesTheOtherDevicesSafe) {
+  const auto hanging = [](std::function<std::int64_t(RobotProcess&)> strike) {
+    return [strike](RobotProcess& robot) {
+      robot.hang_in_safe_commands();
+      return strike(robot);
+    };
+  };
+  std::vector<Case> cases{
+      {.name = "SIGTERM, and a safe command hangs", .strike = hanging(sends(SIGTERM))},
+      {.name = "stale, and a safe command hangs",
+       .strike = hanging(does(Harm::mute, Place::control)),
+       .bar = milliseconds(150)},
+      {.name = "loop in motor, and a safe command hangs",
+       .strike = hanging(does(Harm::loop, Place::motor)),
+       .bar = milliseconds(150)},
+      {.name = "SIGSEGV, and a safe command hangs", .strike = hanging(does(Harm::segv, Place::control))},
+  };
+  for (Case& one : cases) {
+    one.after = After::hangs;
+    one.output = Output::pipe;
+    one.hangs = 0;
+    one.arguments = {"--no-guardian"};  // the controller does it by itself
+  }
+  try_all(cases);
+}
+
+/// One line at the start, and again by `tessera run` when the controller was killed.
+TEST(Safety, DevicesThatNothingProtectsAreNamed) {
+  const std::string start = "if the controller is killed, nothing gives the safe command to ";
+  try_all({
+      {.name = "start",
+       .strike = sends(SIGTERM),
+       .output = Output::pipe,
+       .says = start + "robot.arm.lamp (docs/safety.md)"},
+      {.name = "start without a guardian",
+       .strike = sends(SIGTERM),
+       .output = Output::pipe,
+       .says =
+           start + "robot.arm.joint, robot.arm.lamp, robot.motor.left, robot.motor.right (docs/safety.md)",
+       .arguments = {"--no-guardian"}},
+      {.name = "SIGKILL of the controller below tessera run",
+       .strike = kill_controller,
+       .output = Output::pipe,
+       .says = "tessera: error: the controller was killed by SIGKILL; NOT SAFE, because nothing has given "
+               "the safe "
+               "command to robot.arm.lamp",
+       .command = {std::string(TESSERA_BINARY_DIR) + "/tessera", "run", project().folder.string()}},
+  });
+}
+
+/// The other one goes on undisturbed.
+TEST(Safety, RealDevicesHaveOneRunAtATime) {
+  const std::string controller = project().controller.string(), tessera = TESSERA_BINARY_DIR "/tessera";
+  RobotProcess first({controller, "run"}, Output::pipe);
+  ASSERT_TRUE(first.await_driving()) << first.text();
+  const std::string refusal = fmt::format(
+      "process {0} uses the real devices of safety already: stop it first (`kill {0}`", first.child());
+  const ScratchFolder folder;
+  fs::create_directory_symlink(project().folder, folder / "other_name");
+  const std::vector<std::vector<std::string>> commands{
+      {controller, "run", "--for", "10s"},
+      {folder / "other_name/.tessera/build/release/controller", "run", "--for", "10s"},
+      {controller, "simulate", "--hardware", "robot.motor", "--for", "10s"},
+      {tessera, "run", project().folder.string(), "--for", "10s"},
+      {tessera, "run", folder / "other_name", "--for", "10s"}};
+  for (const std::vector<std::string>& command : commands) {
+    const tessera::project::Exit other = tessera::project::capture(command);
+    EXPECT_EQ(other.code, 1) << command.back() << other.text;
+    EXPECT_NE(other.text.find(refusal), std::string::npos) << other.text;
+  }
+  RobotProcess also({controller, "run", "--also"}, Output::pipe);
+  EXPECT_TRUE(also.await_driving()) << also.text();
+  EXPECT_TRUE(first.await_driving()) << first.text();
+  first.send(SIGKILL);
+  ASSERT_TRUE(first.await_end(std::chrono::seconds(30)));
+  RobotProcess next({controller, "run"}, Output::pipe);
+  EXPECT_TRUE(next.await_driving()) << next.text();
+}
+
+/// Another user has made the folder of the control sockets first.
+TEST(Safety, ARunThatCannotBeStoppedFromOutsideDoesNotStart) {
+  const ScratchFolder folder;
+  fs::create_directory(folder / "tessera");
+  fs::permissions(folder / "tessera", fs::perms::all);
+  const std::vector<std::string> environment{"XDG_RUNTIME_DIR=" + folder.path().string()};
+  const std::string controller = project().controller.string();
+  const std::string wrong =
+      folder / "tessera' may be entered by other users: remove it, or set XDG_RUNTIME_DIR";
+  RobotProcess refused({controller, "run", "--also"}, Output::pipe, environment);
+  const std::optional<int> end = refused.await_end(std::chrono::seconds(30));
+  ASSERT_TRUE(end) << refused.text();
+  ASSERT_TRUE(refused.await_nobody_left(std::chrono::seconds(30)));
+  EXPECT_EQ(WEXITSTATUS(*end), 1);
+  EXPECT_NE(refused.text().find(
+                "the run could not be stopped from outside, since it has no control socket: '" + wrong),
+            std::string::npos)
+      << refused.text();
+  EXPECT_TRUE(refused.commanders().empty()) << "no device was touched";
+  const auto stop = [&] {
+    return tessera::project::capture(
+        {"env", environment.front(), TESSERA_BINARY_DIR "/tessera", "emergency-stop"});
+  };
+  const tessera::project::Exit unknown = stop();
+  EXPECT_EQ(unknown.code, 1);
+  EXPECT_NE(unknown.text.find("it is unknown whether other controllers run: '" + wrong), std::string::npos)
+      << unknown.text;
+  EXPECT_EQ(unknown.text.find("no controller is running"), std::string::npos) << unknown.text;
+  RobotProcess runs({controller, "run", "--also", "--no-monitor"}, Output::pipe, environment);
+  ASSERT_TRUE(runs.await_driving()) << runs.text();
+  const tessera::project::Exit named = stop();
+  EXPECT_EQ(named.code, 1);
+  EXPECT_NE(
+      named.text.find(fmt::format(
+          "NOT STOPPED, because it runs without a control socket (--no-monitor): process {} ", runs.child())),
+      std::string::npos)
+      << named.text;
 }
 
 /// Runs without a terminal, so that no SIGHUP is sent.

@@ -73,7 +73,10 @@ struct Times {
     if (!robot.await_driving(3)) return "it does not drive on";
     robot.send(SIGTERM);
   }
-  if (!robot.await_end(patience)) return "the controller did not end";
+  const std::optional<int> end = robot.await_end(patience);
+  if (!end) return "the controller did not end";
+  if (one.code >= 0 && (!WIFEXITED(*end) || WEXITSTATUS(*end) != one.code))
+    return fmt::format("it ended with status {:#x}", *end);
   if (!robot.await_nobody_left(patience)) return "somebody is left";
   if (one.after == After::halts && robot.drove_after_guardian())
     return "a device was commanded after the guardian had made it safe";
@@ -84,6 +87,7 @@ struct Times {
   std::vector<std::string> command = one.command;
   if (command.empty()) command = {project().controller.string(), "run"};
   command.insert(command.end(), one.arguments.begin(), one.arguments.end());
+  command.emplace_back("--also");  // several at a time
   return std::make_unique<RobotProcess>(command, one.output, one.environment);
 }
 
@@ -104,6 +108,7 @@ struct Times {
   const std::unique_ptr<RobotProcess> started = driving(one, started_again);
   RobotProcess& robot = *started;
   pass_random_time(robot, random);
+  if (one.hangs >= 0) robot.ignore(static_cast<std::uint32_t>(one.hangs));
   Times times{.event_ns = one.strike(robot)};
   std::string failure = see_it_through(one, robot, times);
   if (times.event_ns == 0) times.event_ns = robot.struck_ns();

@@ -28,6 +28,8 @@ struct Case {
   std::vector<std::string> arguments{};  ///< of the controller
   std::vector<std::string> command{};    ///< in place of the controller
   std::vector<std::string> environment{};
+  int code = -1;   ///< the exit code of the process then; -1: any
+  int hangs = -1;  ///< the device whose driver hangs, which no program can make safe; -1: none
 };
 
 /// Strikes so often as TESSERA_SAFETY_RUNS says (2), at random moments, several controllers at a time. Prints

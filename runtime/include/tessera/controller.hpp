@@ -54,7 +54,9 @@ struct RunOptions {
   std::vector<std::string> hardware;
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens the world
-  bool monitor = false;       ///< the run can be watched (tessera/monitor.hpp)
+  /// The run can be watched and, in real time, stopped from outside (tessera/monitor.hpp). In real time it
+  /// does not start if that is not possible.
+  bool monitor = false;
   /// Simulated clock, with `monitor`: the run begins paused.
   bool paused = false;
   /// Simulated clock, with `monitor`: simulated seconds per second of real time. 0: as fast as possible.
@@ -81,8 +83,13 @@ struct RunOptions {
   bool accept_stuck = false;
   bool progress = false;  ///< shows the progress in one line on standard error, which is rewritten
   /// File that gets two lines if the process dies during the run: where it was ("robot.control.follow"), and
-  /// what happened ("killed by SIGSEGV at address 0x0"). Empty: none.
+  /// what happened ("killed by SIGSEGV at address 0x0"). If it dies without notice, and has real devices, both
+  /// lines are empty, and a line follows for each device that nothing has made safe. Empty: none.
   std::string death_note;
+  /// The real devices of the project in this folder have one run at a time; empty: any number. also: this run
+  /// starts although another one has them.
+  std::string project;
+  bool also = false;
   int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
   Substitutes* substitutes = nullptr;  ///< of a test (tessera/testing.hpp), simulated clock; nullptr: none

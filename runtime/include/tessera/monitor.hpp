@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "tessera/result.hpp"
+
 /// A controller can be watched while it runs. On the steady clock it listens on a Unix socket
 /// `<monitor_folder()>/<system>.<pid>.sock` (monitor_file). To every client it sends a line of JSON at once
 /// and then five times a second:
@@ -82,6 +84,11 @@ inline constexpr std::size_t longest_piece = std::size_t{256} << 10U;
 /// $XDG_RUNTIME_DIR/tessera, or /tmp/tessera-UID if the variable is unset or its path is too long for a
 /// socket. Only its owner may enter the folder.
 [[nodiscard]] std::string monitor_folder();
+
+/// Why no controller of this user can have its socket in that folder, and nothing in it may be believed:
+/// "'/tmp/tessera-1000' belongs to another user (number 1001)", "... is a link". nullopt: it is this user's
+/// alone, or does not exist and can be made.
+[[nodiscard]] std::optional<Problem> wrong_with_monitor_folder();
 
 /// The socket of a process, NAME.PID.sock in that folder; name: SYSTEM or SYSTEM.PROCESS. The path of a
 /// socket has at most 107 bytes. So the end of a longer name is replaced by a hash:

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 
 /// Ensures that a process of a deployed system runs once on a machine. A second start would count as a
@@ -21,10 +22,12 @@ struct ClaimedProcess {
 class ProcessClaim {
  public:
   explicit ProcessClaim(const ClaimedProcess& process);
+  /// The claim to something else, such as a device. parts: name it.
+  explicit ProcessClaim(std::span<const std::string> parts);
   ~ProcessClaim();
   ProcessClaim(const ProcessClaim&) = delete;
   ProcessClaim& operator=(const ProcessClaim&) = delete;
-  /// The other program that is that process; nullopt: there is none, or claims cannot be made here.
+  /// The other program that has this claim; nullopt: there is none, or claims cannot be made here.
   [[nodiscard]] const std::optional<std::int64_t>& other() const { return other_; }
 
  private:

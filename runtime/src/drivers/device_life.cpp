@@ -71,6 +71,12 @@ std::vector<std::string> DeviceLife::close() {
   return wrong;
 }
 
+std::vector<std::string> DeviceLife::with_heartbeat() const {
+  std::vector<std::string> paths;
+  for (const Beating& one : beating_) paths.push_back(one.driver->path);
+  return paths;
+}
+
 Time DeviceLife::next_beat() const {
   Time next = Time::max();
   for (const Beating& one : beating_) next = std::min(next, one.next);

@@ -26,6 +26,8 @@ class DeviceLife {
   std::vector<std::string> close();
   /// Whether a driver needs heartbeats.
   [[nodiscard]] bool beats() const { return !beating_.empty(); }
+  /// The paths of those drivers.
+  [[nodiscard]] std::vector<std::string> with_heartbeat() const;
   /// When `beat` must be called next; Time::max(): never.
   [[nodiscard]] Time next_beat() const;
   /// Calls a driver in such a way that no other thread calls it at the same time.

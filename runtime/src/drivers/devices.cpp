@@ -75,6 +75,19 @@ bool opens_real_driver(const RunOptions& options, std::string_view path) {
          std::ranges::any_of(options.hardware, [&](const std::string& name) { return is_in(path, name); });
 }
 
+bool is_of(const System& system, const CppDriver& driver) {
+  return std::ranges::any_of(system.instances, [&](const Instance& instance) {
+    const std::string path = fmt::format("{}.{}", instance.agent, instance.name);
+    return driver.path == path || driver.path.starts_with(path + ".");
+  });
+}
+
+bool opens_real_devices(const System& system, const RunOptions& options) {
+  return std::ranges::any_of(system.real_drivers, [&](const CppDriver& driver) {
+    return opens_real_driver(options, driver.path) && is_of(system, driver);
+  });
+}
+
 /// Also notes that the hardware of this name was found.
 bool DeviceFinder::is_hardware(const std::string& path) {
   if (!simulates_devices(options_)) return true;

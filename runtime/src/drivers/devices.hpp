@@ -22,6 +22,10 @@ namespace tessera {
 
 /// Whether a subsystem or a real buffer has its real driver in such a run.
 [[nodiscard]] bool opens_real_driver(const RunOptions& options, std::string_view path);
+/// Whether the driver belongs to a subsystem of this system, which may be one process of a larger one.
+[[nodiscard]] bool is_of(const System& system, const CppDriver& driver);
+/// Whether such a run opens a real device at all.
+[[nodiscard]] bool opens_real_devices(const System& system, const RunOptions& options);
 
 /// A driver of a subsystem, and the real buffers that it serves.
 struct DriverInUse {

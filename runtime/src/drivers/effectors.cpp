@@ -7,6 +7,8 @@
 #include <array>
 #include <utility>
 
+#include "system/waker.hpp"
+
 namespace tessera {
 namespace {
 
@@ -56,6 +58,7 @@ Effectors::Effectors(std::vector<Group> devices, std::span<const std::unique_ptr
 // -------------------------------------------------------------------------------------------- commands
 
 Effectors::Answer Effectors::command(Time now, const RunControl::Interruptions& before) {
+  told_ = SafeReason::Kind::none;
   const auto withheld = [&] { return control_.withholds_commands() || control_.interruptions() != before; };
   for (Device& device : devices()) {
     const Lock lock(device, Busy::waits);
@@ -68,7 +71,7 @@ Effectors::Answer Effectors::command(Time now, const RunControl::Interruptions& 
     }
     // A thread that withholds commands and then finds the device in use relies on
     // this thread to notice that.
-    device.owes = false;
+    device.owes = device.resists = false;
     device.owes = withheld();
     if (device.standing.kind != SafeReason::Kind::none) device.since = now;
     device.standing = {};
@@ -92,13 +95,25 @@ bool Effectors::insist(SafeReason why, Busy busy) { return make_safe(why, busy, 
 
 bool Effectors::make_safe(SafeReason why, Busy busy, bool owing_only) {
   bool all = true;
+  if (busy == Busy::waits) {
+    giving_since_ns_ = monotonic_ns();
+    if (std::exchange(told_, why.kind) != why.kind) control_.tell_supervisor();
+  }
   for (Device& device : devices()) {
     if (owing_only && !device.owes) continue;
     device.owes = true;
     const Lock lock(device, busy);
     all = lock && write_safe(device, why) && all;
   }
+  if (busy == Busy::waits) giving_since_ns_ = 0;
   return all;
+}
+
+bool Effectors::make_safe_one(std::size_t index, SafeReason why, Busy busy) {
+  Device& device = devices_[index];
+  device.owes = true;
+  const Lock lock(device, busy);
+  return lock && write_safe(device, why);
 }
 
 /// Call it with the device's lock.
@@ -121,9 +136,10 @@ bool Effectors::write_safe(Device& device, SafeReason why) {
   device.stopped_in = taken ? stop : 0;
   if (!taken) {
     device.since = clock_.now();
+    note_resistance(device);
     return false;
   }
-  device.owes = false;
+  device.owes = device.resists = false;
   device.safe = true;
   device.complained = false;
   if (device.standing != why) device.since = clock_.now();
@@ -146,6 +162,23 @@ void Effectors::alone_with(std::size_t output, const std::function<void()>& code
     const Lock lock(device, Busy::waits);
     return code();
   }
+}
+
+void Effectors::note_resistance(std::size_t index) { note_resistance(devices_[index]); }
+
+void Effectors::note_resistance(Device& device) const {
+  if (!device.resists.exchange(true)) control_.tell_supervisor();
+}
+
+bool Effectors::resists() const {
+  return std::ranges::any_of(devices(), [](const Device& device) { return device.resists && device.owes; });
+}
+
+std::vector<std::string> Effectors::resisting() const {
+  std::vector<std::string> names;
+  for (const Device& device : devices())
+    if (device.resists && device.owes) names.push_back(device.its.name);
+  return names;
 }
 
 bool Effectors::owing() const {
@@ -229,6 +262,8 @@ std::string_view describe(const SafeReason& why, std::span<char> room) {
       return "emergency stop";
     case SafeReason::Kind::suspended:
       return "the run is suspended";
+    case SafeReason::Kind::other:
+      return "another device does not take its safe command";
     case SafeReason::Kind::leaves:
       return "the end";
     case SafeReason::Kind::none:

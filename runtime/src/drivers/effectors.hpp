@@ -30,6 +30,7 @@ struct SafeReason {
     stuck,      ///< the subsystem waits for ever
     emergency,  ///< an emergency stop is in force
     suspended,  ///< the process is about to be suspended
+    other,      ///< a device of the run does not take its safe command
     leaves      ///< the subsystem or the run ends
   } kind = Kind::none;
   std::string_view input{};  ///< of starting, stale, source_stalls, source_ended; lives as long as the tables
@@ -75,8 +76,27 @@ class Effectors {
   /// The same, only for devices that have not taken their safe command.
   bool insist(SafeReason why, Busy busy);
 
+  // For a thread that serves one device, because a driver may not return.
+  /// As make_safe. If `busy` is `leaves_out`, a device that another thread calls has not taken it.
+  bool make_safe_one(std::size_t index, SafeReason why, Busy busy);
+  [[nodiscard]] bool owes(std::size_t index) const { return devices_[index].owes; }
+  /// The device has been in use for so long that it counts as one that does not take its safe command.
+  void note_resistance(std::size_t index);
+  /// The devices that do not take their safe command at present: they have refused it, or their driver does not
+  /// return. Wakes the supervisor when there is another one (RunControl::tell_supervisor).
+  [[nodiscard]] bool resists() const;
+  /// Since when the subsystem's thread has been giving the present safe commands, by the monotonic clock; 0: it does
+  /// not. Wakes the supervisor when safe commands begin, because a driver may not return from one.
+  [[nodiscard]] std::int64_t giving_since_ns() const { return giving_since_ns_; }
+  [[nodiscard]] std::vector<std::string> resisting() const;
+  [[nodiscard]] const std::string& name(std::size_t index) const { return devices_[index].its.name; }
+
   /// Calls code while no other thread calls the driver of that output. Threads: the subsystem's.
   void alone_with(std::size_t output, const std::function<void()>& code);
+
+  [[nodiscard]] bool is_safe(std::size_t index) const {
+    return devices_[index].safe && !devices_[index].owes;
+  }
 
   // The following members are for a thread that acts because another one dies (Rescuer).
   [[nodiscard]] std::size_t size() const { return count_; }
@@ -107,6 +127,7 @@ class Effectors {
     std::atomic_flag in_use{};
     std::atomic<bool> owes{false};             // the safe command
     std::atomic<bool> safe{false};             // the last accepted command was the safe one
+    std::atomic<bool> resists{false};          // it owes the safe command, and has refused it or is stuck
     std::atomic<std::uint32_t> stopped_in{0};  // the last emergency stop in which it took the safe one
     SafeReason standing{}, recorded{};
     Time since{};             // since when `standing` is the reason
@@ -118,6 +139,7 @@ class Effectors {
   [[nodiscard]] bool write(Device& device, Time now);
   [[nodiscard]] bool write_safe(Device& device, SafeReason why);
   [[nodiscard]] bool is_stopped(Device& device) const;
+  void note_resistance(Device& device) const;
   bool make_safe(SafeReason why, Busy busy, bool owing_only);
   static void record(Device& device, RecordingLane& lane);
 
@@ -128,6 +150,8 @@ class Effectors {
   std::size_t count_;
   std::unique_ptr<Device[]> devices_;
   std::string_view refuser_;
+  std::atomic<std::int64_t> giving_since_ns_{0};
+  SafeReason::Kind told_ = SafeReason::Kind::none;  // to the supervisor; the subsystem's thread
 };
 
 /// "robot.motor.left has not taken its safe command". Precondition: there are names.

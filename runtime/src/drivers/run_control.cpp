@@ -24,7 +24,7 @@ void RunControl::begin_emergency(std::string_view why) {
     emergency_.store(true, std::memory_order_seq_cst);
     emergencies_.fetch_add(1, std::memory_order_seq_cst);
   }
-  tell();
+  tell_supervisor();
 }
 
 bool RunControl::end_emergency(Time valid_from) {
@@ -35,7 +35,7 @@ bool RunControl::end_emergency(Time valid_from) {
     emergencies_over_.fetch_add(1, std::memory_order_seq_cst);
     emergency_.store(false, std::memory_order_seq_cst);
   }
-  tell();
+  tell_supervisor();
   return true;
 }
 
@@ -44,7 +44,7 @@ std::string RunControl::emergency_reason() const {
   return {emergency_reason_.data(), emergency_length_};
 }
 
-void RunControl::tell() const {
+void RunControl::tell_supervisor() const {
   const std::uint64_t one = 1;
   if (const int descriptor = news_.load(std::memory_order_acquire); descriptor >= 0) [[maybe_unused]]
     const ssize_t written = write(descriptor, &one, sizeof one);

@@ -61,13 +61,21 @@ class RunControl {
   [[nodiscard]] std::uint32_t emergencies() const { return emergencies_.load(std::memory_order_seq_cst); }
   /// The reason of the emergency stop that is in force, or of the last one.
   [[nodiscard]] std::string emergency_reason() const;
-  /// Sets an eventfd that is written to when an emergency stop begins or ends; -1: none.
-  void set_emergency_event(int descriptor) { news_.store(descriptor, std::memory_order_release); }
+  /// Sets an eventfd that is written to when an emergency stop begins or ends, and by tell_supervisor; -1: none.
+  void set_supervisor_event(int descriptor) { news_.store(descriptor, std::memory_order_release); }
 
   /// Another process sets `acted` when it has given the devices their safe command for this one, which stood
   /// still: from then on, no other command goes to a device, whichever thread wakes first. Call it before the
   /// run has threads; `acted` must outlive them.
   void withhold_after(const std::atomic<bool>& acted) { acted_outside_ = &acted; }
+
+  /// A device does not take its safe command: until it has, only safe commands go to the others, too. Threads: the
+  /// supervisor's.
+  void hold_devices(bool held) { held_.store(held, std::memory_order_seq_cst); }
+  [[nodiscard]] bool holds_devices() const { return held_.load(std::memory_order_seq_cst); }
+  /// There is news of a device that does not take its safe command: writes to the event of
+  /// set_supervisor_event.
+  void tell_supervisor() const;
 
   /// How many times in which only safe commands could go to devices are over.
   struct Interruptions {
@@ -83,7 +91,8 @@ class RunControl {
 
   /// Whether only safe commands may go to devices.
   [[nodiscard]] bool withholds_commands() const {
-    return stopping() || suspended() || emergency() || (acted_outside_ != nullptr && acted_outside_->load());
+    return stopping() || suspended() || emergency() || holds_devices() ||
+           (acted_outside_ != nullptr && acted_outside_->load());
   }
 
   /// The transition function has run longer than its watchdog allows, and has not returned.
@@ -95,10 +104,8 @@ class RunControl {
   }
 
  private:
-  void tell() const;
-
   std::atomic<std::uint32_t> state_{0}, emergencies_{0}, suspensions_over_{0}, emergencies_over_{0};
-  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false};
+  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false}, held_{false};
   const std::atomic<bool>* acted_outside_ = nullptr;  // in memory that is shared with another process
   std::atomic<int> news_{-1};
   mutable std::mutex emergency_mutex_;  // guards the members below; it is held no longer than a copy takes

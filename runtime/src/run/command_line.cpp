@@ -14,6 +14,7 @@
 
 #include "network/carrier.hpp"
 #include "run/driver_requests.hpp"
+#include "safety/device_claims.hpp"
 #include "subsystem/parameters.hpp"
 #include "tessera/channel_limits.hpp"
 
@@ -95,6 +96,11 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
   command.add_flag("--progress", options.progress, "Show progress on standard error");
   command.add_option("--death-note", options.death_note,
                      "If the process dies during the run, write to this file where and why");
+  command.add_option(
+      "--project", options.project,
+      "Folder of the project, whose real devices have one run at a time (default: by the place "
+      "of this program)");
+  command.add_flag("--also", options.also, "Start although another run uses the same real devices");
   command
       .add_option(
           "--parent", options.parent,
@@ -124,6 +130,7 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
 
 /// Returns the mistake in the words; nullopt: there is none, and the options are filled.
 [[nodiscard]] std::optional<Problem> interpret(const Words& words, RunOptions& options) {
+  if (options.project.empty()) options.project = project_of_this_program();
   if (!words.duration.empty()) {
     options.duration = parse_duration(words.duration);
     if (!options.duration)
@@ -257,7 +264,9 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
     describe_common(*command, line, words);
   }
   describe_network(*run, *simulate, line.options.network, words);
-  run->add_flag("--no-monitor", words.unwatched, "Do not let `tessera top` look at the run");
+  run->add_flag(
+      "--no-monitor", words.unwatched,
+      "Run without a control socket: `tessera top`, `set` and `emergency-stop` cannot reach this run");
   run->add_flag("!--no-guardian", line.options.guardian,
                 "No guardian process, for debuggers that stop the controller (docs/safety.md)");
   run->add_flag("--simulated", line.options.simulated_drivers,

@@ -12,6 +12,7 @@
 
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
+#include "drivers/devices.hpp"
 #include "drivers/driver_watch.hpp"
 #include "links/incarnation.hpp"
 #include "run/open_devices.hpp"
@@ -20,7 +21,9 @@
 #include "run/steady_run.hpp"
 #include "run/world_checks.hpp"
 #include "safety/companions.hpp"
+#include "safety/device_claims.hpp"
 #include "safety/last_chance.hpp"
+#include "safety/protection.hpp"
 #include "system/console.hpp"
 #include "system/stop_signals.hpp"
 #include "tessera/controller.hpp"
@@ -73,6 +76,23 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   for (const auto& executor : assembly.executors)
     std::ranges::move(executor->effectors().unsafe(), std::back_inserter(names));
   return names;
+}
+
+/// Makes it a failure, whatever ended the run, if the guardian had to act or could not have acted. Comes when the
+/// guardian can do nothing more.
+void judge_guardian(const Guardian& guardian, Ending& ending) {
+  const std::string_view trouble = Guardian::describe(guardian.trouble());
+  if (trouble.empty()) return;
+  ending.failed = true;
+  if (ending.text.find(trouble) == std::string::npos) ending.text += fmt::format("; {}", trouble);
+}
+
+void warn_of_unprotected(const std::vector<std::string>& devices) {
+  if (devices.empty()) return;
+  console::print(LogLevel::warning, Time{}, "tessera",
+                 fmt::format("if the controller is killed, nothing gives the safe command to {} "
+                             "(docs/safety.md)",
+                             listed_devices(devices)));
 }
 
 /// The facts about a run that are known when a driver does not return.
@@ -129,6 +149,12 @@ template <class Run>
   OpenDevices devices(assembly);
   known.devices = &devices;
   if (!devices.open(error)) return std::nullopt;
+  std::optional<DeathNote> death_note;
+  if (opens_real_devices(assembly.system, assembly.options)) {
+    const std::vector<std::string> unprotected = unprotected_devices(assembly);
+    death_note.emplace(assembly.options.death_note, unprotected);
+    warn_of_unprotected(unprotected);
+  }
   std::optional<LastChance> last_chance;
   last_chance.emplace(assembly, run.clock(), assembly.guardian);
   const std::int64_t start_ns = monotonic_ns();
@@ -138,7 +164,10 @@ template <class Run>
   }();
   const std::vector<std::string> unsafe = devices_left_unsafe(assembly);
   last_chance.reset();
-  if (assembly.guardian != nullptr && unsafe.empty()) assembly.guardian->dismiss();
+  if (assembly.guardian != nullptr) {
+    if (unsafe.empty()) assembly.guardian->dismiss();
+    judge_guardian(*assembly.guardian, ending);
+  }
   if (!unsafe.empty()) {
     if (!std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::unsafe;
     if (const std::string text = not_safe(unsafe); ending.text.find(text) == std::string::npos)
@@ -298,11 +327,14 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   // Made after the guardian, which would inherit it.
   std::optional<ProcessClaim> claim;
   if (part->process) claim.emplace(claimed(*part, options));
-  if (claim && claim->other()) {
+  const auto refuse = [&](std::string why) {
     if (companions.guardian() != nullptr) companions.guardian()->dismiss();
-    error = runs_already(claimed(*part, options), *claim->other());
+    error = std::move(why);
     return std::nullopt;
-  }
+  };
+  if (claim && claim->other()) return refuse(runs_already(claimed(*part, options), *claim->other()));
+  const DeviceClaims device_claims(part->system, options);
+  if (device_claims.refusal()) return refuse(*device_claims.refusal());
   // No real device waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
@@ -334,7 +366,11 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
     console::print(LogLevel::warning, Time{}, "tessera",
                    "this process simulates a world of its own, which no other process sees");
   SteadyRun run(instances, give_up);
-  run.listen(assembly);
+  if (const std::optional<Problem> failure = run.listen(assembly))
+    return refuse(
+        fmt::format("the run could not be stopped from outside, since it has no control socket: {}; "
+                    "--no-monitor runs without one",
+                    failure->text));
   std::optional<RunSummary> summary =
       with_lost_lines(drive_known(run, assembly, signals, known, error), assembly, session);
   if (run.has_given_up()) give_up.end_process(*summary);

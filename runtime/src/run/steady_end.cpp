@@ -47,6 +47,7 @@ bool SteadyRun::has_ended(std::uint32_t instance) const {
 void SteadyRun::await_threads(const Assembly& assembly, Securing& securing) {
   const Time since = clock_.now();
   Duration patience = first_patience;
+  if (liveness_) liveness_->stopping();
   bool secured = false;
   const auto all_gone = [&] {
     for (std::uint32_t instance = 0; instance < started_; ++instance)
@@ -57,7 +58,8 @@ void SteadyRun::await_threads(const Assembly& assembly, Securing& securing) {
     Duration next = secured ? patience : security_delay;
     for (const Duration limit : {give_up_.unsafe, give_up_.safe})
       if (limit > waited) next = std::min(next, limit);
-    await_news(since + next);
+    const Time beat = liveness_ ? liveness_->show(clock_.now()) : Time::max();
+    await_news(std::min(since + next, beat));
     securing.collect(assembly.system_lane());
     waited = clock_.now() - since;
     if (!secured && waited >= security_delay) {
@@ -102,6 +104,7 @@ void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, 
 }
 
 void SteadyRun::end_threads(Assembly& assembly, Securing& securing) {
+  liveness_.reset();  // a world may take long for its last step
   for (std::thread& thread : beside_) thread.join();
   for (std::uint32_t instance = 0; instance < threads_.size(); ++instance)
     if (!has_given_up() || has_ended(instance))

@@ -9,9 +9,11 @@
 #include <algorithm>
 #include <array>
 #include <csignal>
+#include <iterator>
 #include <optional>
 #include <utility>
 
+#include "drivers/effectors.hpp"
 #include "run/steady_links.hpp"
 #include "run/world_checks.hpp"
 #include "safety/death.hpp"
@@ -32,6 +34,8 @@ constexpr Duration longest_world_step = std::chrono::milliseconds(10);
 // A slow world makes up for at most this delay.
 constexpr Duration most_behind = std::chrono::milliseconds(200);
 constexpr Duration progress_step = std::chrono::milliseconds(200);
+// A safe command that takes longer may never end: another thread takes care of the other devices.
+constexpr Duration longest_safe_command = std::chrono::milliseconds(40);
 
 }  // namespace
 
@@ -65,6 +69,8 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
       if (control.stopping()) run.tell_supervisor();  // now, because the devices may take long
       if (!control.has_ended(instance)) executor.leave();
       executor.insist();
+      if (!control.stopping() && executor.effectors().owing())
+        control.request_stop(not_safe(executor.effectors().unsafe()), /*fault=*/true);
       run.gone_[instance].store(true, std::memory_order_release);
       run.tell_supervisor();
     }
@@ -153,7 +159,7 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
     if (const std::optional<Problem> denied = lock_memory()) deny(*denied);
   clock_.restart();
   if (assembly.links != nullptr) assembly.links->set_origin(clock_.absolute_ns(Time{}));
-  assembly.control.set_emergency_event(news_);
+  assembly.control.set_supervisor_event(news_);
   if (const int signal = StopSignals::pending(); signal != 0)
     assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
   upper.enter(clock_.now());
@@ -175,8 +181,10 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
   return ending(assembly, upper);
 }
 
-void SteadyRun::listen(const Assembly& assembly) {
-  if (assembly.options.monitor) listening_ = Monitor::listen(assembly);
+std::optional<Problem> SteadyRun::listen(const Assembly& assembly) {
+  if (!assembly.options.monitor) return std::nullopt;
+  listening_ = Monitor::listen(assembly);
+  return listening_->failure();
 }
 
 /// The monitor comes first: an emergency stop that came while the devices were opened is in force before a subsystem
@@ -184,7 +192,9 @@ void SteadyRun::listen(const Assembly& assembly) {
 void SteadyRun::start_threads(Assembly& assembly) {
   if (listening_ != nullptr) {
     monitor_.emplace(assembly, clock_, std::move(listening_));
-    monitor_->warn_of_failure(clock_.now());
+    if (const std::optional<Problem>& failure = monitor_->failure())
+      assembly.control.request_stop("the run cannot be stopped from outside: " + failure->text,
+                                    /*fault=*/true);
   }
   threads_.reserve(assembly.executors.size());
   if (assembly.links != nullptr) beside_.emplace_back([this, &assembly] { run_links(assembly); });
@@ -207,7 +217,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       assembly.executors,
       [&](std::uint32_t instance) { securing.secure(instance, {SafeReason::Kind::stalls}); }, lane);
   Stillness stillness(started_);
-  Liveness liveness(assembly, assembly.guardian);
+  Liveness& liveness = liveness_.emplace(assembly, assembly.guardian);
   EmergencyWatch emergencies;
   const auto gone = [&](std::uint32_t instance) { return gone_[instance].load(std::memory_order_acquire); };
   while (!control.stopping()) {
@@ -215,6 +225,10 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     collect_secured(control, securing, lane);
     follow_emergency(emergencies, control, securing, lane);
     const Time now = clock_.now();
+    const Time safe_commands = follow_safe_commands(assembly, securing, now);
+    const Time beat = liveness.show(now);
+    if (control.stopping())
+      break;  // whatever else is asked: the guardian has acted, or a device does not obey
     if (upper.ended()) {
       net_ended_.store(true, std::memory_order_release);
       control.request_stop("net ended", /*fault=*/false);
@@ -236,7 +250,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       // Watchdogs come first, so that their findings are reported.
       const Time watched = watchdogs.check(now);
       const Time next = std::min({end, stillness.next(), watched, assembly.signals.next(),
-                                  securing.overdue_from(now), liveness.show(now)});
+                                  securing.overdue_from(now), beat, safe_commands});
       await_news(assembly.options.progress ? std::min(next, now + progress_step) : next);
     }
   }
@@ -252,6 +266,45 @@ void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& 
         securing.secure(instance, {SafeReason::Kind::emergency});
     EmergencyWatch::say(news, control, clock_.now(), lane);
   }
+}
+
+/// If a device does not take its safe command, nobody knows what it does: the others have theirs until it has, or until
+/// the run stops for that reason. Returns when to look again.
+Time SteadyRun::follow_safe_commands(Assembly& assembly, Securing& securing, Time now) {
+  Time next = Time::max();
+  bool any = false;
+  securing.note_resistance();
+  for (std::uint32_t instance = 0; instance < started_; ++instance) {
+    const Effectors& effectors = assembly.executors[instance]->effectors();
+    any = any || effectors.resists();
+    const std::int64_t since_ns = effectors.giving_since_ns();
+    if (since_ns == 0) continue;
+    const Duration lasts(monotonic_ns() - since_ns);
+    if (lasts >= longest_safe_command) securing.secure(instance, {SafeReason::Kind::stalls});
+    next = std::min(next, now + std::max(longest_safe_command - lasts, Effectors::between_attempts));
+  }
+  RunControl& control = assembly.control;
+  if (any && !control.holds_devices()) {
+    control.hold_devices(true);
+    hold_the_others(assembly, securing, now);
+  } else if (!any && control.holds_devices()) {
+    control.hold_devices(false);
+  }
+  return any ? std::min(next, now + Effectors::between_attempts) : next;
+}
+
+void SteadyRun::hold_the_others(const Assembly& assembly, Securing& securing, Time now) {
+  constexpr Duration between_messages = std::chrono::seconds(1);  // a device may resist again and again
+  std::vector<std::string> resisting;
+  for (std::uint32_t instance = 0; instance < started_; ++instance) {
+    const Effectors& effectors = assembly.executors[instance]->effectors();
+    if (!effectors.resists()) securing.secure(instance, {SafeReason::Kind::other});
+    std::ranges::move(effectors.resisting(), std::back_inserter(resisting));
+  }
+  if (resisting.empty() || (told_of_resistance_ && now < *told_of_resistance_ + between_messages)) return;
+  told_of_resistance_ = now;
+  console::print(LogLevel::warning, now, "tessera",
+                 not_safe(resisting) + "; until then the other devices have theirs");
 }
 
 /// A device that does not take its safe command ends the run, if its own subsystem cannot report it.

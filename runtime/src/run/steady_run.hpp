@@ -14,6 +14,7 @@
 #include "safety/securing.hpp"
 #include "system/stop_signals.hpp"
 #include "watch/emergency_watch.hpp"
+#include "watch/liveness.hpp"
 #include "watch/monitor.hpp"
 #include "watch/status_sender.hpp"
 #include "watch/stillness.hpp"
@@ -34,7 +35,8 @@ class SteadyRun final : public Waker {
   [[nodiscard]] const SteadyClock& clock() const { return clock_; }
   void wake(std::uint32_t instance) override { wake_words_[instance].wake(); }
   /// Call it before the devices are opened: an emergency stop that comes then is in force from the start.
-  void listen(const Assembly& assembly);
+  /// Returns why nobody can reach the run; nullopt: it can be reached, or is not to be.
+  [[nodiscard]] std::optional<Problem> listen(const Assembly& assembly);
   [[nodiscard]] Ending run(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   /// Threads that run user code go on and use all of this: the process must end (GiveUp::end_process).
   [[nodiscard]] bool has_given_up() const { return given_up_after_.has_value(); }
@@ -54,6 +56,8 @@ class SteadyRun final : public Waker {
   void follow_emergency(EmergencyWatch& emergencies, const RunControl& control, Securing& securing,
                         RecordingLane* lane) const;
   static void collect_secured(RunControl& control, Securing& securing, RecordingLane* lane);
+  [[nodiscard]] Time follow_safe_commands(Assembly& assembly, Securing& securing, Time now);
+  void hold_the_others(const Assembly& assembly, Securing& securing, Time now);
   void suspend(Assembly& assembly, Securing& securing);
   [[nodiscard]] static bool any_owing(const Assembly& assembly);
   void stop_process(Time since, RecordingLane* lane);
@@ -79,8 +83,10 @@ class SteadyRun final : public Waker {
   WakeWord world_wakes_;
   std::vector<bool> collected_;
   StuckWatch stuck_;
-  int news_ = -1;              // eventfd: a subsystem has ended or the run is to stop
-  std::uint32_t started_ = 0;  // number of instances whose threads have been started
+  std::optional<Liveness> liveness_;          // until the threads have ended
+  std::optional<Time> told_of_resistance_{};  // when that was said last
+  int news_ = -1;                             // eventfd: a subsystem has ended or the run is to stop
+  std::uint32_t started_ = 0;                 // number of instances whose threads have been started
   bool duration_over_ = false;
   std::atomic<bool> net_ended_{false};
   Time world_time_{};                       // used by the world's thread while it runs

@@ -27,12 +27,22 @@ void Companions::watch_parent() {
 
 std::unique_ptr<ProcessWatch> Companions::watch_guardian(RunControl& control) const {
   if (guardian_ == nullptr) return nullptr;
-  return std::make_unique<ProcessWatch>(guardian_->process(), [this, &control] {
-    if (!guardian_->is_dismissed())
-      control.request_stop(
-          "the guardian of the devices has ended, and nothing else makes them safe if the controller dies",
-          /*fault=*/true);
-  });
+  const auto stop_if_in_trouble = [this, &control] {
+    const Guardian::Trouble trouble = guardian_->trouble();
+    if (trouble == Guardian::Trouble::none) return;
+    control.request_stop(Guardian::describe(trouble), /*fault=*/true);
+    control.tell_supervisor();
+  };
+  const auto has_ended = [this, stop_if_in_trouble] {
+    guardian_->note_end();
+    stop_if_in_trouble();
+  };
+  const auto goes_on = [this, stop_if_in_trouble] {
+    guardian_->look_at_it();
+    stop_if_in_trouble();
+  };
+  return std::make_unique<ProcessWatch>(guardian_->process(), has_ended,
+                                        ProcessWatch::Look{Guardian::beat_period, goes_on});
 }
 
 }  // namespace tessera

@@ -24,8 +24,8 @@ class Companions {
   [[nodiscard]] bool start_guardian(std::string& error);
   /// From now on, the end of the parent stops the run as SIGTERM does.
   void watch_parent();
-  /// As long as the result exists, the end of the guardian stops the run, which has failed: no process would
-  /// make the devices safe if this one died. nullptr: there is no guardian. `control` must outlive the result.
+  /// As long as the result exists, the run stops and has failed if the guardian ends or stands still: no process
+  /// would make the devices safe if this one died. nullptr: there is no guardian. `control` must outlive the result.
   [[nodiscard]] std::unique_ptr<ProcessWatch> watch_guardian(RunControl& control) const;
   /// nullptr: none.
   [[nodiscard]] Guardian* guardian() const { return guardian_.get(); }

@@ -12,6 +12,7 @@
 #include <cstring>
 #include <ctime>
 #include <new>
+#include <utility>
 
 #include "safety/guardian_shared.hpp"
 #include "system/waker.hpp"
@@ -107,6 +108,37 @@ void Guardian::announce_death() {
 }
 
 const std::atomic<bool>& Guardian::has_acted() const { return shared_->has_acted; }
+
+Guardian::Trouble Guardian::trouble() const {
+  return shared_->has_acted.load() ? Trouble::acted : noticed_.load();
+}
+
+std::string_view Guardian::describe(Trouble trouble) {
+  switch (trouble) {
+    case Trouble::none:
+      break;
+    case Trouble::acted:
+      return "the process stood still, and the guardian has given the devices the safe command";
+    case Trouble::ended:
+      return "the guardian of the devices has ended, and nothing else makes them safe if the controller dies";
+    case Trouble::stands_still:
+      return "the guardian of the devices stands still, and nothing else makes them safe if the controller "
+             "dies";
+  }
+  return "";
+}
+
+void Guardian::look_at_it() {
+  constexpr unsigned enough = stands_still_after / beat_period;
+  const std::uint64_t signs = shared_->signs_of_life.load(std::memory_order_relaxed);
+  const bool is_busy = shared_->has_acted.load() || shared_->dying.load();
+  looks_ = signs != std::exchange(signs_, signs) || is_busy ? 0 : looks_ + 1;
+  if (looks_ >= enough && !is_dismissed()) noticed_ = Trouble::stands_still;
+}
+
+void Guardian::note_end() {
+  if (!is_dismissed()) noticed_ = Trouble::ended;
+}
 
 bool Guardian::is_dismissed() const { return shared_->stage.load() == Stage::dismissed; }
 

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "system/process_watch.hpp"
 #include "tessera/controller.hpp"
@@ -25,7 +26,9 @@ namespace tessera {
 /// when the process continues. Otherwise the process is killed first, so that none of its threads
 /// commands the devices afterwards.
 ///
-/// Threads: `announce_death` any, also in a signal handler; the rest the run's.
+/// It gives signs of life itself: a guardian that is stopped protects nothing.
+///
+/// Threads: `announce_death` any, also in a signal handler; `look_at_it` one; the rest the run's.
 class Guardian {
  public:
   static constexpr Duration stands_still_after = std::chrono::seconds(2);
@@ -53,8 +56,26 @@ class Guardian {
   void dismiss();
   /// This process is about to die.
   void announce_death();
-  /// Whether the guardian has given the safe commands although this process lives.
+  /// Whether the guardian has given the safe commands although this process lives. After `dismiss` it does so
+  /// no more.
   [[nodiscard]] const std::atomic<bool>& has_acted() const;
+
+  /// Something for which the run has failed, whatever ends it.
+  enum class Trouble : std::uint8_t {
+    none,
+    acted,        ///< has_acted
+    ended,        ///< its process has ended
+    stands_still  ///< it has given no sign of life for stands_still_after
+  };
+  /// Ask it last: after `dismiss`, the answer does not change.
+  [[nodiscard]] Trouble trouble() const;
+  /// Empty for `none`.
+  [[nodiscard]] static std::string_view describe(Trouble trouble);
+  /// Call it once in every beat_period: it counts these calls and not the time, because a machine that sleeps or is
+  /// overloaded delays both processes.
+  void look_at_it();
+  /// The process of the guardian has ended.
+  void note_end();
   [[nodiscard]] bool is_dismissed() const;
   [[nodiscard]] pid_t process() const { return process_; }
 
@@ -67,6 +88,9 @@ class Guardian {
   Shared* shared_;
   int news_;  // eventfd: the guardian shall look
   pid_t process_;
+  std::atomic<Trouble> noticed_{Trouble::none};
+  std::uint64_t signs_ = 0;  // of life, at the last look
+  unsigned looks_ = 0;       // without one
 };
 
 }  // namespace tessera

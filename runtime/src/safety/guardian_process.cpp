@@ -24,6 +24,7 @@
 #include "drivers/devices.hpp"
 #include "drivers/whole_driver.hpp"
 #include "safety/guardian_shared.hpp"
+#include "safety/protection.hpp"
 #include "system/service.hpp"
 #include "system/waker.hpp"
 
@@ -73,33 +74,6 @@ void say_as_guardian(const std::string& text) {
   return taken;
 }
 
-/// Whether the driver belongs to a subsystem of this process.
-[[nodiscard]] bool is_of(const System& system, const CppDriver& driver) {
-  return std::ranges::any_of(system.instances, [&](const Instance& instance) {
-    const std::string path = fmt::format("{}.{}", instance.agent, instance.name);
-    return driver.path == path || driver.path.starts_with(path + ".");
-  });
-}
-
-/// The devices of effectors that the run opens and that no guardian can reach.
-[[nodiscard]] std::vector<std::string> unguarded_devices(const System& system, const RunOptions& options) {
-  std::vector<std::string> paths;
-  for (const CppDriver& driver : system.real_drivers)
-    if (!driver.guarded && driver.effector != nullptr && opens_real_driver(options, driver.path) &&
-        is_of(system, driver))
-      paths.emplace_back(driver.path);
-  return paths;
-}
-
-/// "robot.motor.left, robot.motor.right, and 30 more": a line must fit a terminal and a pipe.
-[[nodiscard]] std::string listed(const std::vector<std::string>& names) {
-  constexpr std::size_t shown = 16;
-  const std::vector<std::string> first(names.begin(), names.begin() + std::min(names.size(), shown));
-  std::string text = fmt::format("{}", fmt::join(first, ", "));
-  if (names.size() > shown) text += fmt::format(", and {} more", names.size() - shown);
-  return text;
-}
-
 /// The state of the devices; those that may still move come first.
 [[nodiscard]] std::string fate_of_devices(const std::vector<std::string>& refused,
                                           const std::vector<std::string>& unguarded,
@@ -107,13 +81,13 @@ void say_as_guardian(const std::string& text) {
   std::vector<std::string> parts;
   if (!refused.empty())
     parts.push_back(fmt::format("NOT SAFE, since {} not take the safe command: {}",
-                                refused.size() == 1 ? "it does" : "they do", listed(refused)));
+                                refused.size() == 1 ? "it does" : "they do", listed_devices(refused)));
   if (!unguarded.empty())
     parts.push_back(fmt::format("not guarded, so {} state is unknown: {}",
-                                unguarded.size() == 1 ? "its" : "their", listed(unguarded)));
+                                unguarded.size() == 1 ? "its" : "their", listed_devices(unguarded)));
   if (!safe.empty())
     parts.push_back(
-        fmt::format("{} {}, after {:.1f} ms", listed(safe),
+        fmt::format("{} {}, after {:.1f} ms", listed_devices(safe),
                     safe.size() == 1 ? "has got its safe command" : "have got their safe commands", took_ms));
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -138,13 +112,14 @@ class GuardianProcess {
 
   void make_drivers(const System& system, const RunOptions& options) {
     for (const CppDriver* driver : guarded_drivers(system, options)) make_driver(system, *driver);
-    unguarded_ = unguarded_devices(system, options);
+    unguarded_ = effectors_without_guardian(system, options);
   }
 
   /// Watches until the controller has ended, or no longer needs the guardian.
   void watch() {
     for (;;) {
       const bool ended = controller_.await_end(news_, guardian_looks_every_ms);
+      shared_.signs_of_life.fetch_add(1, std::memory_order_relaxed);
       std::uint64_t count = 0;
       [[maybe_unused]] const ssize_t taken = read(news_, &count, sizeof count);
       if (shared_.stage.load() == Stage::dismissed) return;
@@ -239,7 +214,9 @@ class GuardianProcess {
 
   /// Uses one process per driver, so that a driver that hangs or crashes delays no other.
   void make_safe(const std::string& why) {
+    // In this order: either the controller, which dismisses and then asks, learns of it, or nothing is done.
     shared_.has_acted = true;
+    if (shared_.stage.load() == Stage::dismissed) return;
     has_secured_ = true;
     const std::int64_t start_ns = monotonic_ns();
     std::map<pid_t, const GuardedDriver*> working;
@@ -314,6 +291,15 @@ std::vector<const CppDriver*> guarded_drivers(const System& system, const RunOpt
     if (driver.guarded && driver.effector != nullptr && opens_real_driver(options, driver.path))
       drivers.push_back(&driver);
   return drivers;
+}
+
+std::vector<std::string> effectors_without_guardian(const System& system, const RunOptions& options) {
+  std::vector<std::string> paths;
+  for (const CppDriver& driver : system.real_drivers)
+    if (!(driver.guarded && options.guardian) && driver.effector != nullptr &&
+        opens_real_driver(options, driver.path) && is_of(system, driver))
+      paths.emplace_back(driver.path);
+  return paths;
 }
 
 void live_as_guardian(const System& system, const RunOptions& options, Guardian::Shared& shared, int news,

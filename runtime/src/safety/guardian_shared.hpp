@@ -2,6 +2,7 @@
 
 #include <atomic>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "safety/guardian.hpp"
@@ -19,8 +20,9 @@ struct Guardian::Shared {
   };
   std::atomic<Stage> stage{Stage::starts};
   std::atomic<bool> dying{false}, has_acted{false};
-  std::atomic<std::uint64_t> beats{0};
-  char error[1024]{};  ///< set if it failed
+  std::atomic<std::uint64_t> beats{0};          ///< of the controller
+  std::atomic<std::uint64_t> signs_of_life{0};  ///< of the guardian
+  char error[1024]{};                           ///< set if it failed
 };
 static_assert(std::atomic<Guardian::Shared::Stage>::is_always_lock_free &&
               std::atomic<std::uint64_t>::is_always_lock_free && std::atomic<bool>::is_always_lock_free);
@@ -31,5 +33,9 @@ static_assert(std::atomic<Guardian::Shared::Stage>::is_always_lock_free &&
 
 /// The real drivers of effectors that such a run opens and that a guardian can serve.
 [[nodiscard]] std::vector<const CppDriver*> guarded_drivers(const System& system, const RunOptions& options);
+
+/// The real drivers of effectors that such a run opens and that no guardian makes safe.
+[[nodiscard]] std::vector<std::string> effectors_without_guardian(const System& system,
+                                                                  const RunOptions& options);
 
 }  // namespace tessera

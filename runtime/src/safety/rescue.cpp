@@ -1,5 +1,6 @@
 #include "safety/rescue.hpp"
 
+#include <algorithm>
 #include <csetjmp>
 #include <csignal>
 #include <ctime>
@@ -13,7 +14,7 @@ namespace {
 
 constexpr std::int64_t between_rescue_attempts_ns = 2'000'000;
 
-/// The point at which the thread of a Rescuer continues when a driver crashes.
+/// The point at which a thread of a Rescuer continues when a driver crashes.
 struct WayOut {
   sigjmp_buf place;
   volatile bool open = false;
@@ -34,14 +35,25 @@ void block_all_signals() {
 Rescuer::Rescuer(std::span<const std::unique_ptr<SubsystemExecutor>> executors, int priority) {
   for (const auto& executor : executors)
     for (std::size_t index = 0; index < executor->effectors().size(); ++index)
-      devices_.push_back({&executor->effectors(), index});
-  thread_ = std::thread([this, priority] { run(priority); });
+      devices_.emplace_back(executor->effectors(), index);
+  try {
+    for (std::size_t number = 0; number < std::min(devices_.size(), most_threads); ++number) {
+      Thread& made = threads_.emplace_back();
+      made.thread = std::thread([this, &made, priority] { run(made.asked, priority); });
+    }
+  } catch (...) {
+    end_threads();
+    throw;
+  }
 }
 
-Rescuer::~Rescuer() {
+Rescuer::~Rescuer() { end_threads(); }
+
+void Rescuer::end_threads() {
   state_.store(State::leaves, std::memory_order_release);
-  asked_.wake();
-  thread_.join();
+  for (Thread& one : threads_) one.asked.wake();
+  for (Thread& one : threads_)
+    if (one.thread.joinable()) one.thread.join();
 }
 
 bool Rescuer::rescue(const void* dead, Duration limit) {
@@ -49,7 +61,7 @@ bool Rescuer::rescue(const void* dead, Duration limit) {
   dead_.store(dead, std::memory_order_relaxed);
   until_ns_.store(until_ns, std::memory_order_relaxed);
   state_.store(State::is_asked, std::memory_order_release);
-  asked_.wake();
+  for (Thread& one : threads_) one.asked.wake();
   State state = State::is_asked;
   while (monotonic_ns() < until_ns) {
     const std::uint32_t ticket = answered_.ticket();
@@ -66,18 +78,18 @@ void Rescuer::leave_crashed_driver() {
   siglongjmp(way_out->place, 1);
 }
 
-void Rescuer::run(int priority) {
+void Rescuer::run(WakeWord& asked, int priority) {
   block_all_signals();
   const RealTimePriority realtime(priority);
   const AlternateStack stack;
   WayOut own;
   way_out = &own;
   for (;;) {
-    const std::uint32_t ticket = asked_.ticket();
+    const std::uint32_t ticket = asked.ticket();
     const State state = state_.load(std::memory_order_acquire);
     if (state == State::leaves) return;
     if (state == State::is_asked) make_all_safe();
-    asked_.sleep(ticket, -1);
+    asked.sleep(ticket, -1);
   }
 }
 
@@ -90,8 +102,8 @@ void Rescuer::make_all_safe() {
     nanosleep(&pause, nullptr);
     all = try_all(/*dead_too=*/true);
   }
-  state_.store(all ? State::has_succeeded : State::has_tried, std::memory_order_release);
-  answered_.wake();
+  State asked = State::is_asked;
+  if (state_.compare_exchange_strong(asked, all ? State::has_succeeded : State::has_tried)) answered_.wake();
 }
 
 bool Rescuer::try_all(bool dead_too) {
@@ -99,7 +111,10 @@ bool Rescuer::try_all(bool dead_too) {
   bool all = true;
   for (RescuedDevice& device : devices_) {
     const bool is_dead = dead != nullptr && device.effectors->device(device.index) == dead;
-    if (!device.safe && !device.crashed && (dead_too || !is_dead)) try_one(device);
+    if (!device.safe && !device.crashed && (dead_too || !is_dead) && !device.tried.exchange(true)) {
+      if (!device.safe) try_one(device);
+      device.tried = false;
+    }
     all = all && device.safe;
   }
   return all;

@@ -157,11 +157,13 @@ SafeReason::Kind DeviceCommands::why_withheld(const RunControl::Interruptions& b
   if (control_.stopping()) return SafeReason::Kind::leaves;
   if (now.emergencies != before.emergencies || control_.emergency()) return SafeReason::Kind::emergency;
   if (now.suspensions != before.suspensions || control_.suspended()) return SafeReason::Kind::suspended;
+  if (control_.holds_devices()) return SafeReason::Kind::other;
   return SafeReason::Kind::leaves;  // the run will stop, because the guardian has acted
 }
 
 SafeReason DeviceCommands::why_hold(Time now) const {
   if (control_.emergency()) return {SafeReason::Kind::emergency, {}};
+  if (control_.holds_devices()) return {SafeReason::Kind::other, {}};
   return inputs_.why_hold(now);
 }
 
@@ -239,6 +241,9 @@ void DeviceCommands::beat(Time now, std::string_view place) {
 void DeviceCommands::guard(Time now, std::string_view place) {
   beat(now, place);
   if (effectors_.none()) return;
+  // The safe command stands until the next command, and an input may become stale before.
+  if (held_.kind == SafeReason::Kind::other && !control_.holds_devices())
+    held_ = {SafeReason::Kind::starting, {}};
   if (const SafeReason why = why_hold(now); why.kind != SafeReason::Kind::none && why != held_)
     hold(why, place);
   try_again(now);
@@ -247,7 +252,8 @@ void DeviceCommands::guard(Time now, std::string_view place) {
 Time DeviceCommands::guard_deadline(Time now) const {
   using Why = SafeReason::Kind;
   if (effectors_.none()) return Time::max();
-  const Time deadline = refused_since_ == Time::max() ? Time::max() : now + Effectors::between_attempts;
+  const bool looks_again = refused_since_ != Time::max() || held_.kind == Why::other;
+  const Time deadline = looks_again ? now + Effectors::between_attempts : Time::max();
   if (parts_.instance->stale == Duration::zero() || (held_.kind != Why::none && held_.kind != Why::starting))
     return deadline;
   return std::min(deadline, inputs_.stale_from());

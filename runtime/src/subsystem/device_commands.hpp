@@ -47,6 +47,8 @@ class DeviceCommands {
   [[nodiscard]] bool none() const { return effectors_.none(); }
   /// Whether a device wants heartbeats, or commands can get stale.
   [[nodiscard]] bool watches_time() const { return !none() || life_.beats(); }
+  /// The drivers that want heartbeats, once they are open.
+  [[nodiscard]] std::vector<std::string> with_heartbeat() const { return life_.with_heartbeat(); }
   /// Threads: as its members say.
   [[nodiscard]] Effectors& effectors() { return effectors_; }
   [[nodiscard]] const Effectors& effectors() const { return effectors_; }

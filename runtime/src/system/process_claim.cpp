@@ -5,6 +5,7 @@
 #include <sys/un.h>
 #include <unistd.h>
 
+#include <array>
 #include <cerrno>
 #include <cstddef>
 #include <cstring>
@@ -13,17 +14,18 @@ namespace tessera {
 namespace {
 
 /// Names of abstract sockets are short, so this is a hash (FNV-1a).
-std::string name_of(const ClaimedProcess& process) {
+std::string name_of(std::span<const std::string> parts) {
   std::uint64_t hash = 0xcbf29ce484222325U;
-  const auto add = [&](const std::string& text) {
-    for (const char letter : text) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
+  for (const std::string& part : parts) {
+    for (const char letter : part) hash = (hash ^ static_cast<unsigned char>(letter)) * 0x100000001b3U;
     hash *= 0x100000001b3U;
-  };
-  add(process.system);
-  add(process.process);
-  add(std::to_string(process.domain));
-  add(process.interface.empty() ? "lo" : process.interface);
+  }
   return fmt::format("tessera-process-{:016x}", hash);
+}
+
+std::array<std::string, 4> parts_of(const ClaimedProcess& process) {
+  return {process.system, process.process, std::to_string(process.domain),
+          process.interface.empty() ? "lo" : process.interface};
 }
 
 std::int64_t owner_of(const sockaddr_un& address, socklen_t size) {
@@ -38,11 +40,13 @@ std::int64_t owner_of(const sockaddr_un& address, socklen_t size) {
 
 }  // namespace
 
-ProcessClaim::ProcessClaim(const ClaimedProcess& process)
+ProcessClaim::ProcessClaim(const ClaimedProcess& process) : ProcessClaim(parts_of(process)) {}
+
+ProcessClaim::ProcessClaim(std::span<const std::string> parts)
     : socket_(socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0)) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  const std::string name = name_of(process);
+  const std::string name = name_of(parts);
   std::memcpy(address.sun_path + 1, name.data(), name.size());  // a name that begins with 0 is abstract
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
   if (socket_ < 0) return;

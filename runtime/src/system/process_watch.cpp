@@ -43,8 +43,11 @@ bool OtherProcess::await_end(int descriptor, int limit_ms) const {
   }
 }
 
-ProcessWatch::ProcessWatch(pid_t process, std::function<void()> on_end)
-    : process_(process), on_end_(std::move(on_end)), enough_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
+ProcessWatch::ProcessWatch(pid_t process, std::function<void()> on_end, Look look)
+    : process_(process),
+      on_end_(std::move(on_end)),
+      look_(std::move(look)),
+      enough_(eventfd(0, EFD_CLOEXEC | EFD_NONBLOCK)) {
   // The run's thread handles signals.
   sigset_t all, mask;
   sigfillset(&all);
@@ -60,6 +63,7 @@ ProcessWatch::ProcessWatch(pid_t process, std::function<void()> on_end)
 }
 
 ProcessWatch::~ProcessWatch() {
+  is_over_ = true;
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(enough_, &one, sizeof one);
   thread_.join();
@@ -67,7 +71,11 @@ ProcessWatch::~ProcessWatch() {
 }
 
 void ProcessWatch::run() {
-  if (process_.await_end(enough_, -1)) on_end_();
+  const int limit_ms = look_.at_it ? static_cast<int>(look_.period / std::chrono::milliseconds(1)) : -1;
+  while (!is_over_) {
+    if (process_.await_end(enough_, limit_ms)) return on_end_();
+    if (!is_over_ && look_.at_it) look_.at_it();
+  }
 }
 
 }  // namespace tessera

@@ -2,8 +2,11 @@
 
 #include <sys/types.h>
 
+#include <atomic>
 #include <functional>
 #include <thread>
+
+#include "tessera/time.hpp"
 
 namespace tessera {
 
@@ -29,11 +32,16 @@ class OtherProcess {
 
 /// A thread that waits for the end of another process.
 ///
-/// Threads: constructed and destroyed by one; the callback runs on the thread of the watch.
+/// Threads: constructed and destroyed by one; the callbacks run on the thread of the watch.
 class ProcessWatch {
  public:
+  /// Something that is done again and again while the process lives.
+  struct Look {
+    Duration period;
+    std::function<void()> at_it;  ///< empty: nothing
+  };
   /// on_end: called once if the process ends while the watch exists. Throws std::system_error: no thread.
-  ProcessWatch(pid_t process, std::function<void()> on_end);
+  ProcessWatch(pid_t process, std::function<void()> on_end, Look look = {Duration::zero(), {}});
   ProcessWatch(const ProcessWatch&) = delete;
   ProcessWatch& operator=(const ProcessWatch&) = delete;
   ~ProcessWatch();
@@ -42,7 +50,9 @@ class ProcessWatch {
   void run();
   OtherProcess process_;
   std::function<void()> on_end_;
+  Look look_;
   int enough_;  // eventfd
+  std::atomic<bool> is_over_{false};
   std::thread thread_;
 };
 

@@ -15,7 +15,6 @@ Liveness::Liveness(Assembly& assembly, Guardian* guardian) : assembly_(assembly)
 
 Liveness::~Liveness() {
   if (guardian_ != nullptr) guardian_->ignore_beats();
-  manager_.stopping();
 }
 
 Time Liveness::show(Time now) {
@@ -26,8 +25,7 @@ Time Liveness::show(Time now) {
       next_beat_ = now + Guardian::beat_period;
     }
     if (guardian_->has_acted())
-      assembly_.control.request_stop(
-          "the process stood still, and the guardian has given the devices the safe command", /*fault=*/true);
+      assembly_.control.request_stop(Guardian::describe(Guardian::Trouble::acted), /*fault=*/true);
     next = next_beat_;
   }
   const bool stalled = somebody_stalls();

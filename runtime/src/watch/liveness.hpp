@@ -16,12 +16,14 @@ class Liveness {
   Liveness(Assembly& assembly, Guardian* guardian);
   Liveness(const Liveness&) = delete;
   Liveness& operator=(const Liveness&) = delete;
-  /// The run is about to stop.
+  /// Nothing can stand still unnoticed from here on: the threads that command devices have ended, or are given up.
   ~Liveness();
 
   /// Call it whenever the supervisor is awake. Returns when to call it next; Time::max(): never. If the run
   /// has stood still for so long that the guardian has acted, the run fails.
   [[nodiscard]] Time show(Time now);
+  /// The run stops. `show` goes on: the process may stand still before the devices have their safe commands.
+  void stopping() { manager_.stopping(); }
   /// The process is suspended (SIGTSTP), or continues.
   void suspend();
   void resume();

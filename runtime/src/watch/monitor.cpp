@@ -111,7 +111,8 @@ void Monitor::serve() {
     throw;
   } catch (const std::exception& exception) {
     try {
-      text = fmt::format("`tessera top` cannot look at this run any more: {}", exception.what());
+      text = fmt::format("`tessera top`, `set` and `emergency-stop` cannot reach this run any more: {}",
+                         exception.what());
       what = text;
     } catch (...) {  // no memory for more
     }

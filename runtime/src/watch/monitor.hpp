@@ -35,6 +35,8 @@ class Monitor {
   Monitor(const Monitor&) = delete;
   Monitor& operator=(const Monitor&) = delete;
 
+  /// Why it does not listen; nullopt: it does.
+  [[nodiscard]] const std::optional<Problem>& failure() const { return failure_; }
   /// Prints a warning on the console if the monitor does not listen.
   void warn_of_failure(Time now) const;
 

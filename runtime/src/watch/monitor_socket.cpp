@@ -21,16 +21,32 @@
 namespace tessera {
 namespace {
 
-/// The folder, which must belong to us alone: that of another user could be a trap.
-[[nodiscard]] std::optional<Problem> make_own_folder(const std::string& folder) {
+/// The hint for a folder that another user may have made before.
+constexpr const char* remedy = "remove it, or set XDG_RUNTIME_DIR to a folder of your own";
+
+/// The folder must belong to us alone: that of another user could be a trap. nullopt: it does, or there is none.
+[[nodiscard]] std::optional<Problem> wrong_with(const std::string& folder) {
   struct stat status {};
-  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
-    return Problem{fmt::format("cannot make '{}': {}", folder, std::strerror(errno))};
-  if (lstat(folder.c_str(), &status) != 0)
+  if (lstat(folder.c_str(), &status) != 0) {
+    if (errno == ENOENT) return std::nullopt;
     return Problem{fmt::format("cannot look at '{}': {}", folder, std::strerror(errno))};
-  if (!S_ISDIR(status.st_mode) || status.st_uid != geteuid() || (status.st_mode & 077U) != 0)
-    return Problem{fmt::format("'{}' is not a folder that only its owner may enter", folder)};
+  }
+  const auto because = [&](const std::string& what) {
+    return Problem{fmt::format("'{}' {}: {}", folder, what, remedy)};
+  };
+  if (S_ISLNK(status.st_mode)) return because("is a link");
+  if (!S_ISDIR(status.st_mode)) return because("is no folder");
+  if (status.st_uid != geteuid())
+    return because(fmt::format("belongs to another user (number {})", status.st_uid));
+  if ((status.st_mode & 077U) != 0) return because("may be entered by other users");
   return std::nullopt;
+}
+
+[[nodiscard]] std::optional<Problem> make_own_folder(const std::string& folder) {
+  if (mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    return Problem{fmt::format("cannot make '{}': {}; set XDG_RUNTIME_DIR to a folder of your own", folder,
+                               std::strerror(errno))};
+  return wrong_with(folder);
 }
 
 [[nodiscard]] bool is_owner(int client) {
@@ -95,6 +111,16 @@ std::string monitor_folder() {
     if (std::string folder = std::string(runtime) + "/tessera"; folder.size() + least_room <= longest_path)
       return folder;
   return fmt::format("/tmp/tessera-{}", geteuid());
+}
+
+std::optional<Problem> wrong_with_monitor_folder() {
+  const std::string folder = monitor_folder();
+  if (std::optional<Problem> wrong = wrong_with(folder)) return wrong;
+  const std::string above = folder.substr(0, folder.rfind('/'));
+  if (access(folder.c_str(), R_OK | X_OK) == 0 || access(above.c_str(), W_OK | X_OK) == 0)
+    return std::nullopt;
+  return Problem{fmt::format("'{}' cannot be made: {}; set XDG_RUNTIME_DIR to a folder of your own", folder,
+                             std::strerror(errno))};
 }
 
 std::string monitor_file(std::string_view name, std::int64_t process) {

@@ -70,7 +70,8 @@ struct ControlConnection::Attempt {
 };
 
 /// The control sockets in a folder, tessera::monitor_folder(), sorted by name. A process that was killed
-/// leaves its own behind: nobody listens there.
+/// leaves its own behind: nobody listens there. Empty, too, if that folder is not this user's alone
+/// (tessera::wrong_with_monitor_folder).
 [[nodiscard]] std::vector<std::filesystem::path> control_sockets(const std::filesystem::path& folder);
 
 }  // namespace tessera::project

@@ -245,8 +245,12 @@ void Run::execute(project::Controller controller) {
   process_over_ = true;
   if (follower_.joinable()) follower_.join();
   json summary = read_summary(folder.path() / project::file_names::summary);
-  const bool failed = exit.code != 0 && !stop_ && exit.code != 130;
-  std::string why = stop_ ? "stopped" : summary.is_object() ? summary.value("ended", "") : exit.text;
+  // A run that was stopped may have failed all the same: the guardian acted, or a device refused.
+  const bool says_so = summary.is_object() && summary.value("failed", false);
+  const bool failed = says_so || (exit.code != 0 && !stop_ && exit.code != 130);
+  std::string why = stop_ && !says_so     ? "stopped"
+                    : summary.is_object() ? summary.value("ended", "")
+                                          : exit.text;
   if (!summary.is_object()) {
     const std::string death = project::describe_death(exit, note);
     if (!stop_ && !death.empty()) why = death;

@@ -57,6 +57,8 @@ struct Log {
   std::atomic<Harm> harm{Harm::none};
   std::atomic<Place> place{Place::control};
   std::atomic<std::int64_t> struck_ns{0};  ///< when the harm was done
+  std::atomic<bool> hangs_when_safe{
+      false};  ///< the driver of device 0 does not return from its next safe command
   std::atomic<std::uint64_t> count{0};
   std::array<Command, 1U << 16U> commands;
 };

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <unistd.h>
+
 #include "command_log.hpp"
 #include "harm.hpp"
 #include "tessera/device.hpp"
@@ -12,6 +14,7 @@ class Logged : public tessera::Effector<double>, public tessera::Guarded {
     command_log::Log* const log = command_log::own();
     if (log == nullptr) return false;
     command_log::note(*log, Number, value);
+    while (Number == 0 && value == 0 && log->hangs_when_safe) pause();
     if (Number == 0 && value != 0) suffer(command_log::Place::driver);
     return true;
   }

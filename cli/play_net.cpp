@@ -15,6 +15,7 @@
 #include "diagnostics/source.hpp"
 #include "net/pnml_reader.hpp"
 #include "tessera/net_executor.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::cli {
 
@@ -127,12 +128,12 @@ void print(const net::Net& net, const Played& played) {
   constexpr std::size_t shown = 20;
   const double rate = static_cast<double>(played.outcome.firings) / std::max(played.seconds, 1e-9);
   fmt::print("{} firings in {:.3f} s, {:.1f} million a second; ended: {}\n", played.outcome.firings,
-             played.seconds, rate * 1e-6, ending(played.outcome));
+             played.seconds, rate * 1e-6, printable(ending(played.outcome)));
   std::vector<std::uint32_t> order(played.times.size());
   std::iota(order.begin(), order.end(), 0U);
   std::ranges::stable_sort(order, std::greater<>(), [&](std::uint32_t t) { return played.times[t]; });
   for (std::size_t i = 0; i < std::min(shown, order.size()); ++i)
-    fmt::print("{:12} {}\n", played.times[order[i]], net.transitions()[order[i]].name);
+    fmt::print("{:12} {}\n", played.times[order[i]], printable(net.transitions()[order[i]].name));
   if (order.size() > shown)
     fmt::print("{:>12} {} transitions more, all of them with --json FILE\n", "...", order.size() - shown);
   const auto never = std::ranges::count(played.times, std::uint64_t{0});

@@ -65,8 +65,14 @@ int complain(const std::string& text) {
   return failed;
 }
 
+std::string for_output(std::string_view text) {
+  return isatty(STDOUT_FILENO) != 0 ? printable(text) : std::string(text);
+}
+
 void write_output(const std::string& file, std::string_view text) {
   check_replaceable(file, text);
+  const std::string shown = file == "-" ? for_output(text) : std::string();
+  if (file == "-") text = shown;
   std::FILE* stream = file == "-" ? stdout : std::fopen(file.c_str(), "wb");
   if (stream == nullptr)
     throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));

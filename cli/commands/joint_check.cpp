@@ -39,6 +39,13 @@ replay::ProcessMap processes_of(const spec::Model& model) {
 
 bool is_of_this_net(const std::vector<Recording>& recordings, const std::string& hash,
                     const project::Specification& specification) {
+  const std::string& system = specification.model.system;
+  for (const Recording& recording : recordings)
+    if (recording.system != system)
+      return complain(fmt::format("the recording is of the system '{}', and {} has the system '{}': name the "
+                                  "specification it was made with by --spec",
+                                  recording.system, specification.file.string(), system)),
+             false;
   const auto other = std::ranges::find_if(
       recordings, [&](const Recording& recording) { return recording.net_hash != hash; });
   if (other == recordings.end()) return true;

@@ -11,6 +11,7 @@
 #include "cli/terminal.hpp"
 #include "project/files/files.hpp"
 #include "statistics/table.hpp"
+#include "tessera/printable.hpp"
 
 namespace tessera::cli {
 
@@ -36,11 +37,12 @@ int merge_command(const MergeOptions& options) {
   const std::string text = statistics::to_json(*merged);
   if (!options.results.empty()) write_output(options.results, text);
   if (!options.json.empty()) write_output(options.json, text);
-  if (options.results != "-" && options.json != "-") fmt::print("{}", statistics::to_table(*merged));
+  if (options.results != "-" && options.json != "-")
+    fmt::print("{}", printable(statistics::to_table(*merged)));
   const std::vector<std::string> missing = statistics::missing_parts(*merged);
   constexpr std::size_t most_shown = 20;
   for (std::size_t index = 0; index < missing.size(); ++index)
-    if (index < most_shown) fmt::print(stderr, "missing: {}\n", missing[index]);
+    if (index < most_shown) fmt::print(stderr, "missing: {}\n", printable(missing[index]));
   if (missing.size() > most_shown)
     fmt::print(stderr, "missing: ... and {} more\n", missing.size() - most_shown);
   if (merged->failed > 0) return failed;

@@ -126,7 +126,7 @@ int watch_one(SeenController& watched, const TopOptions& options) {
     auto* now = std::get_if<Snapshot>(&*said->content);
     if (now == nullptr) continue;
     if (options.lines) {
-      fmt::print("{}\n", said->line);
+      fmt::print("{}\n", for_output(said->line));
       if (options.once) return ok;
     } else if (before) {
       if (is_too_early(*now, *before, since)) continue;

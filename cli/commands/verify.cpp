@@ -17,6 +17,7 @@
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
 #include "tessera/nearest.hpp"
+#include "tessera/printable.hpp"
 #include "verify/communication/abstraction.hpp"
 
 namespace tessera::cli {
@@ -108,7 +109,7 @@ verify::Report judge(const Judged& judged, const VerifyOptions& options, project
 // ---------------------------------------------------------------------------------------------- reports
 
 void print_result(const Judged& judged, const verify::PropertyResult& property, bool explain) {
-  fmt::print("{}", text_of(judged.net(), property));
+  fmt::print("{}", printable(text_of(judged.net(), property)));
   if (!explain) return;
   if (!property.asks.empty() && property.asks != property.name) fmt::print("  {}\n", property.asks);
   if (!property.explanation.empty()) fmt::print("  {}\n", property.explanation);

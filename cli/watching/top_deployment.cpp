@@ -103,7 +103,7 @@ int print_lines(DeploymentWatch& deployment, const WatchedSystem& system, bool o
       const auto* snapshot = read ? std::get_if<Snapshot>(&*read) : nullptr;
       if (snapshot == nullptr || !told.insert(snapshot->name.value_or("")).second) return;
     }
-    fmt::print("{}\n", line);
+    fmt::print("{}\n", for_output(line));
   };
   wait_for_all(deployment, system, once, each_line);
   if (once) {

@@ -218,8 +218,8 @@ void write_csv(const Recording& recording, const Selection& selection, std::ostr
   const auto line = [&](const Entry& entry, const std::string& text, const ValueTrack::Change* change) {
     const Event& event = entry.event;
     return fmt::format("{},{},{},{},{},{}\n", event.time_ns, event.sequence, kind_of(event),
-                       path_of(recording, event), change == nullptr ? event.version : change->event.flags,
-                       quoted_field(text));
+                       quoted_field(path_of(recording, event)),
+                       change == nullptr ? event.version : change->event.flags, quoted_field(text));
   };
   for (const Row& row : rows_of(recording, selection, line)) to << row.text;
 }
@@ -230,7 +230,8 @@ void write_values_csv(const Recording& recording, const Selection& selection, st
   const Columns columns(recording, values.values.value_or(""));
   to << "time_ns,buffer,status,stamp_ns" << columns.head() << '\n';
   const auto line = [&](const Entry& entry, const std::string&, const ValueTrack::Change* change) {
-    return fmt::format("{},{},{},{}{}\n", entry.event.time_ns, change->buffer.path, status_of(*change),
+    return fmt::format("{},{},{},{}{}\n", entry.event.time_ns, quoted_field(change->buffer.path),
+                       status_of(*change),
                        change->event.has(ValueFlags::stamped) ? std::to_string(change->event.stamp_ns) : "",
                        columns.row(*change));
   };

@@ -50,7 +50,7 @@ class JointOrder {
       channels_.emplace(net.parts().channels[index], index);
     for (const Recording* recording : in_order(recordings)) {
       sources_.emplace_back(*recording);
-      if (!mismatch_) mismatch_ = sources_.back().match(transitions);
+      if (!mismatch_) mismatch_ = sources_.back().match(net, transitions);
     }
     play_.emplace(net_, starts(), one_run_);
   }

@@ -14,12 +14,10 @@
 namespace tessera::replay {
 
 std::optional<Problem> JointSource::match(
-    const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
-  for (const Recording::Transition& named : recording_.transitions) {
-    const auto found = transitions.find(named.name);
-    if (found == transitions.end()) return Problem{fmt::format("the net has no transition '{}'", named.name)};
-    transitions_.push_back({found->second});
-  }
+    const net::Net& net, const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
+  if (std::optional<Problem> wrong = header_mismatch(recording_, net)) return wrong;
+  for (const Recording::Transition& named : recording_.transitions)
+    transitions_.push_back({transitions.at(named.name)});
   return std::nullopt;
 }
 

@@ -22,7 +22,7 @@ class JointSource {
 
   /// Why the recording does not belong to this net; nullopt: it does.
   [[nodiscard]] std::optional<Problem> match(
-      const std::unordered_map<std::string_view, std::uint32_t>& transitions);
+      const net::Net& net, const std::unordered_map<std::string_view, std::uint32_t>& transitions);
   [[nodiscard]] net::TransitionId transition(const Event& event) const { return transitions_[event.subject]; }
   /// The index of the subsystem.
   [[nodiscard]] std::string path_of(const Event& event) const;

@@ -84,6 +84,15 @@ class Play {
     return event.instance() == system_instance ? lanes_.back() : lanes_[event.instance()];
   }
 
+  /// A firing of a subsystem that the transition does not belong to.
+  [[nodiscard]] Outcome stranger(const Event& event) const {
+    if (event.kind() != Event::Kind::firing) return {};
+    const Recording::Transition& transition = recording_.transitions[event.subject];
+    if (transition.instance == event.instance()) return {};
+    return illegal(fmt::format("{}: '{}' fired in {}, which does not have it", seconds_text(event.time_ns),
+                               transition.name, path_of(event)));
+  }
+
   enum class Sequence : std::uint8_t { next, gap, back };
   /// Keeps count of the events of a lane.
   static Sequence follow(Player& lane, const Event& event) {
@@ -137,6 +146,7 @@ class WrittenOrder : Play {
     const Event& event = entry.event;
     if (event.kind() == Event::Kind::marking) return event.version == 0 && !gap_ ? compare(entry) : Outcome();
     if (event.kind() == Event::Kind::poses) return {};  // not counted
+    if (Outcome outcome = stranger(event)) return outcome;
     const Sequence sequence = follow(lane_of(event), event);
     if (sequence == Sequence::back) return illegal(back_at(event));
     if (sequence == Sequence::gap && !gap_) gap_ = incomplete(gap_before(event));
@@ -177,6 +187,7 @@ class AnyOrder : Play {
  private:
   Outcome take(const Event& event) {
     if (event.kind() == Event::Kind::poses) return {};  // not counted
+    if (Outcome outcome = stranger(event)) return outcome;
     Player& lane = lane_of(event);
     const std::uint32_t due = lane.next_sequence;
     const Sequence sequence = follow(lane, event);

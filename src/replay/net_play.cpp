@@ -15,27 +15,24 @@ std::string seconds_text(std::int64_t time_ns) {
 
 NetPlay::NetPlay(const Recording& recording, const net::Net& net)
     : recording_(recording), net_(net), marking_(net::initial_marking(net)) {
-  if (match_transitions()) find_makers();
+  mismatch_ = header_mismatch(recording, net);
+  if (mismatch_) return;
+  match_transitions();
+  find_makers();
 }
 
 /// Numbers of the recording to numbers of the net, and the channel that each transition touches.
-bool NetPlay::match_transitions() {
+void NetPlay::match_transitions() {
   std::unordered_map<std::string_view, std::uint32_t> by_name;
   for (std::uint32_t index = 0; index < net_.transitions().size(); ++index)
     by_name.emplace(net_.transitions()[index].name, index);
   std::uint32_t count = 0;
   for (const Recording::Transition& recorded : recording_.transitions) {
-    const auto found = by_name.find(recorded.name);
-    if (found == by_name.end()) {
-      mismatch_ = Problem{fmt::format("the net has no transition '{}'", recorded.name)};
-      return false;
-    }
-    transitions_.push_back({found->second});
+    transitions_.push_back({by_name.at(recorded.name)});
     channels_.push_back(net_.channel_of(transitions_.back()));
     if (channels_.back().valid()) count = std::max(count, channels_.back().value + 1);
   }
   versions_.resize(count);
-  return true;
 }
 
 void NetPlay::find_makers() {

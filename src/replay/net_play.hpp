@@ -14,6 +14,16 @@
 
 namespace tessera::replay {
 
+/// The first name in the header of a recording that the net has not, or has elsewhere: a subsystem, a
+/// behaviour, a channel, a transition or its subsystem, a buffer, the agent of a body. A verdict and its
+/// texts speak of these names, so a recording with others is not one of this net, whatever its hash says.
+/// nullopt: all of them are right.
+///
+/// A net without parts (of no specification) has transitions only. Recordings without roles name no channels.
+///
+/// Threads: pure. Linear.
+[[nodiscard]] std::optional<Problem> header_mismatch(const Recording& recording, const net::Net& net);
+
 /// The token game of a net, played with the firings of a recording: nothing of the runtime's own firing is
 /// used. Transitions and places are matched by name.
 ///
@@ -21,8 +31,8 @@ namespace tessera::replay {
 class NetPlay {
  public:
   NetPlay(const Recording& recording, const net::Net& net);
-  /// Why the recording does not belong to this net; nullopt: every transition was found. Otherwise
-  /// nothing else may be called.
+  /// Why the recording does not belong to this net (header_mismatch); nullopt: it does. Otherwise nothing
+  /// else may be called.
   [[nodiscard]] const std::optional<Problem>& mismatch() const { return mismatch_; }
 
   /// Why a firing cannot be the next.
@@ -68,7 +78,7 @@ class NetPlay {
   [[nodiscard]] const std::string& place_name(net::PlaceId place) const { return net_[place].name; }
 
  private:
-  [[nodiscard]] bool match_transitions();
+  void match_transitions();
   void find_makers();
   struct Version {
     std::uint32_t last = 0;

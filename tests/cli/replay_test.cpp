@@ -117,6 +117,25 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
   EXPECT_EQ(tessera("replay bare.tsr --values").code, 1);
 }
 
+/// A text of user code, which may come from a robot, or from somebody who sent the recording.
+TEST_F(Replay, ATextOfARecordingDoesNotCommandTheTerminal) {
+  std::string recording = content_of(TESSERA_SOURCE_DIR "/tests/golden/recordings/without_roles.tsr");
+  const std::string ended = "duration", hidden = "\x1b[2Jgone";
+  ASSERT_EQ(hidden.size(), ended.size());
+  recording.replace(recording.rfind(ended), ended.size(), hidden);
+  write(folder_ / "run.tsr", recording);
+  for (const char* how : {"--csv -", "--print", "--to-perfetto -", "--json -", ""}) {
+    const std::string line = std::string("replay run.tsr ") + how;
+    const project::Exit terminal =
+        shell("script -qec '" TESSERA_BINARY_DIR "/tessera " + line + "' /dev/null < /dev/null");
+    EXPECT_EQ(terminal.text.find('\x1b'), std::string::npos) << how;
+    const bool is_json = line.find("json") != std::string::npos || line.find("perfetto") != std::string::npos;
+    EXPECT_TRUE(is_json || terminal.text.find("\\x1b[2Jgone") != std::string::npos) << how << terminal.text;
+  }
+  const project::Exit piped = tessera("replay run.tsr --csv -");
+  EXPECT_NE(piped.text.find("stop,system,0," + hidden), std::string::npos) << "a program gets the bytes";
+}
+
 TEST_F(Replay, ReadsAndChecksTheSegmentsThatALimitLeaves) {
   example("01_line_follower");
   ASSERT_EQ(

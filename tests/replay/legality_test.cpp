@@ -6,6 +6,9 @@
 #include <functional>
 #include <map>
 #include <random>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "layers/models.hpp"
 #include "random_run.hpp"
@@ -256,7 +259,50 @@ TEST(Legality, ARunOfAnotherNetIsIllegal) {
   const Recording run = random_run(test::build(test::fleet(2)).net, 100, random);
   const Legality other = check_legal(run, test::build(test::line_follower()).net);
   EXPECT_EQ(other.verdict, Verdict::illegal);
-  EXPECT_NE(other.why.find("the net has no transition"), std::string::npos) << other.why;
+  EXPECT_NE(other.why.find("the net has no subsystem"), std::string::npos) << other.why;
+}
+
+TEST(Legality, AHeaderWithNamesThatTheNetHasNotIsIllegal) {
+  using Change = std::function<void(Recording&)>;
+  Random random(17);
+  const test::Built built = test::build(test::line_follower());
+  Recording run = random_run(built.net, 100, random);
+  run.channels = built.net.parts().channels;
+  for (const net::Parts::Subsystem& subsystem : built.net.parts().subsystems)
+    run.behaviours.push_back(subsystem.behaviours);
+  run.buffers.push_back({run.instances[0] + ".line", 0, Recording::Direction::input, "b"});
+  run.scene = Recording::Scene{"", {{"chassis", "robot"}}, {}};
+  ASSERT_EQ(check_legal(run, built.net).verdict, Verdict::legal) << check_legal(run, built.net).why;
+  const std::string control = run.instances[0];
+  const std::vector<std::pair<Change, std::string>> changes{
+      {[](Recording& r) { r.instances[0] = "lobot.control"; }, "the net has no subsystem 'lobot.control'"},
+      {[](Recording& r) { std::swap(r.instances[0], r.instances[1]); }, ""},
+      {[](Recording& r) { r.instances[1] = r.instances[0]; }, "names the subsystem '" + control + "' twice"},
+      {[](Recording& r) { r.behaviours[0][0] = "hollow"; }, "no behaviour '" + control + ".hollow'"},
+      {[](Recording& r) { r.channels[0] = "a.b.c->d.e.f"; }, "no channel 'a.b.c->d.e.f'"},
+      {[](Recording& r) { r.networked = {"x->y"}; }, "no channel 'x->y'"},
+      {[](Recording& r) { r.transitions[1] = r.transitions[0]; }, "twice"},
+      {[](Recording& r) { r.transitions[0].name = "x"; }, "no transition 'x'"},
+      {[](Recording& r) { r.buffers[0].path = "lobot.control.line"; }, "the buffer 'lobot.control.line'"},
+      {[](Recording& r) { r.scene->bodies[0].agent = "lobot"; }, "no agent 'lobot'"},
+      {[](Recording& r) {
+         for (Recording::Transition& one : r.transitions)
+           if (one.instance == 0) one.instance = 1;
+       },
+       "gives the transition"}};
+  for (const auto& [change, why] : changes)
+    for (const char* const clock : {"simulated", "steady"}) {
+      Recording forged = run;
+      forged.clock = clock;
+      change(forged);
+      const Legality judged = check_legal(forged, built.net);
+      EXPECT_EQ(judged.verdict, Verdict::illegal) << why;
+      EXPECT_NE(judged.why.find(why), std::string::npos) << judged.why;
+    }
+  Recording stranger = run;
+  for (Recording::Entry& entry : stranger.entries)
+    if (entry.event.instance() == 0) entry.event.origin += 1U << 8U;
+  EXPECT_NE(check_legal(stranger, built.net).why.find("which does not have it"), std::string::npos);
 }
 
 }  // namespace

@@ -23,11 +23,13 @@ inline Recording random_run(const net::Net& net, std::size_t firings, Random& ra
   recording.clock = "simulated";
   std::uint32_t instances = 0;
   for (const net::Transition& transition : net.transitions()) {
-    recording.transitions.push_back({transition.name, transition.subsystem.value});
+    recording.transitions.push_back(
+        {transition.name, transition.subsystem.valid() ? transition.subsystem.value : upper_layers});
     if (transition.subsystem.valid()) instances = std::max(instances, transition.subsystem.value + 1);
   }
   for (std::uint32_t index = 0; index < instances; ++index)
-    recording.instances.push_back("s" + std::to_string(index));
+    recording.instances.push_back(net.parts().subsystems.empty() ? "s" + std::to_string(index)
+                                                                 : net.parts().subsystems[index].path);
   std::vector<std::uint32_t> marking;
   for (const net::Place& place : net.places()) marking.push_back(place.tokens);
   std::map<net::ChannelId, std::uint32_t> versions;

@@ -1,6 +1,6 @@
 import { History } from "../model/history";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
-import { merge } from "../model/text/merge";
+import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError } from "./api";
 import type { Analysis, Diagnostic, SpecAnswer } from "./protocol";
@@ -20,8 +20,8 @@ export interface DraftState {
   loaded: boolean;
   canUndo: boolean;
   canRedo: boolean;
-  /** The file on disk, if it changed where this page changed it, too. */
-  conflict: File | null;
+  /** The file on disk, if it changed where this page changed it, too; and the text that both have changed. */
+  conflict: (File & { base: string }) | null;
   /** Why the file on disk cannot be read; empty: it can. */
   unreadable: string;
   notice: string;
@@ -82,7 +82,13 @@ export class Draft {
     if (text === undefined || text === file.text) return;
     const merged = merge(base ?? file.text, text, file.text);
     this.edit(merged ?? text, "reload");
-    if (merged === null) this.store.set({ conflict: file });
+    if (merged === null) this.ask(file, base ?? file.text);
+  }
+
+  /** Asks about the lines that both changed. Until then, this tab keeps the text that they were before. */
+  private ask(file: File, base: string): void {
+    this.store.set({ conflict: { ...file, base } });
+    this.keep();
   }
 
   /** The file of an answer. Whether it can be read, and how its lines end, is noted. */
@@ -124,9 +130,9 @@ export class Draft {
   }
 
   private keep(): void {
-    const { text, saved } = this.store.get();
+    const { text, saved, conflict } = this.store.get();
     if (text === saved) sessionStorage.removeItem(this.kept);
-    else sessionStorage.setItem(this.kept, JSON.stringify({ text, base: saved }));
+    else sessionStorage.setItem(this.kept, JSON.stringify({ text, base: conflict?.base ?? saved }));
   }
 
   private async check(): Promise<void> {
@@ -191,17 +197,15 @@ export class Draft {
 
   /** Takes the content on disk, merges it with the changes of this page, or asks. */
   private disk(file: File): void {
-    const { text, saved } = this.store.get();
+    const { text, saved, conflict } = this.store.get();
     if (file.text === text) {
       this.onDisk(file);
       this.keep();
       return;
     }
-    const merged = merge(saved, text, file.text);
-    if (merged === null) {
-      this.store.set({ conflict: file });
-      return;
-    }
+    const base = conflict?.base ?? saved;
+    const merged = merge(base, text, file.text);
+    if (merged === null) return this.ask(file, base);
     const unsaved = text !== saved;
     this.onDisk(file);
     this.edit(merged, "disk");
@@ -215,13 +219,17 @@ export class Draft {
     });
   }
 
-  /** The answer to a conflict. In each case, undo leads back to the other text. */
-  resolve(choice: "mine" | "theirs"): void {
+  /**
+   * The answer to a conflict: whose lines are taken where both changed them. Elsewhere, both changes are. In each case, undo
+   * leads back to the other text.
+   */
+  resolve(side: Side): void {
     const { conflict, text } = this.store.get();
     if (!conflict) return;
-    this.onDisk(conflict);
-    this.edit(conflict.text, "disk");
-    if (choice === "mine") this.edit(text, "mine");
+    const parts = mergeLines(conflict.base, text, conflict.text);
+    this.onDisk({ text: conflict.text, revision: conflict.revision });
+    this.edit(taking(parts, "theirs"), "disk");
+    if (side === "mine") this.edit(taking(parts, "mine"), "mine");
     this.keep();
   }
 }

@@ -19,15 +19,16 @@ function partsOf(text: string): string[] {
 }
 
 /** "a, b" in the form of the file; a single name is no list. */
-export function listAsWritten(text: string): string {
+export function listAsWritten(text: string, anchors: readonly string[] = []): string {
   const parts = partsOf(text);
-  if (parts.length < 2) return scalarText(text);
-  return `[${parts.map((part) => (/^(["']).*\1$/s.test(part) ? part : scalarText(part))).join(", ")}]`;
+  if (parts.length < 2) return scalarText(text, anchors);
+  return `[${parts.map((part) => (/^(["']).*\1$/s.test(part) ? part : scalarText(part, anchors))).join(", ")}]`;
 }
 
 /** The value at a path as text for one field: a list in lines of its own as one line. */
 export function lineText(yaml: YamlText, at: YamlPath): string {
   const list = yaml.seq(at);
   if (!list || list.flow) return yaml.valueText(at) ?? "";
-  return `[${list.items.map((_, index) => scalarText(lineText(yaml, [...at, index]))).join(", ")}]`;
+  const items = list.items.map((_, index) => [...at, index]);
+  return `[${items.map((one) => (yaml.isAlias(one) ? yaml.valueText(one) : scalarText(lineText(yaml, one)))).join(", ")}]`;
 }

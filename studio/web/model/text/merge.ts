@@ -63,17 +63,77 @@ function hunksOf(a: readonly string[], b: readonly string[], table: Uint32Array[
   return hunks;
 }
 
-/** Both changes of `base` in one text, or null when they touch the same or neighbouring lines. */
-export function merge(base: string, mine: string, theirs: string): string | null {
-  if (mine === theirs || base === theirs) return mine;
-  if (base === mine) return theirs;
-  const lines = base.split("\n");
-  const own = diff(lines, mine.split("\n"));
-  const other = diff(lines, theirs.split("\n"));
-  for (const a of own) for (const b of other) if (a.from <= b.to && b.from <= a.to && !same(a, b)) return null;
-  const hunks = [...own, ...other.filter((b) => !own.some((a) => same(a, b)))].sort((a, b) => b.from - a.from);
-  for (const hunk of hunks) lines.splice(hunk.from, hunk.to - hunk.from, ...hunk.lines);
-  return lines.join("\n");
+export type Side = "mine" | "theirs";
+
+/** Lines of `base` that both changed, in different ways. */
+export interface Clash {
+  /** The first of these lines in `base`, from 1. */
+  line: number;
+  mine: string[];
+  theirs: string[];
 }
 
-const same = (a: Hunk, b: Hunk) => a.from === b.from && a.to === b.to && a.lines.join("\n") === b.lines.join("\n");
+/** Both changes of one text: lines that are agreed on, and the clashes between them. */
+export type Merged = (string[] | Clash)[];
+
+const isClash = (part: string[] | Clash): part is Clash => !Array.isArray(part);
+export const clashesIn = (parts: Merged): Clash[] => parts.filter(isClash);
+
+/** Both changes in one text; of the lines that both changed, those of one side. */
+export const taking = (parts: Merged, side: Side): string =>
+  parts.flatMap((part) => (isClash(part) ? part[side] : part)).join("\n");
+
+/** Two changes that share a line, or of which one inserts where the other changes. */
+const touch = (a: Hunk, b: Hunk) =>
+  a.from === a.to || b.from === b.to ? a.from <= b.to && b.from <= a.to : a.from < b.to && b.from < a.to;
+
+/** The lines [from, to) of `base` after some hunks within. */
+function changed(base: readonly string[], from: number, to: number, hunks: readonly Hunk[]): string[] {
+  const lines: string[] = [];
+  let at = from;
+  for (const hunk of hunks) {
+    lines.push(...base.slice(at, hunk.from), ...hunk.lines);
+    at = hunk.to;
+  }
+  return [...lines, ...base.slice(at, to)];
+}
+
+/** Merges two changes of `base` line by line. What one side alone changed is taken from it. */
+export function mergeLines(base: string, mine: string, theirs: string): Merged {
+  const lines = base.split("\n");
+  const left = [
+    ...diff(lines, mine.split("\n")).map((hunk) => ({ hunk, side: "mine" as Side })),
+    ...diff(lines, theirs.split("\n")).map((hunk) => ({ hunk, side: "theirs" as Side })),
+  ].sort((a, b) => a.hunk.from - b.hunk.from || a.hunk.to - b.hunk.to);
+  const parts: Merged = [];
+  let at = 0;
+  while (left.length > 0) {
+    const group = [left.shift()!];
+    // Hunks of one side do not touch: each further one touches one of the other side.
+    while (left[0] && group.some((one) => one.side !== left[0]!.side && touch(one.hunk, left[0]!.hunk)))
+      group.push(left.shift()!);
+    const from = group[0]!.hunk.from;
+    const to = Math.max(...group.map(({ hunk }) => hunk.to));
+    const of = (side: Side) =>
+      changed(
+        lines,
+        from,
+        to,
+        group.filter((one) => one.side === side).map(({ hunk }) => hunk),
+      );
+    const [own, other] = [of("mine"), of("theirs")];
+    const both = group.some(({ side }) => side === "mine") && group.some(({ side }) => side === "theirs");
+    parts.push(lines.slice(at, from));
+    if (both && own.join("\n") !== other.join("\n")) parts.push({ line: from + 1, mine: own, theirs: other });
+    else parts.push(group[0]!.side === "mine" ? own : other);
+    at = to;
+  }
+  parts.push(lines.slice(at));
+  return parts;
+}
+
+/** Both changes of `base` in one text, or null if they changed the same lines in different ways. */
+export function merge(base: string, mine: string, theirs: string): string | null {
+  const parts = mergeLines(base, mine, theirs);
+  return clashesIn(parts).length > 0 ? null : taking(parts, "mine");
+}

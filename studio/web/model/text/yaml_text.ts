@@ -14,6 +14,7 @@ import {
   type YAMLMap,
   type YAMLSeq,
 } from "yaml";
+import { aliasIn, anchorsBefore, lostAliasIn } from "./aliases";
 
 /**
  * The specification as a text that is edited in place. The parsed document gives positions,
@@ -24,6 +25,8 @@ import {
 export type YamlPath = readonly (string | number)[];
 /** A new value: a scalar or flow text as it is to appear in the file, or a map or list of such values. */
 export type Value = string | readonly Value[] | { readonly [key: string]: Value };
+/** How a text is to stand in the file, where aliases may have these names. */
+export type Writer = (text: string, anchors: readonly string[]) => string;
 export interface TextEdit {
   from: number;
   to: number;
@@ -38,12 +41,17 @@ export function apply(text: string, edits: readonly TextEdit[]): string {
 
 /**
  * A text as a YAML scalar: in quotes only if YAML needs them. Flow collections and
- * numbers stay as they are.
+ * numbers stay as they are. `anchors`: the names that an alias may have; an alias in quotes would be a text like any other.
  */
-export function scalarText(text: string): string {
+export function scalarText(text: string, anchors: readonly string[] = []): string {
   const trimmed = text.trim();
+  if (anchors.includes(aliasIn(trimmed) ?? "")) return trimmed;
   if (/^(true|false|-?(\d+\.?\d*|\.\d+)([eE][-+]?\d+)?)$/.test(trimmed)) return trimmed;
-  if (/^[[{]/.test(trimmed) && parseDocument(trimmed).errors.length === 0) return trimmed;
+  if (/^[[{]/.test(trimmed)) {
+    // With the anchors that its aliases stand for before it.
+    const before = anchors.map((name) => `&${name} 0, `).join("");
+    if (parseDocument(`[${before}${trimmed}]`).errors.length === 0) return trimmed;
+  }
   return stringify([trimmed], { collectionStyle: "flow", lineWidth: 0 }).trim().slice(1, -1).trim();
 }
 
@@ -61,6 +69,22 @@ export class YamlText {
   node(path: YamlPath): Node | undefined {
     const found = path.length === 0 ? this.document.contents : this.document.getIn(path as (string | number)[], true);
     return (found as Node | null | undefined) ?? undefined;
+  }
+
+  /** Whether an alias stands at a path. What it stands for is written elsewhere, and is changed there. */
+  isAlias(path: YamlPath): boolean {
+    return isAlias(this.node(path));
+  }
+
+  /** The first alias without an anchor before it; undefined: there is none. */
+  lostAlias(): { name: string; line: number } | undefined {
+    const lost = lostAliasIn(this.document);
+    return lost && { name: lost.name, line: this.lines.linePos(lost.offset).line };
+  }
+
+  /** The offset at which a new value of `key` of the map at `path` comes to stand. */
+  private placeOf(path: YamlPath, key: string): number {
+    return this.pair([...path, key])?.key.range?.[0] ?? this.range(path)?.[1] ?? this.text.length;
   }
 
   /** The same, but for an alias the node that it stands for. */
@@ -150,6 +174,8 @@ export class YamlText {
   }
 
   private insertMap(path: YamlPath, key: string, value: Value): TextEdit[] {
+    // An entry in place of the alias would drop all that it stands for.
+    if (this.isAlias(path)) return [];
     const inside = { [key]: value };
     if (path.length === 0) return this.insertFirst(key, value);
     if (this.pair(path)) return this.replaceWith(path, inside);
@@ -194,13 +220,14 @@ export class YamlText {
    * Sets a scalar of the map at `path`; an empty text removes the key. Spaces before the value stay. `as`: how the text is
    * to stand in the file.
    */
-  set(path: YamlPath, key: string, text: string, as = scalarText): TextEdit[] {
+  set(path: YamlPath, key: string, text: string, as: Writer = scalarText): TextEdit[] {
     const at = [...path, key];
     const pair = this.pair(at);
     if (text.trim() === "") return pair ? this.remove(at) : [];
-    if (!pair) return this.insert(path, key, as(text));
-    if (!pair.value?.range || pair.value.range[0] === pair.value.range[1]) return this.replaceWith(at, as(text));
-    return [{ from: pair.value.range[0], to: this.endOf(pair), insert: as(text) }];
+    const written = as(text, anchorsBefore(this.document, this.placeOf(path, key)));
+    if (!pair) return this.insert(path, key, written);
+    if (!pair.value?.range || pair.value.range[0] === pair.value.range[1]) return this.replaceWith(at, written);
+    return [{ from: pair.value.range[0], to: this.endOf(pair), insert: written }];
   }
 
   /** Replaces the scalar or collection at a path. */

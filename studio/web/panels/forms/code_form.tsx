@@ -5,7 +5,8 @@ import { edited, functionIn } from "../../live/code_draft";
 import type { FunctionShown } from "../../live/protocol";
 import { buildMessages, functionAt, type BuildMessage, type FunctionText } from "../../model/text/cpp_function";
 import type { Behaviour, Subsystem } from "../../model/structure/structure";
-import { Difference } from "../text/conflict_dialog";
+import { mergeLines, taking, type Side } from "../../model/text/merge";
+import { Clashes } from "../text/conflict_dialog";
 
 /** The C++ function of a behaviour: read, edited, or begun if it is missing. */
 export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsystem: Subsystem }) {
@@ -113,13 +114,19 @@ function Message({ of, source, children }: { of: BuildMessage; source: string; c
 }
 
 /** Another program changed the same lines of the function: the user decides which text to go on with. */
-function Conflict({ mine, theirs, choose }: { mine: string; theirs: string; choose: (text: string) => void }) {
+function Conflict({
+  base,
+  mine,
+  theirs,
+  choose,
+}: Record<"base" | "mine" | "theirs", string> & { choose: (text: string) => void }) {
+  const take = (side: Side) => choose(taking(mergeLines(base, mine, theirs), side));
   return (
     <div className="asked" role="group" aria-label="The function was changed by another program">
-      <p>Another program changed the same lines of this function in its file:</p>
-      <Difference mine={mine} theirs={theirs} />
-      <button onClick={() => choose(theirs)}>Take the file on disk</button>{" "}
-      <button onClick={() => choose(mine)}>Keep mine</button>
+      <p>Another program changed these lines of this function in its file. All other changes of both are kept:</p>
+      <Clashes base={base} mine={mine} theirs={theirs} />
+      <button onClick={() => take("theirs")}>Take the lines on disk</button>{" "}
+      <button onClick={() => take("mine")}>Keep mine</button>
     </div>
   );
 }
@@ -183,7 +190,12 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
         </ul>
       )}
       {!now && (
-        <Conflict mine={text} theirs={found.text} choose={(text) => studio.sources.edit(known, { text, base: found.text })} />
+        <Conflict
+          base={held!.base}
+          mine={text}
+          theirs={found.text}
+          choose={(text) => studio.sources.edit(known, { text, base: found.text })}
+        />
       )}
       {now && (
         <div className="buttons">

@@ -1,4 +1,5 @@
 import { useEffect, useId, useState, type KeyboardEvent } from "react";
+import { useStudio } from "../../hooks/use";
 
 interface FieldProps {
   label: string;
@@ -14,13 +15,36 @@ interface FieldProps {
   wrong?: (text: string) => string | undefined;
   /** The complaint of the check about the value. */
   problem?: string | undefined;
+  /** It is no part of the specification, whose changes it does not undo. */
+  apart?: boolean;
   onChange: (text: string) => void;
 }
 
+/** Whether the keys of undo or of redo were pressed. */
+export function undoOf(event: Pick<KeyboardEvent, "ctrlKey" | "metaKey" | "shiftKey" | "key">): "undo" | "redo" | null {
+  if (!event.ctrlKey && !event.metaKey) return null;
+  const key = event.key.toLowerCase();
+  return key === "y" || (key === "z" && event.shiftKey) ? "redo" : key === "z" ? "undo" : null;
+}
+
 /**
- * A text field whose value takes effect when the field is left or on Enter; Escape restores the old value.
+ * A text field whose value takes effect when the field is left or on Enter; Escape restores the old value. Undo takes back
+ * what was typed; after that, the last change of the specification.
  */
-export function Field({ label, of, value, hint, placeholder, choices, mono, wrong, problem: found, onChange }: FieldProps) {
+export function Field({
+  label,
+  of,
+  value,
+  hint,
+  placeholder,
+  choices,
+  mono,
+  wrong,
+  problem: found,
+  apart,
+  onChange,
+}: FieldProps) {
+  const studio = useStudio();
   const id = useId();
   const [text, setText] = useState(value);
   useEffect(() => setText(value), [value]);
@@ -30,6 +54,15 @@ export function Field({ label, of, value, hint, placeholder, choices, mono, wron
     if (text !== value && !refused) onChange(text);
   };
   const key = (event: KeyboardEvent<HTMLInputElement>) => {
+    const undo = undoOf(event);
+    if (undo && !apart) {
+      // What the browser would undo are letters, also those of values that have taken effect long ago.
+      event.preventDefault();
+      event.stopPropagation();
+      if (text !== value) setText(value);
+      else if (undo === "undo") studio.draft.undo();
+      else studio.draft.redo();
+    }
     if (event.key === "Enter") take();
     // The text of the field is saved, too.
     if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") take();

@@ -3,7 +3,7 @@ import { useStudio } from "../../hooks/use";
 import { changedLines } from "../../model/text/changed_lines";
 import { isName } from "../../model/text/edits";
 import { sharersOf, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
-import type { YamlPath } from "../../model/text/yaml_text";
+import { YamlText, type YamlPath } from "../../model/text/yaml_text";
 
 /** Why a name cannot be used for an element beside those that exist. */
 export const nameProblem =
@@ -20,10 +20,15 @@ export const namespaceHint = "Its C++ namespace and headers have the same name: 
 
 export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
 
-/** Puts a changed text into the draft and selects the changed element. */
+/** Puts a changed text into the draft and selects the changed element. A change that would leave an alias without its anchor is refused. */
 export function useEdit() {
   const studio = useStudio();
   return (text: string, select?: string | null) => {
+    const lost = new YamlText(text).lostAlias();
+    if (lost && !new YamlText(studio.draft.store.get().text).lostAlias()) {
+      studio.draft.store.set({ notice: `Not changed: *${lost.name} stands for it in other places of the text` });
+      return;
+    }
     studio.draft.edit(text, "edit");
     if (select !== undefined) studio.view.set({ selected: select });
   };

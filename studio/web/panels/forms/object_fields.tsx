@@ -4,7 +4,7 @@ import { fieldOf, type FieldShape, type Schema } from "../../model/text/schema_f
 import { freshValue, shapeOf, type Case, type ValueShape } from "../../model/text/value_shape";
 import { lineText } from "../../model/text/list_text";
 import type { Structure } from "../../model/structure/structure";
-import { apply, flowText, scalarText, type Value, type YamlPath } from "../../model/text/yaml_text";
+import { apply, flowText, scalarText, type Value, type Writer, type YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { useEdit } from "./form_parts";
 import { ListForm } from "./list_form";
@@ -71,7 +71,6 @@ const anyText = (key: string): FieldShape => ({
 /** The keys of a map, each as a field of its kind in the schema. An empty field leaves its key out. */
 export function ObjectFields(props: ObjectFieldsProps) {
   const { structure, at, shapes, without = [], always = [], open, strays = open, help = {}, onEmpty } = props;
-  const studio = useStudio();
   const edit = useEdit();
   const problem = useProblems(structure);
   const [wanted, want] = useState<readonly string[]>([]);
@@ -87,7 +86,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
   ];
   const left = known.filter((one) => !shown.includes(one));
   const label = ({ key, title }: FieldShape) => help[key]?.title ?? title ?? titleOf(key);
-  const set = (key: string, text: string, as = scalarText) => {
+  const set = (key: string, text: string, as: Writer = scalarText) => {
     const last = onEmpty && text.trim() === "" && there.length === 1 && there[0] === key;
     if (last) onEmpty();
     edit(apply(yaml.text, last ? yaml.remove(at) : yaml.set(at, key, text, as)));
@@ -111,14 +110,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
               onEmpty={() => want([...wanted, field.key])}
             />
           );
-        if (value.includes("\n"))
-          return (
-            <p key={field.key}>
-              <button className="link" onClick={() => studio.showLine(yaml.line(where))}>
-                {label(field)}: in the text, line {yaml.line(where)}
-              </button>
-            </p>
-          );
+        if (value.includes("\n")) return <InTheText key={field.key} structure={structure} at={where} title={label(field)} />;
         return (
           <div key={field.key}>
             <OneField
@@ -153,6 +145,18 @@ export function ObjectFields(props: ObjectFieldsProps) {
         />
       )}
     </>
+  );
+}
+
+/** A value that is changed in the text: one of several lines, or an alias of a map or a list. */
+function InTheText({ structure: { yaml }, at, title }: { structure: Structure; at: YamlPath; title: string }) {
+  const studio = useStudio();
+  return (
+    <p>
+      <button className="link" onClick={() => studio.showLine(yaml.line(at))}>
+        {title}: {yaml.isAlias(at) && `${yaml.valueText(at)} `}in the text, line {yaml.line(at)}
+      </button>
+    </p>
   );
 }
 
@@ -195,6 +199,7 @@ interface ValueFormProps {
 /** The form of a map or a list of the specification, made from its schema. */
 export function ValueForm({ structure, at, shape, title, hint, help = {}, onEmpty }: ValueFormProps) {
   const own = help[String(at.at(-1))] ?? {};
+  if (structure.yaml.isAlias(at)) return <InTheText structure={structure} at={at} title={title} />;
   if (shape.kind === "record" || shape.kind === "cases")
     return (
       <fieldset className="entry" aria-label={title}>
@@ -259,7 +264,7 @@ function OneEntry({ structure, at, name, schema, own }: OneEntryProps) {
   const { yaml } = structure;
   const field = fieldOf(name, schema, root, true);
   const where = [...at, name];
-  if (shapeOf(schema, root, yaml.data(where)).kind === "record") return <p className="mono">{name}</p>;
+  if (shapeOf(schema, root, yaml.data(where)).kind === "record" && !yaml.isAlias(where)) return <p className="mono">{name}</p>;
   return (
     <div>
       <OneField
@@ -283,6 +288,7 @@ const oneOf = (key: string) =>
 /** An entry of a map or a list: its fields, without a frame. */
 function Entry({ structure, at, schema, help }: { structure: Structure; at: YamlPath; schema: Schema; help: HelpByKey }) {
   const shape = shapeOf(schema, root, structure.yaml.data(at));
+  if (structure.yaml.isAlias(at)) return <InTheText structure={structure} at={at} title="This entry" />;
   if (shape.kind === "record" || shape.kind === "cases")
     return <Inside structure={structure} at={at} shape={shape} help={help} />;
   if (shape.kind === "line") return null;

@@ -1,5 +1,6 @@
 import type { FieldShape } from "../../model/text/schema_fields";
 import { listAsTyped, listAsWritten } from "../../model/text/list_text";
+import type { Writer } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 
 /** "per_second" as a label: "Per second". */
@@ -14,7 +15,7 @@ interface OneFieldProps {
   label?: string;
   mono?: boolean;
   problem?: string | undefined;
-  onChange: (text: string, as?: (text: string) => string) => void;
+  onChange: (text: string, as?: Writer) => void;
 }
 
 /** A value of one line, as its schema says: a choice, a list, parts with a field each, or a text. */

@@ -129,11 +129,13 @@ export function StartForm() {
         />
       )}
       <div className="row">
-        <Field label="For" value={time} onChange={(time) => wishes.set({ time })} />
+        <Field apart label="For" value={time} onChange={(time) => wishes.set({ time })} />
         {kind === "simulate" && (
-          <Field label="Speed" value={speed} onChange={(speed) => wishes.set({ speed })} wrong={wrongSpeed} />
+          <Field apart label="Speed" value={speed} onChange={(speed) => wishes.set({ speed })} wrong={wrongSpeed} />
         )}
-        {kind === "simulate" && <Field label="Seed" value={seed} onChange={(seed) => wishes.set({ seed })} wrong={wrongSeed} />}
+        {kind === "simulate" && (
+          <Field apart label="Seed" value={seed} onChange={(seed) => wishes.set({ seed })} wrong={wrongSeed} />
+        )}
       </div>
       {hasWorld && (
         <label className="check" title="Otherwise a recording holds values of up to 4 KiB. Pictures make it large.">

@@ -1,8 +1,8 @@
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import { diff } from "../../model/text/merge";
+import { clashesIn, mergeLines } from "../../model/text/merge";
 
-/** The file changed on disk where this page changed it, too: the user decides which version to keep. */
+/** The file changed on disk where this page changed it, too: the user decides which of these lines to keep. */
 export function ConflictDialog() {
   const studio = useStudio();
   const conflict = useStore(studio.draft.store, (draft) => draft.conflict);
@@ -15,10 +15,13 @@ export function ConflictDialog() {
   return (
     <dialog ref={ref} className="dialog" aria-labelledby="conflict-title" onCancel={(event) => event.preventDefault()}>
       <h2 id="conflict-title">The file was changed by another program</h2>
-      <p>It changed the same lines as you did. Nothing is lost either way: undo brings your text back.</p>
-      {conflict && <Difference mine={mine} theirs={conflict.text} />}
+      <p>
+        It changed these lines as you did. All other changes of both are kept. Nothing is lost either way: undo brings your text
+        back.
+      </p>
+      {conflict && <Clashes base={conflict.base} mine={mine} theirs={conflict.text} />}
       <div className="buttons">
-        <button onClick={() => studio.draft.resolve("theirs")}>Take the file on disk</button>
+        <button onClick={() => studio.draft.resolve("theirs")}>Take the lines on disk</button>
         <button className="primary" onClick={() => studio.draft.resolve("mine")}>
           Keep mine
         </button>
@@ -27,19 +30,19 @@ export function ConflictDialog() {
   );
 }
 
-export function Difference({ mine, theirs }: { mine: string; theirs: string }) {
-  const lines = mine.split("\n");
+/** The lines that both changed. */
+export function Clashes({ base, mine, theirs }: { base: string; mine: string; theirs: string }) {
   return (
     <pre className="difference" tabIndex={0} aria-label="Differences">
-      {diff(lines, theirs.split("\n")).map((hunk) => (
-        <div key={hunk.from}>
-          <div className="where">line {hunk.from + 1}</div>
-          {lines.slice(hunk.from, hunk.to).map((line, at) => (
+      {clashesIn(mergeLines(base, mine, theirs)).map((clash) => (
+        <div key={clash.line}>
+          <div className="where">line {clash.line}</div>
+          {clash.mine.map((line, at) => (
             <div key={`m${at}`} className="mine">
               mine │ {line}
             </div>
           ))}
-          {hunk.lines.map((line, at) => (
+          {clash.theirs.map((line, at) => (
             <div key={`t${at}`} className="theirs">
               disk │ {line}
             </div>

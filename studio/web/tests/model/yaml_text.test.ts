@@ -1,6 +1,7 @@
 import { describe, expect, it } from "vitest";
 import { parseDocument } from "yaml";
-import { apply, YamlText, type TextEdit, type YamlPath } from "../../model/text/yaml_text";
+import { lineText, listAsWritten } from "../../model/text/list_text";
+import { apply, YamlText, type TextEdit, type Writer, type YamlPath } from "../../model/text/yaml_text";
 
 /** Random texts in all styles of YAML. The parser of another library judges what an edit has made of them. */
 class RandomText {
@@ -158,5 +159,39 @@ describe("An edit of a text", () => {
   it("removes several entries one after the other", () => {
     const yaml = new YamlText("{a: 1,   b: 2, c: 3}\n");
     expect(yaml.without([], ["a", "b"]).text).toBe("{c: 3}\n");
+  });
+});
+
+describe("aliases", () => {
+  const text =
+    "a: &r2 10 Hz\nb:\n  rate: *r2\n  list: [*r2, 5]\n  lines:\n    - *r2\n    - x\n  map: &m { one: 1 }\nc: *m\nlate: &r3 1\n";
+  const set = (path: YamlPath, key: string, value: string, as?: Writer) => {
+    const yaml = new YamlText(text);
+    return apply(text, yaml.set(path, key, value, as));
+  };
+  it("stay aliases when they are written again, alone and in lists", () => {
+    expect(set(["b"], "rate", "*r2")).toBe(text);
+    expect(set(["b"], "list", "*r2, 5", listAsWritten)).toBe(text);
+    expect(set(["b"], "list", "[*r2, 5]")).toBe(text);
+    expect(lineText(new YamlText(text), ["b", "lines"])).toBe("[*r2, x]");
+    expect(set(["b"], "new", "*r2")).toContain("  new: *r2\n");
+    expect(dataOf(set(["b"], "rate", "20 Hz"))).toMatchObject({ a: "10 Hz", b: { rate: "20 Hz" } });
+  });
+  it("are texts if no anchor before them has the name", () => {
+    for (const value of ["*r3", "*other", "*in.line", "&r2 5", "!in.line.fresh"])
+      expect(dataOf(set(["b"], "rate", value))).toMatchObject({ b: { rate: value } });
+  });
+  it("of a map are not replaced by an entry of it", () => {
+    const yaml = new YamlText(text);
+    expect(yaml.isAlias(["c"])).toBe(true);
+    expect(yaml.set(["c"], "one", "2")).toEqual([]);
+    expect(yaml.insert(["c"], "two", "2")).toEqual([]);
+  });
+  it("that have lost their anchor are named", () => {
+    expect(new YamlText(text).lostAlias()).toBeUndefined();
+    expect(new YamlText(set([], "a", "")).lostAlias()).toEqual({ name: "r2", line: 2 });
+  });
+  it("keep their anchor when its value changes", () => {
+    expect(dataOf(set([], "a", "30 Hz"))).toMatchObject({ a: "30 Hz", b: { rate: "30 Hz" } });
   });
 });

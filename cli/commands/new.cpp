@@ -22,6 +22,7 @@
 #include "project/files/file_names.hpp"
 #include "project/files/files.hpp"
 #include "project/files/installation.hpp"
+#include "project/files/trust.hpp"
 #include "spec/document/names.hpp"
 
 namespace tessera::cli {
@@ -159,6 +160,7 @@ int new_command(const std::string& given, const std::string& wanted) {
   fs::rename(made / "gitignore", made / ".gitignore");
   if (&robot == &robots.front()) copy_shared_world(installation.share, made);
   if (!workshop.move_to(folder)) return complain(fmt::format("{} exists already", folder.string()));
+  static_cast<void>(trust(fs::absolute(folder)));
   fmt::print(
       "{0} is ready: {1}.\n\n"
       "  cd {0}\n"

@@ -1,18 +1,27 @@
 #include "server/studio.hpp"
 
+#include <fcntl.h>
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <cctype>
+#include <chrono>
 #include <csignal>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <system_error>
 
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
+#include "project/files/files.hpp"
 #include "project/files/installation.hpp"
+#include "project/files/state_folder.hpp"
 #include "project/process/process.hpp"
 #include "project/verification/pipeline.hpp"
 
@@ -49,12 +58,65 @@ class EndSignals {
   sigset_t set_{}, before_{};
 };
 
-void open_browser(const std::string& url) {
-  // Without a display, the user opens the printed address.
-  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return;
+/// A page that leads to the studio, for the browser that this command opens. Every user of the machine can
+/// read the arguments of a program, so the address with the token must not be one. Only this user can read
+/// the file; it goes with this object.
+class WayIn {
+ public:
+  /// folder: is made if it does not exist. Throws std::runtime_error if it cannot be written to.
+  WayIn(const fs::path& folder, const std::string& url) {
+    fs::create_directories(folder);
+    remove_old(folder);
+    file_ = (folder / (std::string(name) + "XXXXXX.html")).string();
+    const int descriptor = mkostemps(file_.data(), /*suffixlen=*/5, O_CLOEXEC);  // mode 0600
+    if (descriptor < 0) throw std::runtime_error("cannot write to " + folder.string());
+    const bool written = project::write_all(
+        descriptor, fmt::format("<!DOCTYPE html><meta charset=\"utf-8\"><title>Tessera studio</title>\n"
+                                "<meta name=\"referrer\" content=\"no-referrer\">\n"
+                                "<meta http-equiv=\"refresh\" content=\"0; url={0}\">\n"
+                                "<p><a href=\"{0}\">Open the studio</a></p>\n",
+                                url));
+    if (close(descriptor) == 0 && written) return;
+    unlink(file_.c_str());
+    throw std::runtime_error("cannot write to " + folder.string());
+  }
+  ~WayIn() { unlink(file_.c_str()); }
+  WayIn(const WayIn&) = delete;
+  WayIn& operator=(const WayIn&) = delete;
+  [[nodiscard]] std::string address() const {
+    std::string address = "file://";
+    for (const char c : file_) {
+      const bool is_plain =
+          (std::isalnum(static_cast<unsigned char>(c)) != 0) || c == '/' || c == '-' || c == '_' || c == '.';
+      address += is_plain ? std::string(1, c) : fmt::format("%{:02X}", static_cast<unsigned char>(c));
+    }
+    return address;
+  }
+
+ private:
+  static constexpr std::string_view name = "browser-";
+  /// Those of commands that were killed.
+  static void remove_old(const fs::path& folder) {
+    std::error_code ignored;
+    const auto old = fs::file_time_type::clock::now() - std::chrono::minutes(1);
+    for (const fs::directory_entry& entry : fs::directory_iterator(folder, ignored))
+      if (entry.path().filename().string().starts_with(name) && entry.path().extension() == ".html" &&
+          entry.last_write_time(ignored) < old)
+        fs::remove(entry.path(), ignored);
+  }
+  std::string file_;
+};
+
+/// nullptr: no browser is opened, and the user opens the printed address.
+std::unique_ptr<WayIn> open_browser(const fs::path& project, const std::string& url) {
+  if (std::getenv("DISPLAY") == nullptr && std::getenv("WAYLAND_DISPLAY") == nullptr) return nullptr;
   try {
-    static_cast<void>(project::capture({"xdg-open", url}));
+    // A browser in a sandbox often reads the folders of projects, but neither /tmp nor /run.
+    auto way_in = std::make_unique<WayIn>(project::state_folder(project), url);
+    static_cast<void>(project::capture({"xdg-open", way_in->address()}));
+    return way_in;
   } catch (const std::exception&) {
+    return nullptr;
   }
 }
 
@@ -83,7 +145,8 @@ int studio_command(const StudioCommandOptions& options) {
   std::fflush(stdout);
   fmt::print(stderr, "studio of {}; Ctrl-C ends it\n", studio.spec.string());
   if (!is_there) fmt::print(stderr, "this file does not exist yet; the page offers ways to begin\n");
-  if (!options.no_browser) open_browser(running.url());
+  const std::unique_ptr<WayIn> way_in =
+      options.no_browser ? nullptr : open_browser(studio.spec.parent_path(), running.url());
   signals.wait();
   return ok;
 }

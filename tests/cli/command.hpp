@@ -1,7 +1,9 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -34,8 +36,13 @@ class Command : public testing::Test {
   Command() : folder_(fs::temp_directory_path() / fs::path("tessera_cli_" + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
+    // What Tessera keeps for the user is not that of whoever runs the tests.
+    setenv("XDG_STATE_HOME", user_.c_str(), 1);
   }
-  ~Command() override { fs::remove_all(folder_); }
+  ~Command() override {
+    fs::remove_all(folder_);
+    fs::remove_all(user_);
+  }
 
   /// The output of the command, on both streams, and its exit code.
   project::Exit tessera(const std::string& arguments) const {
@@ -58,6 +65,7 @@ class Command : public testing::Test {
   }
 
   fs::path folder_;
+  fs::path user_ = folder_.string() + "_user";
 };
 
 }  // namespace tessera::cli_test

@@ -210,4 +210,29 @@ TEST_F(Files, AFolderInTheWayOfTheBuildStays) {
   EXPECT_EQ(content_of(folder_ / "thesis/build/release/thesis.tex"), "years");
 }
 
+/// Every user of the machine can read the arguments of a program.
+TEST_F(Files, TheKeyOfTheStudioStandsInNoArgumentOfTheBrowser) {
+  write(folder_ / "a b/spec.yaml", small);
+  // Its argument, the mode of the file, and the content, as a browser would find them.
+  write(folder_ / "bin/xdg-open",
+        "#!/bin/sh\necho \"$1\" > \"$SEEN/argument\"\n"
+        "file=$(echo \"$1\" | sed 's,^file://,,; s,%20, ,g')\n"
+        "stat -c %a \"$file\" > \"$SEEN/mode\"\ncp \"$file\" \"$SEEN/page\"\ntouch \"$SEEN/done\"\n");
+  fs::permissions(folder_ / "bin/xdg-open", fs::perms::owner_all);
+  const project::Exit done = shell("export SEEN=$PWD PATH=$PWD/bin:$PATH DISPLAY=:9; " TESSERA_BINARY_DIR
+                                   "/tessera studio 'a b' --port 0 > printed & for i in $(seq 600); do [ -e "
+                                   "done ] && break; sleep 0.1; done; "
+                                   "kill -TERM $!; wait $!");
+  EXPECT_EQ(done.code, 0) << done.text;
+  const std::string printed = content_of(folder_ / "printed");
+  const std::string token = printed.substr(printed.find("token=") + 6, 32);
+  ASSERT_EQ(token.size(), 32U) << printed;
+  const std::string argument = content_of(folder_ / "argument");
+  EXPECT_TRUE(argument.starts_with("file://")) << argument;
+  EXPECT_EQ(argument.find(token), std::string::npos) << argument;
+  EXPECT_EQ(content_of(folder_ / "mode"), "600\n");
+  EXPECT_NE(content_of(folder_ / "page").find("token=" + token), std::string::npos);
+  EXPECT_EQ(files_in(folder_ / "a b"), std::set<std::string>{"spec.yaml"}) << "it goes with the studio";
+}
+
 }  // namespace tessera::cli_test

@@ -85,7 +85,7 @@ TEST_F(VerificationGate, VerdictsAreKeptUntilWhatTheyDependOnChanges) {
   const fs::path project = example("01_line_follower");
   const auto kept = [&] {
     std::map<fs::path, fs::file_time_type> files;
-    for (const auto& entry : fs::directory_iterator(project / ".tessera/verdicts"))
+    for (const auto& entry : fs::directory_iterator(user_ / "tessera/verdicts"))
       files[entry.path()] = fs::last_write_time(entry.path());
     return files;
   };
@@ -103,9 +103,31 @@ TEST_F(VerificationGate, VerdictsAreKeptUntilWhatTheyDependOnChanges) {
 TEST_F(VerificationGate, KeptVerdictsThatAreDamagedAreMadeAgain) {
   write(folder_ / "p/spec.yaml", stuck);
   ASSERT_EQ(tessera("generate p").code, 1);
-  for (const auto& entry : fs::directory_iterator(folder_ / "p/.tessera/verdicts"))
+  for (const auto& entry : fs::directory_iterator(user_ / "tessera/verdicts"))
     write(entry.path(), "{\"properties\": []");
   EXPECT_NE(tessera("generate p").text.find("deadlock_free: violated"), std::string::npos);
+}
+
+/// A net that deadlocks, in a project that comes with a verdict of its own: that it does not.
+TEST_F(VerificationGate, VerdictsThatComeWithAProjectAreNotBelieved) {
+  write(folder_ / "p/spec.yaml", stuck);
+  ASSERT_EQ(tessera("generate p").code, 1);
+  const fs::path kept = fs::directory_iterator(user_ / "tessera/verdicts")->path();
+  auto forged = nlohmann::json::parse(content_of(kept));
+  for (auto& property : forged.at("properties")) property["verdict"] = 0;
+  const std::string name = kept.filename().string();
+  fs::remove(kept);
+  for (const char* const place : {"p/.tessera/verdicts", "p/verdicts", "p/.tessera"})
+    write(folder_ / place / name, forged.dump());
+  const project::Exit done = tessera("generate p --stubs");
+  EXPECT_EQ(done.code, 1) << done.text;
+  EXPECT_NE(done.text.find("deadlock_free: violated"), std::string::npos) << done.text;
+  EXPECT_FALSE(fs::exists(folder_ / "p/.tessera/generated"));
+
+  // In the folder of the user it counts only if nobody else can have written it.
+  write(kept, forged.dump());
+  fs::permissions(kept, fs::perms::others_write, fs::perm_options::add);
+  EXPECT_EQ(tessera("generate p --stubs").code, 1);
 }
 
 /// The marked part of the net after the firings of a recording, in the form of a viewer's trace.

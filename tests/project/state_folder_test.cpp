@@ -42,6 +42,20 @@ TEST_F(StateFolder, IsInTheProjectUnlessThatCannotBeWrittenTo) {
   EXPECT_NE(project::state_folder("/one/rover"), project::state_folder("/two/rover"));
 }
 
+TEST_F(StateFolder, ThatOfTheUserIsInNoProject) {
+  setenv("HOME", "/home/me", 1);
+  EXPECT_EQ(project::user_folder(), "/home/me/.local/state/tessera");
+  setenv("XDG_STATE_HOME", "/x", 1);
+  EXPECT_EQ(project::user_folder(), "/x/tessera");
+  setenv("STATE_DIRECTORY", "/var/lib/rover:/var/lib/other", 1);
+  EXPECT_EQ(project::user_folder(), "/var/lib/rover");
+  setenv("TESSERA_STATE_DIR", "/s", 1);
+  EXPECT_EQ(project::user_folder(), "/s");
+  for (const char* name : names) unsetenv(name);
+  unsetenv("HOME");
+  EXPECT_FALSE(project::user_folder());
+}
+
 TEST_F(StateFolder, ThatThereIsNoPlaceIsSaid) {
   unsetenv("HOME");
   try {

@@ -14,6 +14,7 @@
 #include "project/files/installation.hpp"
 #include "project/files/lock_file.hpp"
 #include "project/files/state_folder.hpp"
+#include "project/files/trust.hpp"
 #include "project/process/listener.hpp"
 
 namespace tessera::project {
@@ -145,6 +146,8 @@ std::optional<Controller> make_controller(const fs::path& given, const BuildOpti
   if (!verified) return std::nullopt;
   const fs::path project = verified->specification.project, state = state_folder(project);
   check_path_for_cmake(project);
+  // Its code is executed from here on: who has asked for that is not asked again.
+  static_cast<void>(trust(project));
   fs::path program;
   if (state != own_folder(project)) program = built_before(*verified, options);
   if (program.empty()) {

@@ -77,7 +77,7 @@ struct BuildOptions {
 
 /// read_and_verify, generate and compile in one, one at a time for a project; nullopt when a step failed and
 /// reported it, or `stop` became true. If the project cannot be written to, a program that was built there
-/// from the same files is used as it is.
+/// from the same files is used as it is. The project is trusted from then on (trust.hpp).
 struct Controller {
   std::filesystem::path program;
   Specification specification;

@@ -2,10 +2,13 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <charconv>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 #include "layers/layers.hpp"
 #include "project/files/files.hpp"
@@ -68,18 +71,18 @@ verify::PropertyResult property_from(const json& kept) {
   return property;
 }
 
-/// The file of the verdicts with that hash.
+/// The file of the verdicts with that hash. It is in a folder of the user: one in the project could come with
+/// the project, and say of a net that deadlocks that it does not.
 class Kept {
  public:
-  Kept(const Specification& specification, const std::string& hash)
-      : hash_(hash), name_(fs::path("verdicts") / (hash + ".json")), project_(specification.project) {}
+  explicit Kept(const std::string& hash) : hash_(hash) {
+    if (const std::optional<fs::path> folder = user_folder()) file_ = *folder / "verdicts" / (hash + ".json");
+  }
 
   /// nullopt: there are none, or more time might decide what they leave unknown.
   [[nodiscard]] std::optional<verify::Report> read(double seconds) const try {
-    const fs::path ours = state_folder(project_) / name_;
-    std::error_code ignored;
-    const json kept =
-        json::parse(content_of(fs::exists(ours, ignored) ? ours : own_folder(project_) / name_));
+    if (!is_kept_by_user(file_)) return std::nullopt;
+    const json kept = json::parse(content_of(file_));
     verify::Report report;
     kept.at("net_hash").get_to(report.net_hash);
     kept.at("verification_hash").get_to(report.verification_hash);
@@ -95,6 +98,7 @@ class Kept {
   }
 
   void write(const verify::Report& report, double seconds) const {
+    if (file_.empty()) return;
     json properties = json::array();
     for (const verify::PropertyResult& property : report.properties) properties.push_back(to_json(property));
     const json kept{{"net_hash", report.net_hash},
@@ -102,14 +106,26 @@ class Kept {
                     {"seconds", seconds},
                     {"properties", properties}};
     try {
-      write_file(state_folder(project_) / name_, kept.dump(1) + "\n");
+      keep_for_user(file_, kept.dump(1) + "\n");
+      remove_old();
     } catch (const std::exception&) {  // they are computed again next time
     }
   }
 
  private:
+  /// Those that were written first, when there are many more than a user works on.
+  void remove_old() const {
+    constexpr std::size_t most = 1000;
+    std::vector<std::pair<fs::file_time_type, fs::path>> all;
+    for (const fs::directory_entry& entry : fs::directory_iterator(file_.parent_path()))
+      if (entry.path().extension() == ".json") all.emplace_back(entry.last_write_time(), entry.path());
+    if (all.size() <= most) return;
+    std::ranges::sort(all);
+    for (std::size_t index = 0; index < all.size() - most; ++index) fs::remove(all[index].second);
+  }
+
   std::string hash_;
-  fs::path name_, project_;
+  fs::path file_;  ///< empty: none is kept
 };
 
 std::string shown(const explore::Progress& progress) {
@@ -135,7 +151,7 @@ verify::Report verify_or_recall(const Specification& specification, const Nets& 
   const std::vector<net::Invariant> invariants =
       layers::invariants(specification.model, nets.pages, nets.flat);
   const verify::Subject subject{nets.flat, &nets.pages, invariants, nets.properties};
-  const Kept kept(specification, verify::verification_hash(subject));
+  const Kept kept(verify::verification_hash(subject));
   if (std::optional<verify::Report> report = kept.read(seconds)) return std::move(*report);
   Step step(listener, "verifying");
   verify::ProveOptions how;

@@ -5,7 +5,7 @@
 #include "project/verification/pipeline.hpp"
 
 /// The verdicts on a net from which a controller is made. They are proved once and
-/// kept in the state folder.
+/// kept for the user (project::user_folder), not in the project.
 namespace tessera::project {
 
 /// "60s", "500ms", "2min" or seconds. Throws std::runtime_error, which names `option`, for anything else.

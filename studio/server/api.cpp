@@ -65,6 +65,7 @@ void Api::serve_on(HttpServer& server) {
   serve_spec(server);
   serve_work(server);
   serve_sources(server);
+  serve_consent(server);
   server.Get("/api/events",
              [this, &server](const Request&, Response& response) { stream_events(server, response); });
 }
@@ -130,6 +131,7 @@ void Api::get_project(Response& response) {
                {"simulation", nullptr},
                {"processes", json::array()},
                {"server_start", server_start_},
+               {"trusted", is_trusted()},
                {"examples_hint", (options_.share / "examples").string()}};
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
   if (analysis->model) project["name"] = analysis->model->system;
@@ -231,6 +233,11 @@ std::optional<RunRequest> Api::run_request(const Request& request, Response& res
 void Api::start_run(const Request& request, Response& response) {
   std::optional<RunRequest> wanted = run_request(request, response);
   if (!wanted) return;
+  const bool runs_code = wanted->kind == RunRequest::Kind::simulate || wanted->kind == RunRequest::Kind::run;
+  if (runs_code && !is_trusted())
+    return answer_error(response, 403,
+                        "a run compiles and executes the code of this folder, which is not trusted yet",
+                        "look at it, then say that you trust its authors");
   const Runs::Started started = parts_.runs.start(std::move(*wanted));
   if (started.status != 202) return answer_error(response, started.status, started.error, started.hint);
   answer(response, text_of(json{{"run", started.run}}), 202);

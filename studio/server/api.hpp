@@ -1,6 +1,8 @@
 #pragma once
 
+#include <atomic>
 #include <string>
+#include <vector>
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/language_answers.hpp"
@@ -9,6 +11,7 @@
 #include "server/http/events.hpp"
 #include "server/http/http.hpp"
 #include "server/recordings/recordings.hpp"
+#include "server/runs/driving_watch.hpp"
 #include "server/runs/runs.hpp"
 #include "server/studio.hpp"
 
@@ -24,6 +27,7 @@ class Api {
     VerifyJobs& jobs;
     Runs& runs;
     Recordings& recordings;
+    DrivingWatch& driving;
   };
   Api(const StudioOptions& options, Parts parts);
   /// Declares the handlers. The server must not outlive this object.
@@ -59,12 +63,19 @@ class Api {
   void serve_work(HttpServer& server);
   /// The C++ beside the specification, and examples to start from.
   void serve_sources(HttpServer& server);
+  /// Trust in the project, and the emergency stop.
+  void serve_consent(HttpServer& server);
+  [[nodiscard]] bool is_trusted() const;
+  void begin_project(const Request& request, Response& response);
+  /// Answers what `tessera` prints for these arguments.
+  void answer_command(const std::vector<std::string>& arguments, Response& response);
   void stream_events(HttpServer& server, Response& response);
 
   const StudioOptions& options_;
   Parts parts_;
   std::string server_start_;
   LanguageAnswers language_;
+  std::atomic<bool> trusted_here_{false};  ///< until the server ends, since no note of it could be kept
 };
 
 }  // namespace tessera::server

@@ -1,5 +1,8 @@
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <system_error>
 
+#include "project/files/trust.hpp"
 #include "server/analysis/examples.hpp"
 #include "server/analysis/sources.hpp"
 #include "server/analysis/world_targets.hpp"
@@ -11,6 +14,14 @@ namespace tessera::server {
 namespace {
 
 constexpr const char* no_source = "this is no source of the project: those are the C++ files in src/";
+
+/// Whether a build would take nothing from the folder.
+bool holds_nothing_to_build(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const char* const part : {"src", "test", "project.cmake", "CMakeLists.txt", ".tessera"})
+    if (std::filesystem::exists(std::filesystem::symlink_status(folder / part, ignored))) return false;
+  return true;
+}
 
 nlohmann::json content_json(const SpecFile::Content& content) {
   return {{"text", content.text}, {"revision", content.revision}};
@@ -89,14 +100,21 @@ void Api::serve_sources(HttpServer& server) {
   server.Get("/api/examples", [this](const Request&, Response& response) {
     answer(response, text_of(examples_in(options_.share / "examples")));
   });
-  server.Post("/api/begin", [this](const Request& request, Response& response) {
-    RequestBody body(request, response);
-    const std::string name = body.text("example");
-    if (!body.good()) return;
-    const Begun begun = begin_with(options_.share / "examples", name, parts_.file.path());
-    if (begun.problem) return answer_error(response, 409, begun.problem->text);
-    answer(response, text_of(nlohmann::json{{"files", begun.files}, {"kept", begun.kept}}));
-  });
+  server.Post("/api/begin",
+              [this](const Request& request, Response& response) { begin_project(request, response); });
+}
+
+void Api::begin_project(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string name = body.text("example");
+  if (!body.good()) return;
+  const std::filesystem::path folder = parts_.file.folder();
+  // Only what Tessera has written itself needs no question.
+  const bool is_new = holds_nothing_to_build(folder);
+  const Begun begun = begin_with(options_.share / "examples", name, parts_.file.path());
+  if (begun.problem) return answer_error(response, 409, begun.problem->text);
+  if (is_new && begun.kept.empty() && !project::trust(folder)) trusted_here_ = true;
+  answer(response, text_of(nlohmann::json{{"files", begun.files}, {"kept", begun.kept}}));
 }
 
 }  // namespace tessera::server

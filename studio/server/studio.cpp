@@ -17,6 +17,7 @@
 #include "server/http/events.hpp"
 #include "server/http/guard.hpp"
 #include "server/recordings/recordings.hpp"
+#include "server/runs/driving_watch.hpp"
 #include "server/runs/runs.hpp"
 
 namespace tessera::server {
@@ -48,8 +49,9 @@ struct Studio::Parts {
         jobs(analyses, events),
         runs(file, analyses, events),
         recordings(file, analyses),
+        driving(events),
         assets(given.page),
-        api(options, {file, analyses, events, jobs, runs, recordings}),
+        api(options, {file, analyses, events, jobs, runs, recordings, driving}),
         http(given.limits),
         port(http.bind(given.port, given.tries)),
         guard(port, token) {
@@ -108,6 +110,7 @@ struct Studio::Parts {
   VerifyJobs jobs;
   Runs runs;
   Recordings recordings;
+  DrivingWatch driving;
   Assets assets;
   Api api;
   std::string token = random_token();

@@ -15,6 +15,7 @@ struct StudioOptions {
   std::filesystem::path page;   ///< folder of the built page; it need not exist
   std::filesystem::path share;  ///< worlds/ and tracks/
   std::string version;
+  std::filesystem::path command = {};  ///< `tessera`; empty: this process is it
   HttpLimits limits = {};
 };
 

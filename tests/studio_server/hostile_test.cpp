@@ -30,8 +30,64 @@ TEST_F(Hostile, EveryAddressOfTheApiNeedsTheToken) {
       EXPECT_EQ(ask_with(headers, "GET", path, {}).status, 401) << path << " with '" << token << "'";
     }
   EXPECT_EQ(ask_with({{"Host", host()}}, "PUT", "/api/spec", R"({"text":"","revision":""})").status, 401);
+  for (const char* path : {"/api/trust", "/api/emergency_stop", "/api/emergency_reset", "/api/runs"})
+    EXPECT_EQ(ask_with({{"Host", host()}}, "POST", path, "{}").status, 401) << path;
   EXPECT_EQ(ask_with({{"Host", host()}}, "GET", "/api/spec?token=" + token_, {}).status, 401)
       << "only the event stream takes the token from the address";
+}
+
+/// A project that came from elsewhere, with a note of its own that it is trusted.
+TEST_F(Hostile, TheCodeOfAFolderRunsOnlyOnceTheUserTrustsIt) {
+  const fs::path project = folder_ / "project";
+  for (const char* const place : {".tessera/trusted", "trusted", ".tessera"})
+    write(project / place / project::hash_of(project.string()), project.string() + "\n");
+  serve();
+  EXPECT_EQ(get("/api/project").json().at("trusted"), false);
+  for (const char* kind : {"simulate", "run"}) {
+    const Reply refused = post("/api/runs", {{"kind", kind}});
+    EXPECT_EQ(refused.status, 403) << kind;
+    EXPECT_THAT(refused.body, HasSubstr("not trusted"));
+  }
+  EXPECT_EQ(post("/api/runs", {{"kind", "attach"}, {"socket", "x.sock"}}).status, 400)
+      << "it executes nothing of the folder";
+  EXPECT_FALSE(fs::exists(project / ".tessera/generated"));
+  EXPECT_EQ(post("/api/trust", nlohmann::json::object()).json().at("kept"), true);
+  EXPECT_EQ(get("/api/project").json().at("trusted"), true);
+
+  // Another folder of the same name is another one.
+  studio_.reset();
+  fs::rename(project, folder_ / "there");
+  fs::create_directories(folder_ / "elsewhere");
+  fs::rename(folder_ / "there", folder_ / "elsewhere/project");
+  options_.spec = folder_ / "elsewhere/project/spec.yaml";
+  serve();
+  EXPECT_EQ(get("/api/project").json().at("trusted"), false);
+  // The answer counts until the server ends where no note of it can be kept.
+  write(folder_ / "file", "");
+  setenv("XDG_STATE_HOME", (folder_ / "file").c_str(), 1);
+  EXPECT_EQ(post("/api/trust", nlohmann::json::object()).json().at("kept"), false);
+  EXPECT_EQ(get("/api/project").json().at("trusted"), true);
+}
+
+TEST_F(Hostile, AnExampleIsTrustedUnlessItsFolderHadCodeAlready) {
+  const auto begins = [&](const std::string& name) {
+    studio_.reset();
+    options_.spec = folder_ / name / "spec.yaml";
+    fs::create_directories(folder_ / name);
+    serve();
+    const std::string example = get("/api/examples").json().at(0).at("name");
+    EXPECT_EQ(post("/api/begin", {{"example", example}}).status, 200);
+    return get("/api/project").json().at("trusted").get<bool>();
+  };
+  options_.share = folder_ / "share";
+  fs::create_directories(options_.share);
+  for (const auto& entry : fs::directory_iterator(fs::path(TESSERA_SOURCE_DIR) / "share/tessera"))
+    fs::create_symlink(entry.path(), options_.share / entry.path().filename());
+  if (!fs::exists(options_.share / "examples"))
+    fs::create_symlink(fs::path(TESSERA_SOURCE_DIR) / "examples", options_.share / "examples");
+  EXPECT_TRUE(begins("new"));
+  write(folder_ / "old/project.cmake", "execute_process(COMMAND true)");
+  EXPECT_FALSE(begins("old"));
 }
 
 TEST_F(Hostile, ForeignOriginsAndHostsAreRefused) {

@@ -190,6 +190,25 @@ TEST_F(RunOfTheStudio, OnlyOneRunAtATimeDrivesTheDevices) {
   const Reply second = post("/api/runs", request);
   EXPECT_EQ(second.status, 409);
   EXPECT_THAT(second.body, HasSubstr("run " + first + " goes on"));
+
+  // The emergency stop is that of the command line: it holds until the reset.
+  const auto driving = [&](bool stopped) {
+    return events_->next("driving", [&](const json& data) {
+      const json& all = data.at("controllers");
+      return all.size() == 1 && all[0].at("answers") == true && all[0].at("emergency").is_null() != stopped;
+    });
+  };
+  ASSERT_FALSE(driving(false).is_null());
+  const json stopped = post("/api/emergency_stop", json::object()).json();
+  EXPECT_EQ(stopped.at("done"), true) << stopped;
+  EXPECT_THAT(stopped.at("lines").at(0).get<std::string>(), testing::EndsWith(": emergency stop"));
+  const json seen = driving(true);
+  ASSERT_FALSE(seen.is_null());
+  EXPECT_EQ(seen, get("/api/driving").json());
+  const std::string name = seen.at("controllers").at(0).at("name");
+  EXPECT_EQ(post("/api/emergency_reset", {{"controller", "--help"}}).status, 404);
+  EXPECT_EQ(post("/api/emergency_reset", {{"controller", name}}).json().at("done"), true);
+  EXPECT_FALSE(driving(false).is_null());
   ASSERT_EQ(control(first, {{"command", "stop"}}), 200);
   ASSERT_FALSE(await_state(first, "ended").is_null());
   const std::string third = start(request);

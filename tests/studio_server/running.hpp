@@ -72,6 +72,7 @@ class RunOfTheStudio : public Served {
     token_ = address.substr(address.find("token=") + 6);
     events_ = std::make_unique<EventStream>(port_, token_);
     EXPECT_FALSE(events_->next("hello").is_null());
+    EXPECT_EQ(post("/api/trust", json::object()).json().at("kept"), true);
   }
   ~RunOfTheStudio() override {
     stop_ = true;

@@ -116,6 +116,9 @@ Served::Served(fs::path folder) : folder_(std::move(folder)) {
   options_.page = folder_ / "page";
   options_.share = fs::path(TESSERA_SOURCE_DIR) / "share/tessera";
   options_.version = "test";
+  options_.command = TESSERA_BINARY_DIR "/tessera";
+  // What Tessera keeps for the user is not that of whoever runs the tests.
+  setenv("XDG_STATE_HOME", (folder_ / "user").c_str(), 1);
 }
 
 Served::~Served() {

@@ -1,10 +1,12 @@
 import { lazy, Suspense, useEffect } from "react";
 import { ConflictDialog } from "../panels/text/conflict_dialog";
 import { ConnectionBanner } from "../panels/connection_banner";
+import { EmergencyBar } from "../panels/emergency_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { SidePanel } from "../panels/side_panel";
 import { Toolbar } from "../panels/toolbar";
+import { TrustDialog } from "../panels/trust_dialog";
 import { Watches } from "../panels/plots/watch";
 import { Boundary } from "./boundary";
 import { Centre } from "./centre";
@@ -25,6 +27,7 @@ export function App() {
   useShortcuts();
   return (
     <div className="app">
+      <EmergencyBar />
       <Toolbar />
       <ConnectionBanner />
       <Split
@@ -50,6 +53,7 @@ export function App() {
       <Problems />
       {searching && <Search />}
       <ConflictDialog />
+      <TrustDialog />
     </div>
   );
 }

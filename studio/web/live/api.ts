@@ -121,6 +121,11 @@ export class Api {
   begin = (example: string) => this.ask("POST /api/begin", { body: { example } });
   verifyState = (job: string) => this.ask("GET /api/verify/JOB", { of: job });
   stopVerify = (job: string) => this.ask("DELETE /api/verify/JOB", { of: job });
+  /** The user trusts the authors of the code. */
+  trust = () => this.ask("POST /api/trust", { body: {} });
+  driving = () => this.ask("GET /api/driving");
+  emergencyStop = () => this.ask("POST /api/emergency_stop", { body: {} });
+  emergencyReset = (controller: string) => this.ask("POST /api/emergency_reset", { body: { controller } });
   start = (request: RunRequest) => this.ask("POST /api/runs", { body: request });
   control = (run: string, request: ControlRequest) => this.ask("POST /api/runs/RUN/control", { of: run, body: request });
   /** The same for a page that may be about to close. */

@@ -1,4 +1,4 @@
-import type { Connection } from "./connection";
+import type { Connection } from "./stream/connection";
 import type { DeploymentSeen, LinkSeen, ProcessSeen } from "./protocol";
 import type { Runner } from "./runner";
 import { Store } from "./store";

@@ -124,6 +124,28 @@ export interface Requests {
       kept: string[];
     };
   };
+  /** The user trusts the authors of the project's code: it may be compiled and run. */
+  "POST /api/trust": {
+    body: Nothing;
+    status: 200;
+    answer: {
+      /** False: only until the server ends. */
+      kept: boolean;
+    };
+  };
+  "GET /api/driving": { status: 200; answer: Driving };
+  /** What `tessera emergency-stop` does: all controllers of this user in real time. */
+  "POST /api/emergency_stop": { body: Nothing; status: 200; answer: CommandDone };
+  /** What `tessera reset` does. */
+  "POST /api/emergency_reset": {
+    body: {
+      /** The name of one: of a deployed system, all processes are reset. */
+      controller: string;
+    };
+    status: 200;
+    answer: CommandDone;
+  };
+  /** 403: the project is not trusted. */
   "POST /api/runs": {
     body: RunRequest;
     status: 202;
@@ -199,6 +221,8 @@ export interface Project {
   /** Another one after each start of the server. */
   server_start: string;
   examples_hint: string;
+  /** Whether its code may be compiled and run. */
+  trusted: boolean;
   worlds: { name: string; tracks: string[] }[];
   /** The processes of `deploy:`; empty: all agents run in one. */
   processes: string[];
@@ -438,6 +462,31 @@ export interface FunctionShown {
   stub: string;
   /** Functions of the same namespace that no behaviour has. */
   leftovers: string[];
+}
+/**
+ * The controllers that drive devices now: those of this user in real time, on real devices or in a simulated
+ * world.
+ */
+export interface Driving {
+  controllers: {
+    name: string;
+    system: string;
+    /** Its number; -1: not known. */
+    process: number;
+    /** One of several processes of its system. */
+    deployed: boolean;
+    /** False: it hangs, or is stopped. */
+    answers: boolean;
+    /** The reason of its emergency stop; null: it has none. */
+    emergency: string | null;
+  }[];
+}
+/** The result of a command of the command line. */
+export interface CommandDone {
+  /** Whether all that were meant have obeyed. */
+  done: boolean;
+  /** What it prints. */
+  lines: string[];
 }
 export interface StartRequest {
   kind: "simulate" | "run";
@@ -864,6 +913,7 @@ export interface Events {
   pose: PoseEvent;
   scene: SceneEvent;
   poses: PosesEvent;
+  driving: Driving;
 }
 export interface Hello {
   /** Another one: the server was restarted. */

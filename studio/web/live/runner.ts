@@ -4,7 +4,7 @@ import { runningBehaviours } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
 import { bounded } from "../model/sorted";
 import type { Api } from "./api";
-import type { Connection } from "./connection";
+import type { Connection } from "./stream/connection";
 import { message, type Draft } from "./draft";
 import type {
   ControlRequest,
@@ -28,7 +28,7 @@ import { Track } from "./track";
 import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment">;
+type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment" | "driving">;
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";

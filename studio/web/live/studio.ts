@@ -1,8 +1,9 @@
 import { Api, hasToken, shareToken, takeToken } from "./api";
 import { Camera } from "./camera";
-import { Connection } from "./connection";
+import { Connection } from "./stream/connection";
 import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
+import { Emergency } from "./emergency";
 import { Draft, message } from "./draft";
 import type { Project, RunRequest, Verdict } from "./protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
@@ -19,6 +20,7 @@ import { Scene } from "./scene";
 import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
+import { Trust } from "./trust";
 import { Verifier } from "./verifier";
 
 export type View = "net" | "structure" | "fleet";
@@ -74,6 +76,8 @@ export class Studio {
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
   readonly runner = new Runner(this.api, this.draft, this.connection);
+  readonly trust = new Trust(this.api);
+  readonly emergency = new Emergency(this.api, this.connection);
   readonly operator = new Operator(this.api, this.runner);
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
@@ -241,8 +245,9 @@ export class Studio {
     return saved;
   }
 
-  /** Starts or follows a run. A game in play is closed. */
+  /** Starts or follows a run. A game in play is closed. The code of a folder runs only if the user trusts it. */
   async run(request: RunRequest): Promise<void> {
+    if ((request.kind === "simulate" || request.kind === "run") && !(await this.trust.given())) return;
     this.play.stop();
     await this.runner.start(request);
   }

@@ -1,7 +1,7 @@
 import { stuckIn } from "../model/causes";
 import type { NetModel } from "../model/net/net";
 import type { Api } from "./api";
-import type { Connection } from "./connection";
+import type { Connection } from "./stream/connection";
 import { message, type Draft } from "./draft";
 import type { Verdict, VerifyAnswer, VerifyEvent } from "./protocol";
 import { Store } from "./store";

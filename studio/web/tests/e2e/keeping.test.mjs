@@ -62,6 +62,8 @@ test("a change on disk after the file was read and before events come is shown",
       await new Promise((done) => setTimeout(done, 300)); // the server tells all that listen
       await route.continue();
     };
+    // A tab whose browser has no shared workers has a stream of its own, which can be held back.
+    await page.addInitScript(() => delete window.SharedWorker);
     await page.route("**/api/events*", changeFirst, { times: 1 });
     await page.goto(server.url);
     await page.getByTestId("editor").getByText("v: 0.3 m/s").waitFor();
@@ -219,6 +221,90 @@ test("an address that is opened in the old tab is taken, and another project's t
       await page.goto(again.url);
       await page.getByRole("heading", { name: "line_follower" }).waitFor();
       await page.getByTestId("editor").getByText("33 Hz").waitFor();
+    } finally {
+      await again.close();
+    }
+  }));
+
+test("a conflict asks only about the lines that both changed, and keeps the other changes of both", () =>
+  onPage(lineFollower, async (page, server) => {
+    await setRate(page, "33 Hz");
+    writeFileSync(server.file, server.text().replace("rate: 20 Hz", "rate: 44 Hz").replace("v: 0.2 m/s", "v: 0.3 m/s"));
+    const dialog = page.getByRole("dialog", { name: "The file was changed by another program" });
+    await dialog.getByText("rate: 44 Hz").waitFor();
+    assert.doesNotMatch(await dialog.innerText(), /0\.3 m\/s/);
+    // A reload in the meantime forgets nothing.
+    await page.reload();
+    await dialog.getByText("rate: 44 Hz").waitFor();
+    await page.reload();
+    await dialog.getByRole("button", { name: "Keep mine" }).click();
+    await page.keyboard.press("Control+s");
+    await page.getByText("Saved").waitFor();
+    assert.match(server.text(), /v: 0\.3 m\/s[\s\S]*rate: 33 Hz/);
+  }));
+
+test("undo in a field takes back the edit, and an alias stays an alias", () =>
+  onPage(lineFollower, async (page, server) => {
+    const text = server
+      .text()
+      .replace("rate: 20 Hz", "rate: &r2 20 Hz")
+      .replace(/(motor:\n\s+rate:) 50 Hz/, "$1 *r2");
+    assert.match(text, /\*r2/);
+    writeFileSync(server.file, text);
+    await page.getByTestId("editor").getByText("*r2", { exact: false }).first().waitFor();
+    await tab(page, "Structure").click();
+    await page.locator('[data-path="robot.motor"]').click();
+    const rate = page.getByRole("textbox", { name: "Rate" });
+    assert.equal(await rate.inputValue(), "*r2");
+    await rate.click();
+    await page.keyboard.press("Control+a");
+    await page.keyboard.type("30 Hz");
+    await page.keyboard.press("Enter");
+    await until(page, async () => /rate: 30 Hz/.test((await draftText(page)) ?? ""), "the edit");
+    await page.keyboard.press("Control+z");
+    await until(page, async () => (await rate.inputValue()) === "*r2", "it is undone");
+    await rate.blur();
+    assert.equal(await page.getByLabel("not saved").count(), 0, "the text is as it was");
+    // Typed again, it is the alias, and not a text of that name.
+    await rate.fill("30 Hz");
+    await rate.press("Enter");
+    await rate.fill("*r2");
+    await rate.press("Enter");
+    await page.getByLabel("not saved").waitFor({ state: "detached" });
+    // What is not taken yet goes first.
+    await rate.fill("99");
+    await rate.press("Control+z");
+    assert.equal(await rate.inputValue(), "*r2");
+  }));
+
+test("eight tabs share one stream: each can save, hears of it, and goes on when another is closed", () =>
+  onPage(lineFollower, async (first, server, open) => {
+    const tabs = [first];
+    while (tabs.length < 8) {
+      const page = await open();
+      await page.goto(server.url);
+      await page.getByText("Opening…").waitFor({ state: "detached" });
+      tabs.push(page);
+    }
+    const last = tabs.at(-1);
+    await last.bringToFront();
+    await setRate(last, "33 Hz");
+    await last.keyboard.press("Control+s");
+    await last.getByText("Saved").waitFor();
+    assert.match(server.text(), /rate: 33 Hz/);
+    const shows = (page, rate) => page.getByTestId("editor").getByText(rate).waitFor();
+    for (const page of tabs.slice(0, -1)) await shows(page, "33 Hz");
+    await first.close();
+    writeFileSync(server.file, server.text().replace("rate: 33 Hz", "rate: 44 Hz"));
+    for (const page of tabs.slice(1)) await shows(page, "44 Hz");
+    // All begin again after the server was gone.
+    await server.kill();
+    for (const page of tabs.slice(1)) await page.getByText("The server does not answer.").first().waitFor();
+    const again = await serve(server.root, { port: server.port, copy: false });
+    try {
+      await last.goto(again.url);
+      writeFileSync(server.file, server.text().replace("rate: 44 Hz", "rate: 55 Hz"));
+      for (const page of tabs.slice(1)) await shows(page, "55 Hz");
     } finally {
       await again.close();
     }

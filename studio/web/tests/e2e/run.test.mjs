@@ -1,7 +1,9 @@
 import assert from "node:assert/strict";
+import { existsSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import validator from "gltf-validator";
-import { button, drawn, example, find, onBuilt, serve, tab, until } from "./page.mjs";
+import { button, drawn, example, find, onBuilt, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -192,3 +194,30 @@ test("a controller that runs already is watched, and let go", () =>
     }
     await page.getByTestId("run-state").getByText("Running").waitFor();
   }));
+
+test("the code of a folder that came from elsewhere runs only once the user trusts it", () =>
+  onPage(
+    lineFollower,
+    async (page, server) => {
+      const built = () => existsSync(join(server.root, ".tessera/generated"));
+      await tab(page, "Run").click();
+      await button(page, "Run").click();
+      const asked = page.getByRole("dialog", { name: "Do you trust the authors of this folder?" });
+      await asked.getByText(server.root).waitFor();
+      await asked.getByRole("button", { name: "Do not run it" }).click();
+      await asked.waitFor({ state: "hidden" });
+      assert.equal(built(), false);
+      await button(page, "Run").click();
+      await asked.getByRole("button", { name: "Trust it and run" }).click();
+      await page.getByTestId("run-state").waitFor();
+      await until(page, built, "its controller is made");
+      await button(page, "Stop").click();
+      await page.getByTestId("run-state").getByText("Ended").or(page.getByTestId("run-state").getByText("Failed")).waitFor();
+      // It is asked once.
+      await button(page, "Run").click();
+      await button(page, "Stop").click();
+      await page.getByTestId("run-state").getByText("Ended").or(page.getByTestId("run-state").getByText("Failed")).waitFor();
+      assert.equal(await asked.isVisible(), false);
+    },
+    { server: { trusted: false } },
+  ));

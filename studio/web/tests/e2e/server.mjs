@@ -7,7 +7,8 @@ import { basename, join } from "node:path";
 const tessera = process.env.TESSERA ?? "tessera";
 // Controllers that were started elsewhere on this machine are not visible to these tests.
 const world = mkdtempSync(join(tmpdir(), "studio-"));
-const env = { ...process.env, XDG_RUNTIME_DIR: world };
+// What Tessera keeps for the user is not that of whoever runs the tests.
+const env = { ...process.env, XDG_RUNTIME_DIR: world, XDG_STATE_HOME: join(world, "state") };
 process.on("exit", () => rmSync(world, { recursive: true, force: true }));
 
 /** The further processes that a test starts beside the server. */
@@ -27,8 +28,8 @@ function build(root) {
 }
 
 /** A copy of the project's source; the build of an earlier copy is kept, because building takes long. */
-function copyOf(folder) {
-  const root = join(world, basename(folder));
+function copyOf(folder, parent = world) {
+  const root = join(parent, basename(folder));
   removeAll(root, [".tessera"]);
   removeAll(join(root, ".tessera"), buildFolders);
   // Without the dates of the source, everything would be built again.
@@ -38,10 +39,10 @@ function copyOf(folder) {
 
 /**
  * Starts it, on any free port unless one is given. `text` reads the specification from disk. `built`: its
- * controller is built beforehand, so that a run starts at once.
+ * controller is built beforehand, so that a run starts at once. `trusted`: the user has said that its code may run; otherwise the copy is where none was before.
  */
-export async function serve(folder, { port = 0, copy = true, built = false } = {}) {
-  const root = copy ? copyOf(folder) : folder;
+export async function serve(folder, { port = 0, copy = true, built = false, trusted = true } = {}) {
+  const root = copy ? copyOf(folder, trusted ? world : mkdtempSync(join(world, "of_others_"))) : folder;
   const file = join(root, "spec.yaml");
   if (built) build(root);
   const child = spawn(tessera, ["studio", file, "--port", String(port), "--no-browser"], {
@@ -61,13 +62,15 @@ export async function serve(folder, { port = 0, copy = true, built = false } = {
   });
   const ended = new Promise((done) => child.once("exit", done));
   const { origin, hash } = new URL(url);
+  const token = hash.replace("#token=", "");
+  if (trusted) await fetch(`${origin}/api/trust`, { method: "POST", headers: { Authorization: `Bearer ${token}` }, body: "{}" });
   return {
     root,
     file,
     url,
     address: origin,
     port: Number(new URL(url).port),
-    token: hash.replace("#token=", ""),
+    token,
     text: () => readFileSync(file, "utf8"),
     /** Ends it like a crash. */
     kill: async () => {

@@ -124,3 +124,54 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     await button(second, "Stop").click();
     await second.getByTestId("run-state").getByText("Ended").waitFor();
   }));
+
+test("everything that drives devices is stopped from the page, also past a dialog, until it is reset", () =>
+  onBuilt(folder("teleoperation"), async (page, server, open) => {
+    const bar = (of) => of.getByRole("region", { name: "Emergency stop" });
+    const stop = (of) => of.getByRole("button", { name: "EMERGENCY STOP" });
+    await tab(page, "Run").click();
+    assert.equal(await bar(page).count(), 0, "nothing drives anything");
+    await page.getByRole("combobox", { name: "Run" }).selectOption("run");
+    await page.getByRole("textbox", { name: "For" }).fill("1000s");
+    await button(page, "Run").click();
+    await bar(page)
+      .getByText(/Drives devices: teleoperation\.\d+/)
+      .waitFor();
+    const place = await stop(page).boundingBox();
+    assert.ok(place.height >= 44 && place.width >= 200, "it is large");
+    const other = await open();
+    await other.goto(server.url);
+    await bar(other).getByText("Drives devices").waitFor();
+
+    const objections = [];
+    const judge = await judges(page, objections);
+    await judge("driving");
+    await button(page, "About Tessera").click();
+    const inDialog = page.getByRole("dialog").getByRole("button", { name: "EMERGENCY STOP" });
+    assert.deepEqual(await inDialog.boundingBox(), place, "it is where it always is");
+    await inDialog.click();
+    await page.getByRole("dialog").getByText("All have stopped").waitFor();
+    await button(page, "Close").click();
+    await bar(page)
+      .getByText(/teleoperation\.\d+: emergency stop/)
+      .waitFor();
+    await bar(page)
+      .getByText(/teleoperation\.\d+ is stopped/)
+      .waitFor();
+    await judge("stopped");
+    await bar(other).getByText("is stopped").waitFor();
+
+    // It holds for whoever comes later, and is asked about before devices move again.
+    await page.reload();
+    await bar(page).getByRole("button", { name: "Reset…" }).click();
+    await bar(page).getByText("Its devices will move again").waitFor();
+    await bar(page)
+      .getByRole("button", { name: /^Reset teleoperation/ })
+      .click();
+    await bar(page).getByText("Drives devices").waitFor();
+    await bar(other).getByText("Drives devices").waitFor();
+    await tab(page, "Run").click();
+    await button(page, "Stop").click();
+    await bar(other).waitFor({ state: "detached" });
+    assert.deepEqual(objections, []);
+  }));

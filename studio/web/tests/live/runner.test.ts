@@ -1,6 +1,6 @@
 import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Api } from "../../live/api";
-import type { Connection } from "../../live/connection";
+import type { Connection } from "../../live/stream/connection";
 import type { Draft } from "../../live/draft";
 import type { ControlRequest, RunInfo } from "../../live/protocol";
 import { Runner } from "../../live/runner";

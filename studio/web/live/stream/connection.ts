@@ -1,6 +1,7 @@
-import { Api, ApiError } from "./api";
-import type { Events } from "./protocol";
-import { Store } from "./store";
+import { Api, ApiError } from "../api";
+import type { Events } from "../protocol";
+import { Store } from "../store";
+import { openStream, type Stream } from "./stream";
 
 export interface ConnectionState {
   /** refused: the token is not that of the server (it was restarted). */
@@ -8,29 +9,12 @@ export interface ConnectionState {
   attempt: number;
 }
 type Handler = (data: never) => void;
-const listened: Record<keyof Events, true> = {
-  hello: true,
-  spec: true,
-  verify: true,
-  build: true,
-  log: true,
-  run: true,
-  firings: true,
-  values: true,
-  arrays: true,
-  pose: true,
-  scene: true,
-  poses: true,
-  subsystems: true,
-  deployment: true,
-  parameters: true,
-};
 
-/** The event stream. It is opened again whenever it breaks. */
+/** The event stream, which all tabs of a browser share. It is opened again whenever it breaks. */
 export class Connection {
   readonly store = new Store<ConnectionState>({ state: "connecting", attempt: 0 });
   private readonly handlers = new Map<string, Set<Handler>>();
-  private source: EventSource | undefined;
+  private stream: Stream | undefined;
   private timer: ReturnType<typeof setTimeout> | undefined;
 
   constructor(private readonly api: Api) {}
@@ -41,30 +25,28 @@ export class Connection {
     this.handlers.set(name, set);
   }
 
-  /** Connects with another key after the current one was refused. */
+  /** Another tab knows the key of the server that runs now. This one connects with it as soon as its own is refused. */
   openWith(token: string): void {
-    if (this.store.get().state !== "refused") return;
     this.api.token = token;
-    this.open();
+    if (this.store.get().state === "refused") this.open();
   }
 
   open(): void {
     clearTimeout(this.timer);
-    this.source?.close();
-    const source = new EventSource(this.api.eventsAddress());
-    this.source = source;
-    source.onopen = () => this.store.set({ state: "open", attempt: 0 });
-    source.onerror = () => void this.broken();
-    for (const name of Object.keys(listened))
-      source.addEventListener(name, (event) => {
-        const data = JSON.parse((event as MessageEvent<string>).data) as never;
-        this.handlers.get(name)?.forEach((handler) => handler(data));
-      });
+    this.stream?.close();
+    this.stream = openStream(this.api.eventsAddress(), {
+      opened: () => this.store.set({ state: "open", attempt: 0 }),
+      broken: () => void this.broken(),
+      event: (name, data) => {
+        const parsed = JSON.parse(data) as never;
+        this.handlers.get(name)?.forEach((handler) => handler(parsed));
+      },
+    });
   }
 
   /** A broken stream gives no reason; a plain request does. */
   private async broken(): Promise<void> {
-    this.source?.close();
+    this.stream?.close();
     const attempt = this.store.get().attempt + 1;
     this.store.set({ state: "lost", attempt });
     try {

@@ -1,0 +1,23 @@
+import type { Events } from "../protocol";
+
+const listened: Record<keyof Events, true> = {
+  hello: true,
+  spec: true,
+  verify: true,
+  build: true,
+  log: true,
+  run: true,
+  firings: true,
+  values: true,
+  arrays: true,
+  pose: true,
+  scene: true,
+  poses: true,
+  subsystems: true,
+  deployment: true,
+  parameters: true,
+  driving: true,
+};
+
+/** All events of the server. */
+export const eventNames = Object.keys(listened) as (keyof Events)[];

@@ -152,7 +152,7 @@ function(tessera_gtest name)
     set(TEST_WHOLE TRUE)
     set(TEST_TIMEOUT 1200)
   endif()
-  # What Tessera keeps for the user (verdicts, trust) is not that of whoever runs the tests.
+  # A test has nothing to do with what Tessera keeps for the user who runs it (verdicts, trust).
   set(properties TIMEOUT ${TEST_TIMEOUT} ENVIRONMENT XDG_STATE_HOME=${PROJECT_BINARY_DIR}/tests/user)
   if(TEST_LOCK)
     list(APPEND properties RESOURCE_LOCK ${TEST_LOCK})

@@ -36,7 +36,7 @@ class Command : public testing::Test {
   Command() : folder_(fs::temp_directory_path() / fs::path("tessera_cli_" + std::to_string(getpid()))) {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
-    // What Tessera keeps for the user is not that of whoever runs the tests.
+    // A test has nothing to do with what Tessera keeps for the user who runs it.
     setenv("XDG_STATE_HOME", user_.c_str(), 1);
   }
   ~Command() override {

@@ -117,7 +117,7 @@ Served::Served(fs::path folder) : folder_(std::move(folder)) {
   options_.share = fs::path(TESSERA_SOURCE_DIR) / "share/tessera";
   options_.version = "test";
   options_.command = TESSERA_BINARY_DIR "/tessera";
-  // What Tessera keeps for the user is not that of whoever runs the tests.
+  // A test has nothing to do with what Tessera keeps for the user who runs it.
   setenv("XDG_STATE_HOME", (folder_ / "user").c_str(), 1);
 }
 

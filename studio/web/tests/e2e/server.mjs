@@ -7,7 +7,7 @@ import { basename, join } from "node:path";
 const tessera = process.env.TESSERA ?? "tessera";
 // Controllers that were started elsewhere on this machine are not visible to these tests.
 const world = mkdtempSync(join(tmpdir(), "studio-"));
-// What Tessera keeps for the user is not that of whoever runs the tests.
+// A test has nothing to do with what Tessera keeps for the user who runs it.
 const env = { ...process.env, XDG_RUNTIME_DIR: world, XDG_STATE_HOME: join(world, "state") };
 process.on("exit", () => rmSync(world, { recursive: true, force: true }));
 

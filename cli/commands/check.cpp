@@ -10,6 +10,7 @@
 #include "project/files/ros2_messages.hpp"
 #include "project/files/world_check.hpp"
 #include "project/verification/pipeline.hpp"
+#include "spec/model/former_routes.hpp"
 #include "spec/parser.hpp"
 
 namespace tessera::cli {
@@ -36,6 +37,7 @@ int check_json(const CheckOptions& options) {
       find_messages(*model, project, found);
       if (check_simulation_files(*model, project, found)) check_world(*model, project, "", found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
+      note_former_routes(*model, found);
     }
   write_output(options.json, diagnostics::render_json(found) + "\n");
   if (!found.has_errors()) return ok;
@@ -50,6 +52,9 @@ int check_command(const CheckOptions& options) {
   if (!simulation_is_possible(*specification, terminal()) || !sound) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
+  diagnostics::Diagnostics notes(specification->diagnostics.file(), specification->diagnostics.text());
+  note_former_routes(specification->model, notes);
+  terminal().say(notes);
   const spec::Model& model = specification->model;
   fmt::print("{}: {}, {}, {}; {}, {}\n", model.system, count_of(model.agents, "agent"),
              count_of(model.instances, "subsystem"), count_of(model.channels, "channel"),

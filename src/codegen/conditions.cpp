@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
+#include <utility>
 
 #include "codegen/cpp_text.hpp"
 #include "spec/conditions/tokens.hpp"
@@ -12,7 +14,7 @@ namespace tessera::codegen {
 namespace {
 
 bool conditional(const spec::Behaviour& behaviour) {
-  return behaviour.next.front().when.kind != spec::When::Kind::always;
+  return behaviour.next.size() > 1 || behaviour.next.front().when.kind != spec::When::Kind::always;
 }
 
 bool decided(const spec::Behaviour& behaviour) {
@@ -153,35 +155,58 @@ std::string Conditions::route() const {
                      cases);
 }
 
+/// The entries that an error or a failure can take come first. The others are then only asked after a terminal
+/// ending.
 std::string Conditions::route_case(spec::BehaviourId behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
   if (!conditional(what)) return {};
-  std::vector<Declaration> lines;
   const spec::Endings endings(what);
-  bool ends = false;  // by an entry without condition
+  const auto taken = [&](spec::NextId entry, spec::Ending ending) {
+    return endings.taken(entry, ending) != spec::Truth::never;
+  };
+  std::vector<Route> routes;
+  std::optional<spec::NextId> last;  // of an error that no entry before it has taken
   for (const spec::NextId entry : what.next.ids()) {
-    if (ends) break;
-    if (!endings.can_be_taken(entry)) continue;
-    const std::string when = asks(behaviour, entry);
-    ends = when.empty();
-    lines.push_back({fmt::format("{}return {};", when, entry.value), goal(subsystem_, what.next[entry])});
+    if (!taken(entry, spec::Ending::error) && !taken(entry, spec::Ending::failure)) continue;
+    if (what.next[entry].when.kind == spec::When::Kind::named_error)
+      routes.push_back({when_text(behaviour, entry), entry});
+    else if (!last)
+      last = entry;
   }
+  if (last) routes.push_back({"if (failed) ", *last});
+  for (const spec::NextId entry : what.next.ids()) {
+    if (!taken(entry, spec::Ending::terminal)) continue;
+    routes.push_back({when_text(behaviour, entry), entry});
+    if (routes.back().when.empty()) break;
+  }
+  if (last && !endings.possible(spec::Ending::terminal)) routes.back().when.clear();
+  return route_text(behaviour, std::move(routes));
+}
+
+std::string Conditions::route_text(spec::BehaviourId behaviour, std::vector<Route> routes) const {
+  const spec::Behaviour& what = subsystem_.behaviours[behaviour];
+  const bool ends = !routes.empty() && routes.back().when.empty();  // by an entry without condition
+  while (ends && routes.size() > 1 && routes[routes.size() - 2].entry == routes.back().entry)
+    routes.erase(routes.end() - 2);
+  std::vector<Declaration> lines;
+  for (const Route& route : routes)
+    lines.push_back({fmt::format("{}return {};", route.when, route.entry.value),
+                     goal(subsystem_, what.next[route.entry])});
   if (!ends) lines.push_back({"return -1;", ""});
   return fmt::format("      case Behaviour::{}:\n{}", what.name, declarations(lines, 8));
 }
 
-/// "if (failed) ", or nothing for an entry without condition.
-std::string Conditions::asks(spec::BehaviourId behaviour, spec::NextId entry) const {
+/// The question that the entry asks: "if (held_.tessera_work_error_lost) ", or nothing if it has no condition.
+std::string Conditions::when_text(spec::BehaviourId behaviour, spec::NextId entry) const {
   const spec::When& when = subsystem_.behaviours[behaviour].next[entry].when;
   const Asked& asked = asked_[behaviour];
   switch (when.kind) {
     case spec::When::Kind::always:
     case spec::When::Kind::never:  // not asked
+    case spec::When::Kind::error:  // asked by route_case
       return {};
-    case spec::When::Kind::error:
-      return "if (failed) ";
     case spec::When::Kind::terminal:
-      return fmt::format("if (!failed && held_.{}) ", functions_[asked.terminal[when.expression]].name);
+      return fmt::format("if (held_.{}) ", functions_[asked.terminal[when.expression]].name);
     case spec::When::Kind::named_error:
       return fmt::format("if (held_.{}) ", functions_[asked.error[when.expression]].name);
     case spec::When::Kind::expression:

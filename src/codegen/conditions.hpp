@@ -50,7 +50,13 @@ class Conditions {
   [[nodiscard]] std::string decide_case(spec::BehaviourId behaviour) const;
   [[nodiscard]] std::string ask(const std::vector<std::size_t>& functions, std::string_view outcome) const;
   [[nodiscard]] std::string route_case(spec::BehaviourId behaviour) const;
-  [[nodiscard]] std::string asks(spec::BehaviourId behaviour, spec::NextId entry) const;
+  /// One line of `route`.
+  struct Route {
+    std::string when;  ///< "if (failed) "; empty: in any case
+    spec::NextId entry;
+  };
+  [[nodiscard]] std::string route_text(spec::BehaviourId behaviour, std::vector<Route> routes) const;
+  [[nodiscard]] std::string when_text(spec::BehaviourId behaviour, spec::NextId entry) const;
 
   const Project& project_;
   const Unit& unit_;

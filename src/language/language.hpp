@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -132,6 +133,33 @@ class Document {
 /// Offers for what is in `range`. found: the diagnostics of the text.
 [[nodiscard]] std::vector<Fix> fixes(const Document& document, Range range,
                                      const std::vector<diagnostics::Diagnostic>& found);
+
+/// The text with all edits of the specification.
+[[nodiscard]] std::string edited(const Document& document, const std::vector<TextEdit>& edits);
+
+/// Edits after which a specification of an earlier version means what it meant then
+/// (spec/model/former_routes.hpp).
+struct Migration {
+  struct Step {
+    std::string behaviour;   ///< "robot.control.grab"
+    diagnostics::Span span;  ///< of its name
+    std::string to;          ///< where an error or a failure leads again
+    TextEdit edit;
+  };
+  struct ByHand {
+    std::string behaviour;
+    diagnostics::Span span;
+    std::string why;
+  };
+  std::vector<Step> steps;
+  std::vector<ByHand> by_hand;  ///< what the author has to decide
+};
+/// Comments, order, style and aliases stay. The edited text has been read again: it means the same but for these
+/// entries. only: the steps of the subsystem alone in which that span of a behaviour, or of an entry of its `next`,
+/// lies.
+/// nullopt: the text has errors.
+[[nodiscard]] std::optional<Migration> migrate(const Document& document,
+                                               std::optional<diagnostics::Span> only = std::nullopt);
 
 /// All names as a tree.
 [[nodiscard]] std::vector<Heading> headings(const Document& document);

@@ -17,10 +17,11 @@ std::string label(const spec::Expression& expression) {
   return expression.name.empty() ? expression.text : expression.name;
 }
 
-std::string text_of(const spec::When& when, const spec::Behaviour& behaviour) {
+std::string text_of(spec::NextId entry, const spec::Behaviour& behaviour) {
+  const spec::When& when = behaviour.next[entry].when;
   switch (when.kind) {
     case spec::When::Kind::always:
-      return "otherwise";
+      return entry.value == 0 ? "no error" : "otherwise";
     case spec::When::Kind::never:
       return "never";
     case spec::When::Kind::error:
@@ -65,7 +66,7 @@ Numbered<spec::NextId, Condition> initial_conditions(const spec::Behaviour& beha
     Condition made{.kind = Condition::Kind::next,
                    .truth = now.truth,
                    .entry = entry.value,
-                   .text = text_of(behaviour.next[entry].when, behaviour),
+                   .text = text_of(entry, behaviour),
                    .exhaustive = now.exhaustive};
     made.set_with_failures(known(endings, entry, true));
     made.follows =

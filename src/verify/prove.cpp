@@ -181,38 +181,70 @@ class Prover {
     return {kind, property.assume, std::move(claims), property.author};
   }
 
+  /// Whether behaviours run, and which of them do not.
+  struct Running {
+    PropertyResult result;
+    std::vector<std::uint32_t> dead;  ///< certainly
+    std::vector<std::uint32_t> open;  ///< it is not known
+  };
+
   /// A method may know of some behaviours only that they never run: then the others are asked about.
-  PropertyResult live_behaviours(Question question, const std::string& name) {
-    std::vector<std::uint32_t> dead;
-    PropertyResult violated;
+  Running running(Question question, const std::string& name) {
+    Running found;
     while (true) {
-      std::vector<std::uint32_t> found;
-      PropertyResult result = answer(question, name, &found);
+      std::vector<std::uint32_t> dead;
+      PropertyResult result = answer(question, name, &dead);
       if (result.verdict != Verdict::violated) {
-        if (dead.empty()) return result;
-        violated.states += result.states;
+        if (result.verdict == Verdict::unknown) found.open = question.subjects;
+        if (found.dead.empty())
+          found.result = std::move(result);
+        else
+          found.result.states += result.states;
         break;
       }
-      if (dead.empty()) violated = std::move(result);
-      dead.insert(dead.end(), found.begin(), found.end());
+      if (found.dead.empty()) found.result = std::move(result);
+      found.dead.insert(found.dead.end(), dead.begin(), dead.end());
       std::erase_if(question.subjects,
-                    [&](std::uint32_t place) { return std::ranges::count(found, place) > 0; });
-      if (found.empty() || question.subjects.empty()) break;
+                    [&](std::uint32_t place) { return std::ranges::count(dead, place) > 0; });
+      if (dead.empty() || question.subjects.empty()) break;
     }
-    std::ranges::sort(dead);
-    const net::Net& net = facts_.subject().net;
-    for (const std::uint32_t place : dead)
-      violated.behaviours.push_back({behaviour_of(net, {place}), net.places()[place].span.line});
-    if (dead.size() > 1) violated.why = never_run(violated.behaviours);
-    return violated;
+    std::ranges::sort(found.dead);
+    return found;
   }
 
-  static std::string never_run(const std::vector<PropertyResult::Behaviour>& behaviours) {
+  /// A behaviour that does not run by itself may still be reached after a failure: that is what it is for.
+  PropertyResult live_behaviours(Question question, const std::string& name) {
+    Running by_itself = running(question, name);
+    if (by_itself.result.verdict == Verdict::holds) return std::move(by_itself.result);
+    question.assume = Assume::exceptions;
+    question.subjects = by_itself.dead;
+    question.subjects.insert(question.subjects.end(), by_itself.open.begin(), by_itself.open.end());
+    std::ranges::sort(question.subjects);
+    Running failing = running(std::move(question), name);
+    PropertyResult result = std::move(failing.result);
+    result.states += by_itself.result.states;
+    const bool holds = result.verdict == Verdict::holds;
+    for (const std::uint32_t place : holds ? by_itself.dead : failing.dead)
+      result.behaviours.push_back(
+          {behaviour_of(facts_.subject().net, {place}), facts_.subject().net.places()[place].span.line});
+    if (holds && !result.behaviours.empty())
+      result.why = named(result.behaviours, "is reachable only after a failure",
+                         "behaviours are reachable only after a failure");
+    if (!holds && failing.dead.size() > 1)
+      result.why = named(result.behaviours, "can never run", "behaviours can never run");
+    return result;
+  }
+
+  static std::string named(const std::vector<PropertyResult::Behaviour>& behaviours, const std::string& one,
+                           const std::string& several) {
     constexpr std::size_t shown = 20;
-    std::string text = std::to_string(behaviours.size()) + " behaviours can never run: ";
+    const auto with_line = [](const PropertyResult::Behaviour& behaviour) {
+      return behaviour.path + " (line " + std::to_string(behaviour.line) + ")";
+    };
+    if (behaviours.size() == 1) return with_line(behaviours.front()) + " " + one;
+    std::string text = std::to_string(behaviours.size()) + " " + several + ": ";
     for (std::size_t index = 0; index < std::min(shown, behaviours.size()); ++index)
-      text += (index > 0 ? ", " : "") + behaviours[index].path + " (line " +
-              std::to_string(behaviours[index].line) + ")";
+      text += (index > 0 ? ", " : "") + with_line(behaviours[index]);
     if (behaviours.size() > shown) text += " and " + std::to_string(behaviours.size() - shown) + " more";
     return text;
   }

@@ -19,16 +19,17 @@
 namespace tessera::verify {
 
 /// Part of every verification hash: verdicts of another version do not count.
-inline constexpr std::string_view checker_version = "2";
+inline constexpr std::string_view checker_version = "3";
 
 enum class Verdict : std::uint8_t { holds, violated, unknown };
 
 struct PropertyResult {
   std::string name;  ///< "safe", or the author's name
   Verdict verdict = Verdict::unknown;
-  std::string asks = {};         ///< a property of the author: "always_reachable robot.motor.drive"
-  std::string method = {};       ///< "place invariants"
-  std::string why = {};          ///< violated, unknown: the reason, in one line
+  std::string asks = {};    ///< a property of the author: "always_reachable robot.motor.drive"
+  std::string method = {};  ///< "place invariants"
+  /// violated, unknown: the reason, in one line; live_behaviours, holds: what runs only after a failure
+  std::string why = {};
   std::string meaning = {};      ///< the consequence of the verdict for the net with conditions
   std::string explanation = {};  ///< what the method did: sizes before and after reductions
   /// violated: a run that shows it, if one was found: transitions of abstract_net()
@@ -42,7 +43,8 @@ struct PropertyResult {
     std::uint32_t line = 0;  ///< of the specification
     bool operator==(const Behaviour&) const = default;
   };
-  /// live_behaviours, violated: all behaviours that are known never to run.
+  /// live_behaviours: all behaviours that are known never to run (violated), or to run only after a failure
+  /// (holds).
   std::vector<Behaviour> behaviours = {};
   double seconds = 0;
   std::uint64_t states = 0;  ///< markings visited

@@ -109,10 +109,10 @@ TEST(Conditions, ErrorIsAskedBeforeTerminalAndNamedOnesAreRemembered) {
         if (held_.tessera_work_terminal_tired) return tessera::Outcome::terminal;
         return tessera::Outcome::go_on;
 )"));
-  EXPECT_THAT(source,
-              HasSubstr(R"(        if (!failed && held_.tessera_work_terminal_tired) return 0;  // work
-        if (conditions_.tessera_work_next_2()) return 1;             // end
-        return 2;                                                    // work
+  EXPECT_THAT(source, HasSubstr(R"(        if (failed) return 3;                             // end
+        if (held_.tessera_work_terminal_tired) return 0;  // work
+        if (conditions_.tessera_work_next_2()) return 1;  // end
+        return 2;                                         // work
 )"));
 }
 

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "layers/models.hpp"
+#include "spec/model/endings.hpp"
 
 namespace tessera::test {
 namespace {
@@ -97,9 +98,9 @@ TEST(Conditions, OfNextAreTriedInOrder) {
   work.terminal = given(some, "done");
   work.error = given(some, "lost");
   work.next = {entry(When::terminal), entry(When::named_error), entry(When::expression), entry(When::always)};
-  // One of the two held, so the others are taken after a failure only.
+  // The one terminal condition held, so the entries behind it are never taken.
   EXPECT_EQ(truths(work), "done free, lost free, memory.n > 7 never, otherwise never");
-  EXPECT_EQ(truths(work, true), "done free, lost free, memory.n > 7 free, otherwise free");
+  EXPECT_EQ(truths(work, true), "done free, lost free, memory.n > 7 never, otherwise free") << "it is `end`";
   work.next = {entry(When::error), entry(When::always), entry(When::expression)};
   EXPECT_EQ(truths(work), "error free, otherwise free, memory.n > 7 never");
   work.error = given(never);
@@ -107,6 +108,18 @@ TEST(Conditions, OfNextAreTriedInOrder) {
   EXPECT_EQ(truths(work, true), "error free, otherwise free, memory.n > 7 never");
   work.error = given(always);
   EXPECT_EQ(truths(work), "error always, otherwise never, memory.n > 7 never");
+}
+
+TEST(Conditions, OfAnEntryThatNamesNoErrorExcludeFailures) {
+  spec::Behaviour work = behaviour("work");
+  work.terminal = given(some, "done");
+  work.next = {entry(When::always)};
+  work.next[0].behaviour = {0};
+  spec::complete_next(work);
+  EXPECT_EQ(truths(work), "no error always, error never");
+  EXPECT_EQ(truths(work, true), "no error free, error free");
+  work.error = given(some, "lost");
+  EXPECT_EQ(truths(work), "no error free, error free");
 }
 
 TEST(Conditions, OfOneUnconditionalNextAreNone) {

@@ -36,8 +36,9 @@ TEST_F(LineFollower, InitIsFollowedByFollowWhichNeverEnds) {
   ASSERT_EQ(behaviours.size(), 2U);
   EXPECT_EQ(model().subsystem({0}).start.value, 0U);
   EXPECT_EQ(behaviours[0].terminal.kind, Condition::Kind::always);
-  ASSERT_EQ(behaviours[0].next.size(), 1U);
+  ASSERT_EQ(behaviours[0].next.size(), 2U);
   EXPECT_EQ(behaviours[0].next[0].behaviour.value, 1U);
+  EXPECT_TRUE(behaviours[0].next[1].implied) << "a failure ends the subsystem";
   EXPECT_TRUE(behaviours[0].next_given);
   EXPECT_EQ(behaviours[1].terminal.kind, Condition::Kind::never);
   ASSERT_EQ(behaviours[1].next.size(), 1U);

@@ -106,6 +106,7 @@ std::vector<Fault> made() {
   const std::string tells_first =
       "tell: { receive: [], terminal: true, next: hear }, hear: { send: [], terminal: true, next: tell }";
   const std::string once = "go: { terminal: true, next: end }";
+  const std::string again = "go: { next: { to: go, when: error } }";
   const std::string waits_to_start = "init: { send: [], terminal: true, next: run }, run: {}";
   const std::string says_it_starts = "init: { receive: [], terminal: true, next: run }, run: {}";
   const auto handles_error = [](const std::string& handler) {
@@ -161,7 +162,7 @@ std::vector<Fault> made() {
       {"a request that is taken back", pair("go: {}", "go: {}", both + ", send_timeout: 100 ms", receives),
        pair("go: {}", "go: {}", both + ", send_timeout: 100 ms", receives + ", timeout: 1 s"), "goes_on"},
       {"an error that ends what others wait for", line("go: {}", "go: {}", receives),
-       line("go: { next: go }", "go: { next: go }", receives), "survives_exceptions"},
+       line(again, again, receives), "survives_exceptions"},
       {"receives crossed with sends, sequentially", crossed(""), crossed(", transfer: parallel"),
        "deadlock_free"},
       {"a timeout is missing on both sides", pair(listens_first, listens_first, receives, receives),
@@ -199,8 +200,17 @@ std::vector<Fault> made() {
        line("go: {}", "go: { terminal: in.x.v > 1, next: later }, later: {}", ""), "live_behaviours"},
       {"half of the system ends", line(once, "go: {}", receives), line(once, once, receives),
        "deadlock_free"},
-      {"a failure of the consumer stops its producer", line("go: { next: go }", "go: {}", both),
-       line("go: { next: go }", "go: { next: go }", both), "survives_exceptions"},
+      {"a failure of the consumer stops its producer", line(again, "go: {}", both), line(again, again, both),
+       "survives_exceptions"},
+      {"a failure that no entry of next names",
+       line("go: { terminal: out.y.v > 1, next: go }", again, receives),
+       line("go: { terminal: out.y.v > 1, next: [{ to: go, when: error }, go] }", again, receives),
+       "survives_exceptions"},
+      {"a behaviour that a failure would have to reach without being named",
+       line("go: { terminal: out.y.v > 1, next: [{ to: limp, when: false }, go] }, limp: {}", "go: {}", ""),
+       line("go: { terminal: out.y.v > 1, next: [{ to: limp, when: out.y.v > 2 }, go] }, limp: {}", "go: {}",
+            ""),
+       "live_behaviours"},
       {"an answer that is never sent", pair("ask: {}", "go: { send: [] }", both, receives),
        pair("ask: {}", "go: {}", both, receives), "goes_on"},
   };

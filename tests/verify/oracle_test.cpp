@@ -68,7 +68,8 @@ std::set<std::string> dead_behaviours(const net::Net& net) {
 struct Truth {
   test::NaiveAnswers conditions;
   std::optional<test::NaiveAnswers> failures;  ///< if any iteration may fail; nullopt: too large
-  std::set<std::string> dead;
+  /// Behaviours that never run, if nothing fails, and even then: the second only if `failures` are known.
+  std::set<std::string> dead, dead_for_good;
 };
 
 constexpr std::size_t most_markings = 1500;
@@ -77,9 +78,11 @@ std::optional<Truth> truth_of(const spec::Model& model, const net::Net& flat) {
   const net::Net net = test::naively_abstract(model, flat, false);
   std::optional<test::NaiveAnswers> conditions = test::explore_naively(net, most_markings);
   if (!conditions) return std::nullopt;
-  return Truth{std::move(*conditions),
-               test::explore_naively(test::naively_abstract(model, flat, true), most_markings),
-               dead_behaviours(net)};
+  const net::Net failing = test::naively_abstract(model, flat, true);
+  Truth truth{
+      std::move(*conditions), test::explore_naively(failing, most_markings), dead_behaviours(net), {}};
+  if (truth.failures) truth.dead_for_good = dead_behaviours(failing);
+  return truth;
 }
 
 // ---------------------------------------------------------------------------------------------- runs
@@ -199,10 +202,10 @@ class Comparison {
         {"sound_pages", true},
         {"deadlock_free", !naive.deadlock},
         {"goes_on", !any(naive.stuck)},
-        {"live_behaviours", found.dead.empty()},
     };
     if (found.failures)
       truth["survives_exceptions"] = !found.failures->deadlock && !any(found.failures->stuck);
+    if (found.failures) truth["live_behaviours"] = found.dead_for_good.empty();
     if (const std::optional<bool> flow = channels_flow(naive)) truth["channels_flow"] = *flow;
     for (const PropertyResult& property : report.properties) {
       ++tally_.verdicts[property.name][static_cast<std::size_t>(property.verdict)];
@@ -210,7 +213,8 @@ class Comparison {
       EXPECT_EQ(property.verdict == Verdict::holds, truth.at(property.name))
           << property.name << " by " << property.method << ": " << property.why;
       if (property.has_trace) shows(property);
-      if (method.empty() && property.name == "live_behaviours") names_all(property, found.dead);
+      if (method.empty() && property.name == "live_behaviours")
+        names_all(property, property.verdict == Verdict::holds ? found.dead : found.dead_for_good);
     }
   }
 

@@ -1,5 +1,6 @@
 #include "verify_circuits/naive_endings.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
 #include <random>
@@ -39,16 +40,30 @@ struct Trial {
     return std::nullopt;
   }
 
+  /// -1: no entry holds.
   [[nodiscard]] int entry(Ending ending) const {
-    for (std::size_t at = 0; at < behaviour.next.size(); ++at)
+    for (std::size_t at = 0; at < written(); ++at)
       if (holds(behaviour.next[at].when, ending, at)) return static_cast<int>(at);
-    return -1;
+    return ending == Ending::terminal ? -1 : end();
+  }
+
+  [[nodiscard]] std::size_t written() const {
+    return static_cast<std::size_t>(std::ranges::count(behaviour.next, false, &spec::Next::implied));
+  }
+
+  /// What nobody has routed ends the subsystem: by an unconditional `end`, or by the entry that is not written.
+  [[nodiscard]] int end() const {
+    for (std::size_t at = 0; at < written(); ++at) {
+      if (behaviour.next[at].when.kind != When::Kind::always) continue;
+      return static_cast<int>(behaviour.next[at].behaviour.valid() ? written() : at);
+    }
+    return static_cast<int>(written());
   }
 
   [[nodiscard]] bool holds(const When& when, Ending ending, std::size_t at) const {
     switch (when.kind) {
       case When::Kind::always:
-        return true;
+        return ending == Ending::terminal;
       case When::Kind::never:
         return false;
       case When::Kind::error:
@@ -58,7 +73,8 @@ struct Trial {
       case When::Kind::named_error:
         return ending == Ending::error && error(when.expression.value);
       case When::Kind::expression:
-        return bit(behaviour.error.expressions.size() + behaviour.terminal.expressions.size() + at);
+        return ending == Ending::terminal &&
+               bit(behaviour.error.expressions.size() + behaviour.terminal.expressions.size() + at);
     }
     return false;
   }
@@ -78,6 +94,7 @@ class Drawing {
            when(behaviour),
            {}});
     behaviour.next_given = true;
+    spec::complete_next(behaviour);
   }
   bool one_in(std::uint32_t count) { return between(1, count) == 1; }
 

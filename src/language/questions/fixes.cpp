@@ -48,6 +48,7 @@ class Fixer {
     }
     if (one.code == "W313" && unit != nullptr) route_error(*unit);
     if (one.code == "W312" && unit != nullptr) last_entry(*unit);
+    if (one.code == "N330") as_before(one.span);
   }
 
   /// The subsystem whose text contains a byte.
@@ -104,6 +105,15 @@ class Fixer {
           document_.text().substr(next.extent.begin, next.extent.end - next.extent.begin);
       add(title, whole, fmt::format("[{}, {}]", entry, text));
     }
+  }
+
+  /// Failures lead where they have led in earlier versions.
+  void as_before(const diagnostics::Span& span) {
+    const std::optional<Migration> migration = migrate(document_, span);
+    if (!migration || migration->steps.empty()) return;
+    Fix fix{.title = "Go on after a failure as before", .edits = {}, .code = code_, .at = at_};
+    for (const Migration::Step& step : migration->steps) fix.edits.push_back(step.edit);
+    fixes_.push_back(std::move(fix));
   }
 
   /// `next` may have no entry to take: one without a condition goes last.

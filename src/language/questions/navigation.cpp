@@ -63,7 +63,19 @@ std::multiset<std::string> errors_of(const std::string& text,
   return codes;
 }
 
-/// The text with all edits of the specification.
+/// Why a specification with `edits` would be worse; nullopt: it is not.
+std::optional<std::string> new_error(const Document& document, const std::vector<TextEdit>& edits) {
+  const std::multiset<std::string> before = errors_of(document.text());
+  std::vector<diagnostics::Diagnostic> found;
+  const std::multiset<std::string> after = errors_of(edited(document, edits), &found);
+  for (const diagnostics::Diagnostic& one : found)
+    if (after.count(one.code) > before.count(one.code))
+      return fmt::format("then line {} would be wrong: {} ({})", one.span.line, one.message, one.code);
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::string edited(const Document& document, const std::vector<TextEdit>& edits) {
   std::vector<std::pair<Extent, std::string_view>> parts;
   for (const TextEdit& edit : edits)
@@ -81,19 +93,6 @@ std::string edited(const Document& document, const std::vector<TextEdit>& edits)
   }
   return text + document.text().substr(at);
 }
-
-/// Why a specification with `edits` would be worse; nullopt: it is not.
-std::optional<std::string> new_error(const Document& document, const std::vector<TextEdit>& edits) {
-  const std::multiset<std::string> before = errors_of(document.text());
-  std::vector<diagnostics::Diagnostic> found;
-  const std::multiset<std::string> after = errors_of(edited(document, edits), &found);
-  for (const diagnostics::Diagnostic& one : found)
-    if (after.count(one.code) > before.count(one.code))
-      return fmt::format("then line {} would be wrong: {} ({})", one.span.line, one.message, one.code);
-  return std::nullopt;
-}
-
-}  // namespace
 
 Range range_of(const Document& document, const diagnostics::Span& span) {
   if (span.line == 0) return {};

@@ -16,6 +16,7 @@
 #include "project/process/listener.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
+#include "spec/model/former_routes.hpp"
 #include "spec/parser.hpp"
 #include "verify/communication/model_soundness.hpp"
 
@@ -78,6 +79,7 @@ Draft draft_of(diagnostics::Diagnostics& text, const fs::path& project) {
   draft.known = spec::parse_what_is_known(text);
   draft.is_model = draft.known && !text.has_errors();
   if (!draft.is_model) return draft;
+  note_former_routes(*draft.known, text);
   // A mistake in a driver does not change the net.
   if (!project.empty()) find_messages(*draft.known, project, text);
   judge_models(*draft.known, text);

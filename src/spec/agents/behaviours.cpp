@@ -8,6 +8,7 @@
 #include "spec/agents/conditions.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "spec/model/endings.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"
 
@@ -66,6 +67,7 @@ class BehaviourReader {
     behaviour.error = read_condition(section.find("error"), scope_, out_);
     check_distinct_names(behaviour);
     read_next(section.find("next"), behaviour);
+    complete_next(behaviour);
     behaviour.send = read_buffers(section.find("send"), outputs_, inputs_, "output");
     behaviour.receive = read_buffers(section.find("receive"), inputs_, outputs_, "input");
     behaviour.transfer = read_transfer(section.find("transfer"));

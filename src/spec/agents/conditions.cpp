@@ -107,8 +107,7 @@ std::vector<std::string> names_of_conditions(const Behaviour& of) {
 
 /// The hint for a single word that names no condition.
 Hint hint_for(const std::string& word, const Behaviour& of) {
-  if (word == "terminal")
-    return "leave 'when' out: without it the entry is taken however the behaviour ended";
+  if (word == "terminal") return "leave 'when' out: such an entry is taken when the behaviour is terminal";
   const std::vector<std::string> names = names_of_conditions(of);
   const Hint guess = did_you_mean(word, names);
   return guess.empty() ? "name it under 'terminal' or 'error', or write an expression such as in.line.left"

@@ -1,6 +1,7 @@
 #include "spec/model/behaviour_flow.hpp"
 
 #include <algorithm>
+#include <string>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/model/endings.hpp"
@@ -11,61 +12,98 @@ namespace {
 using diagnostics::Diagnostics;
 using diagnostics::in_quotes;
 
-bool asks_for_error(const Next& entry) {
-  return entry.when.kind == When::Kind::error || entry.when.kind == When::Kind::named_error;
+bool always(const Condition& condition) { return truth_of(condition) == Truth::always; }
+/// Not the implied one.
+std::size_t written_entries(const Behaviour& behaviour) {
+  return behaviour.next.size() - (behaviour.next.back().implied ? 1 : 0);
 }
 
-bool always(const Condition& condition) { return truth_of(condition) == Truth::always; }
-bool never(const Condition& condition) { return truth_of(condition) == Truth::never; }
+/// An earlier entry of the same kind that is always taken.
+bool is_behind(const Behaviour& behaviour, NextId entry) {
+  const bool of_error = names_error(behaviour.next[entry]);
+  const When::Kind all = of_error ? When::Kind::error : When::Kind::always;
+  return std::any_of(behaviour.next.begin(), behaviour.next.begin() + entry.value,
+                     [&](const Next& earlier) { return earlier.when.kind == all; });
+}
 
-/// "when it is terminal or by a failure"
-std::string in_words(const std::vector<Ending>& endings) {
-  std::string text;
-  for (const Ending ending : endings) {
-    if (!text.empty()) text += " or ";
-    if (ending == Ending::terminal) text += "as terminal";
-    if (ending == Ending::error) text += "by its error condition";
-    if (ending == Ending::failure) text += "by a failure";
-  }
-  return text;
+/// The entry that an ending without error takes, or took before Endings asked for the name of an error.
+std::string target(const Subsystem& subsystem, const Behaviour& behaviour) {
+  for (const Next& entry : behaviour.next)
+    if (entry.behaviour.valid() && !names_error(entry)) return subsystem.behaviours[entry.behaviour].name;
+  return behaviour.name;
+}
+
+/// The edit after which an error leads to `to`.
+std::string routing(const Subsystem& subsystem, const Behaviour& behaviour, const std::string& to) {
+  const std::string entry = "{ to: " + to + ", when: error }";
+  const Next& first = behaviour.next.front();
+  if (written_entries(behaviour) != 1 || first.when.kind != When::Kind::always)
+    return "add " + entry + " to 'next'";
+  if (!Endings(behaviour).possible(Ending::terminal)) return "write next: " + entry;
+  const std::string other = first.behaviour.valid() ? subsystem.behaviours[first.behaviour].name : "end";
+  return "write next: [" + entry + ", " + other + "]";
 }
 
 void check_entries(const Behaviour& behaviour, const Endings& endings, Diagnostics& out) {
-  const auto& next = behaviour.next;
-  const auto unconditional =
-      std::ranges::find(next, When::Kind::always, [](const Next& entry) { return entry.when.kind; });
-  for (const NextId entry : next.ids()) {
+  for (std::uint32_t number = 0; number < written_entries(behaviour); ++number) {
+    const NextId entry{number};
     if (endings.can_be_taken(entry)) continue;
-    const bool behind = next.begin() + entry.value > unconditional;
-    out.warning("W314", next[entry].span,
+    // W313 and W315 are about these.
+    const bool constant = behaviour.next[entry].when.kind == When::Kind::never;
+    if (!constant && !names_error(behaviour.next[entry]) && !endings.possible(Ending::terminal)) continue;
+    const bool behind = is_behind(behaviour, entry);
+    out.warning("W314", behaviour.next[entry].span,
                 behind ? "this entry is never reached: the one before it is always taken"
                        : "this entry is never taken: its condition cannot hold here",
                 behind ? "entries are tried in order; put the unconditional one last"
                        : "the constant conditions of the behaviour, and the entries before it, exclude it");
   }
-  std::vector<Ending> open;
-  for (const Ending ending : all_endings)
-    if (endings.none_possible(ending)) open.push_back(ending);
-  if (!open.empty())
-    out.warning("W312", next.back().span,
-                "behaviour " + in_quotes(behaviour.name) + " may end (" + in_words(open) +
-                    ") with no entry of 'next' to take",
-                "end the list with an entry without 'when'");
+  if (endings.none_possible(Ending::terminal))
+    out.warning(
+        "W312", behaviour.next[written_entries(behaviour) - 1].span,
+        "behaviour " + in_quotes(behaviour.name) + " may end as terminal with no entry of 'next' to take",
+        "end the list with an entry without 'when'");
 }
 
-void check_errors(const Behaviour& behaviour, Diagnostics& out) {
-  const bool routed = std::any_of(behaviour.next.begin(), behaviour.next.end(), asks_for_error);
-  if (!never(behaviour.error) && !routed) {
-    out.warning("W313", behaviour.error.span,
-                "no entry of 'next' asks for the error of behaviour " + in_quotes(behaviour.name),
-                "route it: next: [{ to: NAME, when: error }, ...]; else an error ends the subsystem and "
-                "stops the system");
+/// "the error of behaviour 'work'", or the named ones that no entry takes; empty: all are taken.
+std::string unrouted_errors(const Behaviour& behaviour, const Endings& endings) {
+  if (!endings.unrouted(Ending::error)) return {};
+  const std::string of_all = "the error of behaviour " + in_quotes(behaviour.name);
+  if (std::ranges::none_of(behaviour.next, [](const Next& one) { return names_error(one) && !one.implied; }))
+    return of_all;
+  std::string names;
+  for (const ExpressionId id : behaviour.error.expressions.ids()) {
+    const bool named = std::ranges::any_of(behaviour.next, [&](const Next& one) {
+      return one.when.kind == When::Kind::named_error && one.when.expression == id;
+    });
+    if (!named && truth_of(behaviour.error.expressions[id]) != Truth::never)
+      names += (names.empty() ? "" : " or ") + in_quotes(behaviour.error.expressions[id].name);
   }
-  if (behaviour.next_given && never(behaviour.terminal) && never(behaviour.error) && !routed) {
-    out.warning("W315", behaviour.next.front().span,
-                "behaviour " + in_quotes(behaviour.name) +
-                    " ends only if its code, a device or its watchdog fails: its 'next' is used only then",
-                "give it a 'terminal' condition; or say { to: NAME, when: error } if that is meant");
+  return names.empty() ? of_all : names + ", an error of behaviour " + in_quotes(behaviour.name);
+}
+
+void check_errors(const Subsystem& subsystem, const Behaviour& behaviour, const Endings& endings,
+                  Diagnostics& out) {
+  const std::string to = target(subsystem, behaviour);
+  const std::string unrouted = unrouted_errors(behaviour, endings);
+  const bool routes_failures = !endings.unrouted(Ending::failure);
+  if (!unrouted.empty())
+    out.warning("W313", behaviour.error.span, "no entry of 'next' asks for " + unrouted,
+                "it ends the subsystem and stops the system; to go on with " + in_quotes(to) + ", " +
+                    routing(subsystem, behaviour, to) +
+                    (to == behaviour.name ? "" : "; or route it to end, if that is meant"));
+  const auto unused = std::ranges::find_if(
+      behaviour.next, [](const Next& entry) { return !names_error(entry) && !entry.implied; });
+  if (unrouted.empty() && behaviour.next_given && !endings.possible(Ending::terminal) &&
+      unused != behaviour.next.end()) {
+    const bool ends = !unused->behaviour.valid();
+    out.warning("W315", unused->span,
+                "behaviour " + in_quotes(behaviour.name) + " never ends as terminal: " +
+                    (ends ? "its 'next' is used only if it fails" : "this entry of 'next' is never taken"),
+                std::string("give it a 'terminal' condition") +
+                    (ends || routes_failures
+                         ? ""
+                         : "; or, if a failure shall lead there, " + routing(subsystem, behaviour, to)));
   }
   if (always(behaviour.error) && behaviour.terminal.kind == Condition::Kind::expressions) {
     out.warning("W323", behaviour.terminal.span,
@@ -99,9 +137,10 @@ Numbered<BehaviourId, bool> reachable(const Subsystem& subsystem) {
 void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
   if (subsystem.behaviours.empty()) return;
   for (const Behaviour& behaviour : subsystem.behaviours) {
-    if (behaviour.next.empty()) continue;
-    check_entries(behaviour, Endings(behaviour), out);
-    check_errors(behaviour, out);
+    if (written_entries(behaviour) == 0) continue;
+    const Endings endings(behaviour);
+    check_entries(behaviour, endings, out);
+    check_errors(subsystem, behaviour, endings, out);
   }
   const Numbered<BehaviourId, bool> seen = reachable(subsystem);
   for (const BehaviourId i : seen.ids()) {

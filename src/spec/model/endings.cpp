@@ -62,7 +62,28 @@ Truth truth_alone(const When& when, Ending ending, HeldExpressions& held) {
   return Truth::free;
 }
 
+/// The entry as which an error that no entry names is drawn; none: there is none yet.
+NextId end_of(const Behaviour& behaviour) {
+  const auto& next = behaviour.next;
+  if (!next.empty() && next.back().implied) return {static_cast<std::uint32_t>(next.size() - 1)};
+  for (const NextId entry : next.ids())
+    if (next[entry].when.kind == When::Kind::always) return next[entry].behaviour.valid() ? NextId{} : entry;
+  return {};
+}
+
 }  // namespace
+
+bool names_error(const Next& entry) {
+  return entry.when.kind == When::Kind::error || entry.when.kind == When::Kind::named_error;
+}
+
+void complete_next(Behaviour& behaviour) {
+  const Endings endings(behaviour);
+  if (!endings.none_possible(Ending::error) && !endings.none_possible(Ending::failure)) return;
+  Next end{.behaviour = {}, .when = {}, .span = behaviour.span, .implied = true};
+  end.when.kind = When::Kind::error;
+  behaviour.next.push_back(std::move(end));
+}
 
 Endings::Endings(const Behaviour& behaviour) : behaviour_(behaviour) {
   for (const Ending ending : all_endings) try_entries(ending);
@@ -80,18 +101,31 @@ bool Endings::possible(Ending ending) const {
   return true;
 }
 
+bool Endings::asks(NextId entry, Ending ending) const {
+  const Next& next = behaviour_.next[entry];
+  return ending == Ending::terminal || (names_error(next) && !next.implied);
+}
+
 void Endings::try_entries(Ending ending) {
   auto& taken = taken_[at(ending)];
   taken.assign(behaviour_.next.size(), Truth::never);
   if (!possible(ending)) return;
   HeldExpressions held((ending == Ending::terminal ? behaviour_.terminal : behaviour_.error).expressions);
   Truth earlier = Truth::never;
-  for (std::size_t entry = 0; entry < taken.size() && earlier != Truth::always; ++entry) {
+  for (const NextId entry : behaviour_.next.ids()) {
+    if (earlier == Truth::always) break;
+    if (!asks(entry, ending)) continue;
     const Truth alone = truth_alone(behaviour_.next[entry].when, ending, held);
     taken[entry] = alone == Truth::always ? (earlier == Truth::never ? Truth::always : Truth::free) : alone;
     if (alone != Truth::never) earlier = alone;
   }
   none_[at(ending)] = earlier != Truth::always;
+  if (earlier == Truth::always || ending == Ending::terminal) return;
+  unrouted_[at(ending)] = true;
+  const NextId end = end_of(behaviour_);
+  if (!end.valid()) return;
+  taken[end] = earlier == Truth::never ? Truth::always : Truth::free;
+  none_[at(ending)] = false;
 }
 
 bool Endings::can_be_taken(NextId entry) const {

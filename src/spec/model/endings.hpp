@@ -28,6 +28,11 @@ inline constexpr std::array all_endings{Ending::terminal, Ending::error, Ending:
 /// same way: it takes the first entry that holds. This is the only definition of that rule;
 /// net, warnings and code use it.
 ///
+/// * After an error or a failure, an entry has to name it: `when: error`, or the name of an error expression
+///   (not after a failure). If none does, the subsystem ends, and the run fails. The net draws this as the
+///   entry without `when`, if that is `end`, or as an entry that complete_next has added.
+/// * All other entries are tried after a terminal ending alone.
+///
 /// Some facts are known: constants, the kind of the ending, that one of the expressions of the condition
 /// that ended the behaviour holds, and which named conditions did not hold when earlier entries asked for
 /// them. Everything else is free, even two expressions with the same text.
@@ -44,14 +49,26 @@ class Endings {
   [[nodiscard]] bool can_be_taken(NextId entry) const;
   /// Whether it is possible that no entry holds.
   [[nodiscard]] bool none_possible(Ending ending) const { return none_[at(ending)]; }
+  /// Whether it is possible that an ending is an error or a failure and no entry names it. The subsystem then
+  /// ends.
+  [[nodiscard]] bool unrouted(Ending ending) const { return unrouted_[at(ending)]; }
 
  private:
   static std::size_t at(Ending ending) { return static_cast<std::size_t>(ending); }
   void try_entries(Ending ending);
+  [[nodiscard]] bool asks(NextId entry, Ending ending) const;
 
   const Behaviour& behaviour_;
   std::array<Numbered<NextId, Truth>, all_endings.size()> taken_;
   std::array<bool, all_endings.size()> none_{};
+  std::array<bool, all_endings.size()> unrouted_{};
 };
+
+/// Whether the entry names an error: `when: error`, or an error expression.
+[[nodiscard]] bool names_error(const Next& entry);
+
+/// Adds the entry by which an error or a failure ends the subsystem, if the list has none that does: `end`, when
+/// `error`, implied. Precondition: `next` has been read, and has no implied entry.
+void complete_next(Behaviour& behaviour);
 
 }  // namespace tessera::spec

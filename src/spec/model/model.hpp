@@ -125,9 +125,9 @@ struct Condition {
 /// condition of the next behaviour).
 struct When {
   enum class Kind : std::uint8_t {
-    always,       ///< no `when`
+    always,       ///< no `when`: after a terminal ending; see Endings
     never,        ///< `when: false`
-    error,        ///< the behaviour ended by its error condition
+    error,        ///< the behaviour ended by its error condition or by a failure
     terminal,     ///< the terminal expression `expression` of the behaviour held
     named_error,  ///< the error expression `expression` of the behaviour held
     expression    ///< `text` holds
@@ -140,6 +140,7 @@ struct Next {
   BehaviourId behaviour{};  ///< none: `end`
   When when;
   Span span;
+  bool implied = false;  ///< not in the file: complete_next has added it
 };
 
 enum class Transfer : std::uint8_t { sequential, parallel };
@@ -148,8 +149,10 @@ struct Behaviour {
   std::string name;
   Condition terminal;
   Condition error;
-  Numbered<NextId, Next> next;  ///< never empty: a behaviour without `next` has one unconditional `end`
-  bool next_given = false;      ///< false: that `end` is the default
+  /// Never empty: a behaviour without `next` has one unconditional `end`. Some entry takes every error and every
+  /// failure: complete_next.
+  Numbered<NextId, Next> next;
+  bool next_given = false;  ///< false: that `end` is the default
   /// Output buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> send;
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.

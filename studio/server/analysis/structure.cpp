@@ -64,6 +64,7 @@ Json behaviour_json(const spec::Behaviour& behaviour, const spec::Subsystem& sub
             {"receives", nullptr},
             {"transfer", behaviour.transfer == spec::Transfer::parallel ? "parallel" : "sequential"}};
   for (const spec::Next& next : behaviour.next) {
+    if (next.implied) continue;
     const spec::Behaviour* to = at(subsystem.behaviours, next.behaviour);
     json["next"].push_back({{"to", to == nullptr ? "end" : to->name},
                             {"when", when_json(next.when, behaviour)},

@@ -15,7 +15,7 @@ const asks: Record<string, string> = {
   goes_on: "every subsystem goes on for ever",
   channels_flow: "every channel keeps carrying values",
   sound_pages: "every page ends what it began",
-  live_behaviours: "every behaviour can run again and again",
+  live_behaviours: "every behaviour can run, if only after a failure",
   survives_exceptions: "errors stop nobody else",
   survives_partition: "a cut network stops nobody",
 };

@@ -44,11 +44,23 @@ std::vector<Held> held_sets(const Condition& condition) {
   return sets;
 }
 
-/// Walks `next` in order: the first entry that holds is taken.
-void follow(const std::vector<Entry>& next, const Held& held, bool error, Following& following) {
+bool unconditional(const Entry& entry) {
+  return entry.when == Entry::When::always ||
+         (entry.when == Entry::When::expression && entry.truth == Truth::yes);
+}
+
+/// The first entry without a condition; none: the size.
+std::size_t first_unconditional(const std::vector<Entry>& next) {
+  std::size_t k = 0;
+  while (k < next.size() && !unconditional(next[k])) ++k;
+  return k;
+}
+
+/// Walks `next` in order after a terminal ending: the first entry that holds is taken.
+void follow_terminal(const std::vector<Entry>& next, const Held& held, Following& following) {
   for (std::size_t k = 0; k < next.size(); ++k) {
     Truth truth = Truth::yes;
-    if (next[k].when == Entry::When::error) truth = error ? Truth::yes : Truth::no;
+    if (next[k].when == Entry::When::error) truth = Truth::no;
     if (next[k].when == Entry::When::name) truth = held.contains(next[k].name) ? Truth::yes : Truth::no;
     if (next[k].when == Entry::When::expression) truth = next[k].truth;
     if (truth != Truth::no) following.entries[k] = true;
@@ -57,11 +69,32 @@ void follow(const std::vector<Entry>& next, const Held& held, bool error, Follow
   following.none = true;
 }
 
+/// After an error only the entries that name it count; if there is none, the subsystem ends.
+void follow_error(const std::vector<Entry>& next, const Held& held, Following& following) {
+  for (std::size_t k = 0; k < next.size(); ++k) {
+    const bool names = next[k].when == Entry::When::error ||
+                       (next[k].when == Entry::When::name && held.contains(next[k].name));
+    if (!names) continue;
+    following.entries[k] = true;
+    return;
+  }
+  following.entries[first_unconditional(next)] = true;
+}
+
 }  // namespace
 
-Ways ways_of(const Behaviour& behaviour, bool exceptions) {
+std::vector<Entry> next_of(const Behaviour& behaviour) {
   std::vector<Entry> next = behaviour.next;
   if (next.empty()) next = {{"end", Entry::When::always, "", Truth::open}};
+  for (const Entry& entry : next)
+    if (entry.when == Entry::When::error) return next;
+  const std::size_t k = first_unconditional(next);
+  if (k == next.size() || next[k].to != "end") next.push_back({"end", Entry::When::error, "", Truth::open});
+  return next;
+}
+
+Ways ways_of(const Behaviour& behaviour, bool exceptions) {
+  const std::vector<Entry> next = next_of(behaviour);
   Ways ways;
   const bool fails = can_hold(behaviour.error), always_fails = certain(behaviour.error);
   ways.error = fails || exceptions;
@@ -70,10 +103,10 @@ Ways ways_of(const Behaviour& behaviour, bool exceptions) {
   ways.after_terminal.entries.resize(next.size());
   ways.after_error.entries.resize(next.size());
   if (ways.terminal)
-    for (const Held& held : held_sets(behaviour.terminal)) follow(next, held, false, ways.after_terminal);
+    for (const Held& held : held_sets(behaviour.terminal)) follow_terminal(next, held, ways.after_terminal);
   if (fails)
-    for (const Held& held : held_sets(behaviour.error)) follow(next, held, true, ways.after_error);
-  if (exceptions) follow(next, {}, true, ways.after_error);
+    for (const Held& held : held_sets(behaviour.error)) follow_error(next, held, ways.after_error);
+  if (exceptions) follow_error(next, {}, ways.after_error);
   return ways;
 }
 

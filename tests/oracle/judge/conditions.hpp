@@ -14,6 +14,10 @@ struct Following {
   bool none = false;          // it may be that none holds
 };
 
+/// The entries as they are drawn: `end` is the default. One more leads an error or a failure to the end that no
+/// written entry could take: there is no `when: error`, and the entry without a condition does not end.
+std::vector<Entry> next_of(const Behaviour& behaviour);
+
 /// The ways that a behaviour may take at the end of an iteration, each decided alone.
 struct Ways {
   bool go_on = false, terminal = false, error = false;  // t4, t5, t6

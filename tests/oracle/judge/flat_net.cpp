@@ -144,8 +144,7 @@ class Builder {
       counts.pages += 1;
       behaviour_ = b;
       const FlatNet::BehaviourInfo& info = net_.behaviours[static_cast<std::size_t>(b)];
-      std::vector<Entry> next = info.of->next;
-      if (next.empty()) next = {{"end", Entry::When::always, "", Truth::open}};
+      const std::vector<Entry> next = next_of(*info.of);
       for (std::size_t k = 0; k < next.size(); ++k) {
         FlatTransition& t =
             add_transition(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), {info.out},

@@ -1,0 +1,233 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <string_view>
+#include <utility>
+
+#include "language/language.hpp"
+#include "language/questions/place.hpp"
+#include "spec/model/former_routes.hpp"
+#include "spec/parser.hpp"
+
+namespace tessera::language {
+namespace {
+
+using spec::Behaviour;
+using spec::FormerRoute;
+
+bool is_blank(char one) { return one == ' ' || one == '\t'; }
+bool is_line_end(char one) { return one == '\n' || one == '\r'; }
+
+/// Writes the entries of `next` for one text.
+class Migrator {
+ public:
+  explicit Migrator(const Document& document) : document_(document), text_(document.text()) {}
+
+  std::optional<Migration> migrated(std::optional<diagnostics::Span> only) {
+    diagnostics::Diagnostics out("spec.yaml", text_);
+    const std::optional<spec::Model> model = spec::parse(out);
+    if (!model || out.has_errors()) return std::nullopt;
+    for (const spec::Definition& definition : model->definitions)
+      for (const spec::Subsystem& subsystem : definition.subsystems)
+        for (const Behaviour& behaviour : subsystem.behaviours)
+          if (const auto route = former_route(behaviour))
+            add(definition.name + "." + subsystem.name, subsystem, behaviour, *route);
+    if (only) keep(*model, *only);
+    drop_wrong();
+    return std::move(found_);
+  }
+
+ private:
+  void by_hand(const std::string& path, const Behaviour& behaviour, std::string why) {
+    found_.by_hand.push_back({path + "." + behaviour.name, behaviour.span, std::move(why)});
+  }
+
+  void add(const std::string& path, const spec::Subsystem& subsystem, const Behaviour& behaviour,
+           const FormerRoute& route) {
+    if (!route.certain) return by_hand(path, behaviour, "a condition of 'next' decided where a failure led");
+    const std::string to = route.to.valid() ? subsystem.behaviours[route.to].name : "end";
+    const Node* body = body_of(behaviour);
+    const Entry* entry = body == nullptr ? nullptr : body->find("next");
+    std::optional<TextEdit> edit;
+    if (entry != nullptr) edit = edit_of(*entry, route, fmt::format("{{ to: {}, when: error }}", to));
+    if (!edit)
+      return by_hand(path, behaviour, fmt::format("add {{ to: {}, when: error }} to its 'next'", to));
+    const bool known = std::ranges::any_of(
+        found_.steps, [&](const Migration::Step& step) { return step.edit.range == edit->range; });
+    if (!known)  // by an alias, a text may belong to several behaviours
+      found_.steps.push_back({path + "." + behaviour.name, behaviour.span, to, std::move(*edit)});
+  }
+
+  const Node* body_of(const Behaviour& behaviour) const {
+    const Position at = range_of(document_, behaviour.span).start;
+    for (const Symbol& symbol : document_.index().symbols())
+      if (symbol.kind == Kind::behaviour && document_.lines().position(symbol.definition.begin) == at)
+        return &node_at(document_.outline(), symbol.way);
+    return nullptr;
+  }
+
+  /// The first byte of the value of a key, with its anchor, tag or quote; npos: the value begins on another line.
+  [[nodiscard]] std::size_t value_of(const Entry& entry) const {
+    std::size_t at = entry.extent.end;
+    if (at < text_.size() && (text_[at] == '"' || text_[at] == '\'')) ++at;
+    while (at < text_.size() && is_blank(text_[at])) ++at;
+    if (at >= text_.size() || text_[at] != ':') return std::string::npos;
+    ++at;
+    while (at < text_.size() && is_blank(text_[at])) ++at;
+    if (at >= text_.size() || is_line_end(text_[at]) || text_[at] == '#') return std::string::npos;
+    return at;
+  }
+
+  [[nodiscard]] TextEdit edit(Extent extent, std::string with) const {
+    return {.path = "", .range = document_.lines().range(extent), .text = std::move(with)};
+  }
+
+  [[nodiscard]] std::optional<TextEdit> edit_of(const Entry& entry, const FormerRoute& route,
+                                                const std::string& added) const {
+    const Node& next = *entry.value;
+    const std::size_t value = value_of(entry);
+    if (next.is_sequence() && !next.flow) return before_line(next, route, added);
+    if (value == std::string::npos) return std::nullopt;
+    const bool alias = text_[value] == '*';
+    if (next.is_sequence()) {
+      if (alias) return std::nullopt;
+      const std::size_t item = flow_item(next.extent.begin, route.before.value);
+      if (item == std::string::npos) return std::nullopt;
+      return edit({item, item}, added + ", ");
+    }
+    if (next.is_map() && !next.flow && !alias) return std::nullopt;
+    std::size_t end = next.extent.end;
+    if (alias) {
+      end = value + 1;
+      while (end < text_.size() && !is_blank(text_[end]) && !is_line_end(text_[end]) &&
+             std::string_view(",}]#").find(text_[end]) == std::string_view::npos)
+        ++end;
+    } else if (next.is_scalar() && next.quoted && end < text_.size() &&
+               (text_[end] == '"' || text_[end] == '\'')) {
+      ++end;
+    }
+    if (end <= value) return std::nullopt;
+    if (route.no_terminal && text_[value] != '&') return edit({value, end}, added);
+    return edit({value, end}, fmt::format("[{}, {}]", added, text_.substr(value, end - value)));
+  }
+
+  /// A new line before that of the item of a block sequence.
+  [[nodiscard]] std::optional<TextEdit> before_line(const Node& next, const FormerRoute& route,
+                                                    const std::string& added) const {
+    if (route.before.value >= next.items.size()) return std::nullopt;
+    const Lines& lines = document_.lines();
+    const Node& item = *next.items[route.before.value];
+    if (!next.extent.touches(item.extent.begin)) return std::nullopt;  // an alias
+    const std::size_t start = lines.start_of(lines.position(item.extent.begin).line);
+    const std::size_t dash = start + next.column;
+    if (dash >= text_.size() || text_[dash] != '-') return std::nullopt;
+    const bool crlf = text_.find("\r\n") != std::string::npos;
+    return edit({dash, dash},
+                fmt::format("- {}{}{}", added, crlf ? "\r\n" : "\n", std::string(next.column, ' ')));
+  }
+
+  /// Where item `number` of the list [...] at `begin` begins.
+  [[nodiscard]] std::size_t flow_item(std::size_t begin, std::size_t number) const {
+    std::size_t depth = 0, items = 0;
+    bool starts = true;  // nothing of the item has been read
+    for (std::size_t at = begin; at < text_.size(); ++at) {
+      const char one = text_[at];
+      if (one == '#' && at > 0 && (is_blank(text_[at - 1]) || is_line_end(text_[at - 1]))) {
+        while (at + 1 < text_.size() && !is_line_end(text_[at + 1])) ++at;
+        continue;
+      }
+      if (depth == 1 && starts && !is_blank(one) && !is_line_end(one)) {
+        if (items == number) return at;
+        starts = false;
+      }
+      if (one == '"' || one == '\'') {
+        at = text_.find(one, at + 1);
+        if (at == std::string::npos) return at;
+      } else if (one == '[' || one == '{') {
+        ++depth;
+      } else if (one == ']' || one == '}') {
+        if (--depth == 0) break;
+      } else if (one == ',' && depth == 1) {
+        ++items;
+        starts = true;
+      }
+    }
+    return std::string::npos;
+  }
+
+  /// Only the steps of the subsystem in which the span lies.
+  void keep(const spec::Model& model, const diagnostics::Span& span) {
+    const auto is_of = [&](const diagnostics::Span& behaviour) {
+      for (const spec::Definition& definition : model.definitions)
+        for (const spec::Subsystem& subsystem : definition.subsystems) {
+          const auto has = [&](const diagnostics::Span& one) {
+            return std::ranges::any_of(subsystem.behaviours, [&](const Behaviour& own) {
+              return own.span == one ||
+                     std::ranges::any_of(own.next, [&](const spec::Next& next) { return next.span == one; });
+            });
+          };
+          if (has(span) && has(behaviour)) return true;
+        }
+      return false;
+    };
+    std::erase_if(found_.steps, [&](const Migration::Step& step) { return !is_of(step.span); });
+    std::erase_if(found_.by_hand, [&](const Migration::ByHand& one) { return !is_of(one.span); });
+  }
+
+  /// A text that YAML reads in another way than this class does is for its author to change.
+  void drop_wrong() {
+    if (is_right(found_.steps)) return;
+    std::vector<Migration::Step> right;
+    for (Migration::Step& step : found_.steps) {
+      if (is_right({step}))
+        right.push_back(std::move(step));
+      else
+        found_.by_hand.push_back(
+            {step.behaviour, step.span, fmt::format("add {{ to: {}, when: error }} to its 'next'", step.to)});
+    }
+    found_.steps = std::move(right);
+  }
+
+  /// Whether the edited text is one specification in which these behaviours, and no others, lead an error where it
+  /// has led.
+  [[nodiscard]] bool is_right(const std::vector<Migration::Step>& steps) const {
+    std::vector<TextEdit> edits;
+    for (const Migration::Step& step : steps) edits.push_back(step.edit);
+    diagnostics::Diagnostics before("spec.yaml", text_);
+    diagnostics::Diagnostics after("spec.yaml", edited(document_, edits));
+    const std::optional<spec::Model> was = spec::parse(before);
+    const std::optional<spec::Model> is = spec::parse(after);
+    if (!was || !is || after.has_errors() || was->definitions.size() != is->definitions.size()) return false;
+    for (const spec::DefinitionId d : was->definitions.ids())
+      for (std::uint32_t s = 0; s < was->definitions[d].subsystems.size(); ++s) {
+        const spec::Subsystem& old = was->definitions[d].subsystems[s];
+        const spec::Subsystem& now = is->definitions[d].subsystems[s];
+        for (const spec::BehaviourId b : old.behaviours.ids())
+          if (!fits(old.behaviours[b], now.behaviours[b], steps)) return false;
+      }
+    return true;
+  }
+
+  static bool fits(const Behaviour& old, const Behaviour& now, const std::vector<Migration::Step>& steps) {
+    const std::optional<FormerRoute> route = former_route(old);
+    const std::optional<FormerRoute> left = former_route(now);
+    const bool is_meant =
+        std::ranges::any_of(steps, [&](const Migration::Step& step) { return step.span == old.span; });
+    if (!route || left) return route.has_value() == left.has_value() && !(is_meant && left && route->certain);
+    const spec::Next& added = now.next[route->before];
+    return route->certain && added.when.kind == spec::When::Kind::error && !added.implied &&
+           added.behaviour == route->to;
+  }
+
+  const Document& document_;
+  const std::string& text_;
+  Migration found_;
+};
+
+}  // namespace
+
+std::optional<Migration> migrate(const Document& document, std::optional<diagnostics::Span> only) {
+  return Migrator(document).migrated(only);
+}
+
+}  // namespace tessera::language

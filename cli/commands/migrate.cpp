@@ -69,7 +69,7 @@ std::string difference(const language::Document& document,
   return text;
 }
 
-/// What the author has to decide.
+/// Notes about what the author has to decide.
 void tell_by_hand(const language::Migration& migration, const std::string& file, const std::string& text) {
   diagnostics::Diagnostics notes(file, text);
   for (const language::Migration::ByHand& one : migration.by_hand)

@@ -69,7 +69,7 @@ TEST(Endings, AskedForByNameOneAfterTheOtherLeaveTheLastForCertain) {
   EXPECT_EQ(endings.taken({2}, Ending::terminal), Truth::never);
 }
 
-/// What is written as `next`, and where a failure and an error condition lead.
+/// The text of a `next`, and the entries that a failure and an error condition take.
 struct Route {
   const char* says;
   std::vector<Next> next;

@@ -51,7 +51,7 @@ struct Trial {
     return static_cast<std::size_t>(std::ranges::count(behaviour.next, false, &spec::Next::implied));
   }
 
-  /// What nobody has routed ends the subsystem: by an unconditional `end`, or by the entry that is not written.
+  /// An ending that nobody has routed ends the subsystem: by an unconditional `end`, or by the entry that is not written.
   [[nodiscard]] int end() const {
     for (std::size_t at = 0; at < written(); ++at) {
       if (behaviour.next[at].when.kind != When::Kind::always) continue;

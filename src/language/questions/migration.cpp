@@ -126,7 +126,7 @@ class Migrator {
                 fmt::format("- {}{}{}", added, crlf ? "\r\n" : "\n", std::string(next.column, ' ')));
   }
 
-  /// Where item `number` of the list [...] at `begin` begins.
+  /// The first byte of item `number` of the list [...] at `begin`; npos: there is none.
   [[nodiscard]] std::size_t flow_item(std::size_t begin, std::size_t number) const {
     std::size_t depth = 0, items = 0;
     bool starts = true;  // nothing of the item has been read

@@ -10,7 +10,7 @@
 /// Tessera knows that rule.
 namespace tessera::spec {
 
-/// Where such an entry has led an error or a failure that endings.hpp takes elsewhere.
+/// A former way of errors and failures that endings.hpp takes elsewhere.
 struct FormerRoute {
   NextId before;        ///< the first entry that could take them: `{ to, when: error }` belongs before it
   bool certain = true;  ///< false: a condition decided where they led

@@ -16,8 +16,8 @@
 #include <stdexcept>
 #include <system_error>
 
-#include "cli/commands/unhurried_output.hpp"
 #include "cli/terminal.hpp"
+#include "cli/unhurried_output.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/file_names.hpp"
 #include "project/meeting_place.hpp"

@@ -109,7 +109,6 @@ struct Expression {
   Span span;
   std::vector<Reference> references{};  ///< in the order of the text; what could not be understood is absent
 };
-/// The elements that the expression names.
 [[nodiscard]] inline const std::vector<Reference>& references(const Expression& expression) {
   return expression.references;
 }
@@ -121,8 +120,7 @@ struct Condition {
   Span span;
 };
 
-/// The condition under which an entry of `next` is taken (the paper's initial
-/// condition of the next behaviour).
+/// The condition under which an entry of `next` is taken: the paper's initial condition of the next behaviour.
 struct When {
   enum class Kind : std::uint8_t {
     always,       ///< no `when`: after a terminal ending; see Endings
@@ -149,9 +147,7 @@ struct Behaviour {
   std::string name;
   Condition terminal;
   Condition error;
-  /// Never empty: a behaviour without `next` has one unconditional `end`. Some entry takes every error and every
-  /// failure: complete_next.
-  Numbered<NextId, Next> next;
+  Numbered<NextId, Next> next;  ///< never empty: `end` is the default; see complete_next
   bool next_given = false;  ///< false: that `end` is the default
   /// Output buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> send;

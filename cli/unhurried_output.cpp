@@ -1,4 +1,4 @@
-#include "cli/commands/unhurried_output.hpp"
+#include "cli/unhurried_output.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>

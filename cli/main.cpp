@@ -41,7 +41,8 @@ int main(int argc, char** argv) {
     const std::string what = error.path1().empty() ? "a file" : error.path1().string();
     const int code = cli::complain("cannot use " + what + ": " + error.code().message());
     if (error.code() == std::errc::no_such_file_or_directory)
-      cli::terminal().say("hint: it was there a moment ago; if something has removed it, run the command again\n");
+      cli::terminal().say(
+          "hint: it was there a moment ago; if something has removed it, run the command again\n");
     return code;
   } catch (const std::exception& error) {
     return cli::complain(error.what());

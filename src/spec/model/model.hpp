@@ -148,7 +148,7 @@ struct Behaviour {
   Condition terminal;
   Condition error;
   Numbered<NextId, Next> next;  ///< never empty: `end` is the default; see complete_next
-  bool next_given = false;  ///< false: that `end` is the default
+  bool next_given = false;      ///< false: that `end` is the default
   /// Output buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> send;
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.

@@ -1,8 +1,11 @@
 #include "project/files/ros2_messages.hpp"
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -12,6 +15,7 @@
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
+#include "tessera/units.hpp"
 
 namespace tessera::project {
 
@@ -40,6 +44,33 @@ diagnostics::Span place_in(const spec::Driver& driver, const std::string& option
     if (const auto found = driver.option_spans.find(name); found != driver.option_spans.end())
       return found->second;
   return driver.span;
+}
+
+/// Packages whose messages are in SI units (REP 103). Messages of others, such as px4_msgs, choose their own.
+constexpr auto packages_in_si = std::to_array<std::string_view>(
+    {"control_msgs", "geometry_msgs", "nav_msgs", "sensor_msgs", "tf2_msgs", "trajectory_msgs"});
+
+bool is_in_si(std::string_view type) {
+  if (type.ends_with("/NavSatFix")) return false;  // latitude and longitude are in degrees
+  return std::ranges::find(packages_in_si, type.substr(0, type.find('/'))) != packages_in_si.end();
+}
+
+/// A number of a buffer, and its unit.
+struct UnitOfField {
+  std::string field, unit;
+};
+
+/// The first one that has a known unit, which is none of SI.
+std::optional<UnitOfField> unit_beside_si(const spec::Model& model, const spec::Type& type,
+                                          const std::string& field) {
+  if (type.kind != spec::Type::Kind::structure) {
+    const std::optional<Unit> unit = read_unit(type.unit);
+    if (type.unit.empty() || !unit || unit->factor() == 1) return std::nullopt;
+    return UnitOfField{field, type.unit};
+  }
+  for (const spec::Field& member : model.structures[type.structure].fields)
+    if (auto found = unit_beside_si(model, member.type, field + "." + member.name)) return found;
+  return std::nullopt;
 }
 
 /// One message for a whole fleet.
@@ -88,9 +119,22 @@ class MessageFinder {
     if (is_service(driver)) mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
     const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     std::vector<ros2::MappingProblem> problems;
-    if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems)) return true;
+    if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems)) return has_its_units(driver);
     for (const ros2::MappingProblem& problem : problems)
       complain("E321", place_in(driver, problem.subject), problem.text, problem.hint);
+    return false;
+  }
+
+  bool has_its_units(const spec::Driver& driver) {
+    const spec::Field& buffer = model_.subsystem(driver.instance).real[driver.real];
+    const std::string type = text_option(driver, "type");
+    const auto found = is_in_si(type) ? unit_beside_si(model_, buffer.type, buffer.name) : std::nullopt;
+    if (!found) return true;
+    const std::string si = si_name(*read_unit(found->unit));
+    complain("E218", place_in(driver, "type"),
+             "messages of " + type.substr(0, type.find('/')) + " are in SI units, and " + found->field +
+                 " is declared in " + found->unit,
+             "declare it in " + si + ", and convert it in the transition function");
     return false;
   }
 

@@ -14,8 +14,9 @@ namespace tessera::project {
 /// drivers, so that a controller needs no file of them.
 ///
 /// project: the folder of the specification.
-/// Errors: E320 a message that does not exist, or whose definition is wrong; E321 fields of message and buffer
-///         that do not correspond; E322 services (ros2_services.hpp). false after one of them.
+/// Errors: E218 a unit that the messages of the package do not have; E320 a message that does not exist, or whose
+///         definition is wrong; E321 fields of message and buffer that do not correspond; E322 services
+///         (ros2_services.hpp). false after one of them.
 bool find_messages(spec::Model& model, const std::filesystem::path& project, diagnostics::Diagnostics& out);
 /// The same with these folders of definitions.
 bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::path>& folders,

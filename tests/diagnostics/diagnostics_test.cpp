@@ -27,12 +27,13 @@ TEST(Diagnostics, SortsByLineAndKeepsTheOrderWithinOne) {
   EXPECT_EQ(all[2].code, "E3");
 }
 
-TEST(Diagnostics, KeepsAComplaintMadeTwiceOnce) {
+TEST(Diagnostics, KeepsAComplaintMadeTwiceOnceAndCountsItTwice) {
   Diagnostics out("a.yaml", "1\n");
   out.error("E1", {1, 1, 1}, "wrong");
   out.error("E1", {1, 1, 1}, "wrong");
   out.error("E1", {1, 2, 1}, "wrong");
-  EXPECT_EQ(out.error_count(), 2U);
+  EXPECT_EQ(out.sorted().size(), 2U);
+  EXPECT_EQ(out.error_count(), 3U) << "what is read twice, through an alias, is wrong both times";
 }
 
 TEST(Diagnostics, QuotesLinesWithoutTheirEnds) {

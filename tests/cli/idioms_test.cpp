@@ -49,11 +49,11 @@ TEST_F(Idioms, MeanWhatTheirPageSays) {
   const project::Exit checked = tessera("check p");
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("warning"), std::string::npos) << checked.text;
-  ASSERT_EQ(tessera("generate p --stubs --accept-violations").code, 0);
+  ASSERT_EQ(tessera("generate p --stubs").code, 0);
   for (const Run& run : runs) {
     SCOPED_TRACE(run.fails);
     const std::string fault = *run.fails == '\0' ? "" : std::string(" --inject ") + run.fails + ":throw@0s";
-    const project::Exit done = tessera("simulate p --for 4s --accept-violations --record run.tsr" + fault);
+    const project::Exit done = tessera("simulate p --for 4s --record run.tsr" + fault);
     EXPECT_EQ(done.code, run.exit_code) << done.text;
     const project::Exit table = tessera("replay run.tsr --csv -");
     ASSERT_EQ(table.code, 0) << table.text;

@@ -20,7 +20,8 @@ struct DeadSensors : Command {
     const fs::path from = fs::path(std::getenv("TESSERA_TEST_DATA")) / "field/projects" / name;
     fs::copy(from, folder_ / name, fs::copy_options::recursive);
     fs::permissions(folder_ / name, fs::perms::owner_write, fs::perm_options::add);
-    const project::Exit done = shell("cd " + name + " && " + TESSERA_BINARY_DIR + "/tessera simulate --for 3s");
+    const project::Exit done =
+        shell("cd " + name + " && " + TESSERA_BINARY_DIR + "/tessera simulate --for 3s");
     EXPECT_EQ(done.code, 0) << done.text;
     return done.text;
   }

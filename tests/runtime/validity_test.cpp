@@ -11,9 +11,9 @@
 #include "nets.hpp"
 #include "rerun/rerun.hpp"
 #include "subsystem/written_outputs.hpp"
-#include "test_system.hpp"
 #include "tessera/fields.hpp"
 #include "tessera/large_array.hpp"
+#include "test_system.hpp"
 
 using namespace std::chrono_literals;
 
@@ -82,8 +82,8 @@ TEST(Validity, AnInvalidValueIsNoFirstValue) {
     state.out_x = 5;
     if (state.context.iteration == 0) throw std::runtime_error("blind");
   };
-  EXPECT_THAT(pair.after(15ms), ElementsAre(Seen{}, Seen{0, false, false, true, {}},
-                                            Seen{5, true, true, false, 0ms}));
+  EXPECT_THAT(pair.after(15ms),
+              ElementsAre(Seen{}, Seen{0, false, false, true, {}}, Seen{5, true, true, false, 0ms}));
 }
 
 TEST(Validity, AnOutputIsInvalidUntilItIsWritten) {
@@ -103,8 +103,8 @@ TEST(Validity, AnIterationThatFailsHasWrittenNothing) {
     state.out_x = 1;
     throw std::runtime_error("blind");
   };
-  EXPECT_THAT(pair.after(15ms), ElementsAre(Seen{}, Seen{0, false, false, true, {}},
-                                            Seen{0, false, false, true, {}}));
+  EXPECT_THAT(pair.after(15ms),
+              ElementsAre(Seen{}, Seen{0, false, false, true, {}}, Seen{0, false, false, true, {}}));
 }
 
 TEST(Validity, WhatFollowsAWriteStaysWrittenThroughAFailure) {
@@ -113,9 +113,9 @@ TEST(Validity, WhatFollowsAWriteStaysWrittenThroughAFailure) {
     if (state.context.iteration == 0) state.out_x = 0;
     if (state.context.iteration == 1) throw std::runtime_error("blind");
   };
-  EXPECT_THAT(pair.after(25ms), ElementsAre(Seen{}, Seen{0, true, true, false, 0ms},
-                                            Seen{0, false, false, true, 10ms},
-                                            Seen{0, true, true, false, 0ms}));
+  EXPECT_THAT(pair.after(25ms),
+              ElementsAre(Seen{}, Seen{0, true, true, false, 0ms}, Seen{0, false, false, true, 10ms},
+                          Seen{0, true, true, false, 0ms}));
 }
 
 TEST(Validity, WhatAReceptorComputesFromNoReadingIsInvalid) {
@@ -371,7 +371,8 @@ TEST(WrittenOutputs, OfAReceptorNeedAReading) {
   EXPECT_EQ(outputs.all(), Which(5));
   outputs.first.age = 0ms;
   outputs.iterate(write);
-  EXPECT_EQ(outputs.all(), (Which{true, false, true, false, true})) << "flags may be those of the other device";
+  EXPECT_EQ(outputs.all(), (Which{true, false, true, false, true}))
+      << "flags may be those of the other device";
   outputs.second.age = 0ms;
   outputs.iterate(write);
   EXPECT_EQ(outputs.all(), Which(5, true)) << "nothing tells whether the flags and the image were written";

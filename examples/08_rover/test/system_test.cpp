@@ -26,6 +26,15 @@ TEST(Drive, IsFollowedByAvoidBeforeAWall) {
   EXPECT_EQ(robot.out.motion.ahead, 0);
 }
 
+// A laser that fails: its last scan stays, and gets older.
+TEST(Drive, StandsStillAfterALaserThatFails) {
+  tessera::SubsystemUnderTest<control::Context> robot;
+  robot.receive(robot.in.scan, room(3));
+  robot.receive_invalid(robot.in.scan);
+  EXPECT_EQ(robot.iterate("drive"), "avoid");
+  EXPECT_EQ(robot.out.motion.ahead, 0);
+}
+
 // A condition alone.
 TEST(Avoid, EndsWhereThereIsRoom) {
   tessera::SubsystemUnderTest<control::Context> robot;

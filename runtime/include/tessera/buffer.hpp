@@ -22,9 +22,9 @@ struct Arrival {
 
 /// The status of the value in an output buffer.
 struct Departure {
-  bool timed_out = false;     ///< the last blocking send gave up waiting for its acknowledgement
-  Time stamp{};               ///< when it was last written to the channel
-  bool disconnected = false;  ///< the consumer is in another process, which is not reachable
+  bool timed_out = false;         ///< the last blocking send gave up waiting for its acknowledgement
+  Time stamp{};                   ///< when it was last written to the channel
+  bool disconnected = false;      ///< the consumer is in another process, which is not reachable
   bool tessera_assigned = false;  ///< it was assigned as a whole since the runtime has reset this
 };
 

@@ -264,8 +264,8 @@ struct Bindings {
   template <class T>
   void parameter(std::string_view name, T& value, const Accepted& accepted) {
     static_assert(std::is_trivially_copyable_v<T>);
-    Parameter made{name,  ValueKind::other, &value, sizeof(T), accepted.minimum, accepted.maximum, 0, 0,
-                   accepted.unit};
+    Parameter made{name, ValueKind::other, &value, sizeof(T), accepted.minimum, accepted.maximum, 0,
+                   0,    accepted.unit};
     if constexpr (requires { T::capacity(); }) {
       made.kind = ValueKind::string;
       made.capacity = T::capacity();

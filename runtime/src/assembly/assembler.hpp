@@ -86,10 +86,8 @@ class Assembler {
     parts.instance = &instance;
     parts.index = index;
     parts.subsystem = instance.make();
-    if (Substitutes* const of_test = assembly_.options.substitutes; of_test != nullptr) {
-      parts.subsystem = of_test->subsystem(index, std::move(parts.subsystem));
-      parts.scripted = of_test->scripts(index);
-    }
+    if (Substitutes* const of_test = assembly_.options.substitutes; of_test != nullptr)
+      parts.subsystem = of_test->subsystem(index, std::move(parts.subsystem), parts.scripted);
     plant_subsystem_faults(parts, assembly_.faults, clock_);
     parts.subsystem->bind(parts.bindings);
     parts.ports.resize(instance.net->ports.size());

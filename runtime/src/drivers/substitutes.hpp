@@ -19,11 +19,11 @@ class Substitutes {
   Substitutes& operator=(const Substitutes&) = delete;
   virtual ~Substitutes() = default;
 
-  /// instance: into System::instances.
+  /// instance: into System::instances. scripted: set to whether a script of the test is called in place of its
+  /// transition functions.
   [[nodiscard]] virtual std::unique_ptr<Subsystem> subsystem(std::uint32_t instance,
-                                                             std::unique_ptr<Subsystem> own) = 0;
-  /// Whether a script of the test is called in place of the transition functions of that subsystem.
-  [[nodiscard]] virtual bool scripts(std::uint32_t instance) const = 0;
+                                                             std::unique_ptr<Subsystem> own,
+                                                             bool& scripted) = 0;
   /// The receptor for the real buffer at that path.
   [[nodiscard]] virtual std::unique_ptr<RealReceptor> receptor(const std::string& path) = 0;
   [[nodiscard]] virtual std::unique_ptr<RealEffector> effector(const std::string& path) = 0;

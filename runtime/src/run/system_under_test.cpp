@@ -14,10 +14,11 @@ class TestedParts final : public Substitutes {
  public:
   explicit TestedParts(SystemUnderTest& test) : test_(test) {}
 
-  std::unique_ptr<Subsystem> subsystem(std::uint32_t instance, std::unique_ptr<Subsystem> own) override {
+  std::unique_ptr<Subsystem> subsystem(std::uint32_t instance, std::unique_ptr<Subsystem> own,
+                                       bool& scripted) override {
+    scripted = test_.instead_[instance] != nullptr;
     return std::make_unique<Watched>(test_, instance, std::move(own));
   }
-  bool scripts(std::uint32_t instance) const override { return test_.instead_[instance] != nullptr; }
   std::unique_ptr<RealReceptor> receptor(const std::string& path) override {
     const auto found = test_.sensed_.find(path);
     return std::make_unique<Sensed>(found == test_.sensed_.end() ? nullptr : found->second);

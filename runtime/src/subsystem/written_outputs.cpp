@@ -7,7 +7,7 @@
 namespace tessera {
 namespace {
 
-void set(const Bindings::Outgoing& output, const void* value) {
+void give_value(const Bindings::Outgoing& output, const void* value) {
   if (output.type == nullptr)
     std::memcpy(output.value, value, output.size);
   else
@@ -20,7 +20,8 @@ WrittenOutputs::WrittenOutputs(SubsystemParts& parts)
     : parts_(parts),
       states_(parts.bindings.outputs.size() + parts.bindings.real_outputs.size(), State::no),
       explained_(parts.bindings.outputs.size()) {
-  for (const Bindings::RealOutgoing& output : parts_.bindings.real_outputs) set(output, output.safe.get());
+  for (const Bindings::RealOutgoing& output : parts_.bindings.real_outputs)
+    give_value(output, output.safe.get());
 }
 
 /// Calls `visit(output, safe, state)` for outputs that are not known to be written. safe: nullptr: it is no
@@ -66,7 +67,7 @@ void WrittenOutputs::after_call() {
     if (is_written(output))
       state = State::in_this_iteration;
     else if (safe != nullptr)
-      set(output, safe);
+      give_value(output, safe);
   });
 }
 

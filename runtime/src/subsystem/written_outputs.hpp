@@ -47,8 +47,8 @@ class WrittenOutputs {
   SubsystemParts& parts_;
   std::vector<State> states_;  // of outputs, then of real outputs
   std::vector<bool> explained_;
-  bool complete_ = false;  // every output is written
-  bool marked_ = false;    // zeros have a minus during this call
+  bool complete_ = false;                       // every output is written
+  bool marked_ = false;                         // zeros have a minus during this call
   bool no_input_ = false, all_inputs_ = false;  // have had a value
 };
 

@@ -257,7 +257,8 @@ class Completer {
       add(Proposal::Kind::word, "valid", "what came last is valid: its sender wrote it and did not fail");
       add(Proposal::Kind::word, "failed", "what came last is invalid");
     }
-    add(Proposal::Kind::word, "stamp", input ? "when the last valid value was sent" : "when it was last sent");
+    add(Proposal::Kind::word, "stamp",
+        input ? "when the last valid value was sent" : "when it was last sent");
     add(Proposal::Kind::word, "timed_out", "the channel waited for too long");
     add(Proposal::Kind::word, "disconnected", "the other process is not heard of");
   }

@@ -156,7 +156,8 @@ class Meaning {
     const spec::Structure* structure = structure_in(type);
     if (structure != nullptr) add_names(names, structure->fields);
     const bool in = has_one(type, {"Input<", "Arrival"}), out = has_one(type, {"Output<", "Departure"});
-    if (in) names.insert(names.end(), {"fresh", "age", "stamp", "valid", "failed", "timed_out", "disconnected"});
+    if (in)
+      names.insert(names.end(), {"fresh", "age", "stamp", "valid", "failed", "timed_out", "disconnected"});
     if (out) names.insert(names.end(), {"stamp", "timed_out", "disconnected"});
     const std::string what = structure != nullptr ? structure->name
                              : in                 ? "this input"

@@ -29,8 +29,8 @@ constexpr std::array synonyms = {
     Synonym{"text", "string"},    Synonym{"number", "float64"}};
 
 /// The status of a buffer stands beside the fields of its value: in.line.left, in.line.fresh.
-constexpr std::array status_names =
-    std::to_array<std::string_view>({"fresh", "age", "stamp", "timed_out", "valid", "failed", "disconnected"});
+constexpr std::array status_names = std::to_array<std::string_view>(
+    {"fresh", "age", "stamp", "timed_out", "valid", "failed", "disconnected"});
 constexpr std::array generated_types =
     std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
 

@@ -4,6 +4,7 @@
 #include <memory>
 
 #include "sim/coppelia/lock_step.hpp"
+#include "sim/devices/writers.hpp"
 #include "tessera/device.hpp"
 
 namespace tessera::coppelia {
@@ -12,6 +13,7 @@ namespace tessera::coppelia {
 struct DeviceContext {
   std::shared_ptr<LockStep> scene;  ///< nullptr: devices are only judged, without a server
   std::uint64_t seed = 1;
+  std::shared_ptr<sim::Writers> writers = std::make_shared<sim::Writers>();
 };
 
 /// Make the device that the request asks for (docs/worlds.md). Throw sim::DeviceError if CoppeliaSim has no

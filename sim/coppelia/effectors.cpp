@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,20 @@ class Drives final : public RealEffector {
   std::vector<Drive> drives_;
 };
 
+/// Without a scene, only names tell whether two joints are one: a path that begins with `/`, or the same name
+/// of one agent.
+std::vector<sim::Writers::Element> elements_of(const DeviceContext& context, const DriverRequest& request,
+                                               const std::vector<Drive>& drives) {
+  std::vector<sim::Writers::Element> elements;
+  for (std::size_t index = 0; index < request.targets.size(); ++index) {
+    const std::string& name = request.targets[index];
+    const std::string by_name = name.starts_with('/') ? name : request.agent() + "/" + name;
+    elements.push_back({context.scene == nullptr ? by_name : std::to_string(drives[index].joint.handle),
+                        "joint '" + name + "'", name});
+  }
+  return elements;
+}
+
 /// The mode of the joint in the scene decides what its command means.
 std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const DriverRequest& request) {
   Buffer buffer(request);
@@ -60,6 +75,7 @@ std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const Drive
                         "kinematic",
                         name);
   }
+  context.writers->claim(request, elements_of(context, request, drives));
   return std::make_unique<Drives>(context, std::move(buffer), std::move(drives));
 }
 

@@ -80,14 +80,14 @@ Result<std::string> list(const WorldOptions& options) {
 #endif
 
 /// Opens a scene of CoppeliaSim; throws nothing. See tessera::OpenWorld.
-extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world_3(
+extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World> tessera_open_world_4(
     const tessera::WorldOptions& options, std::string& error) {
   return tessera::sim::value_or_null(
       tessera::sim::without_exceptions([&] { return tessera::coppelia::open(options); }), error);
 }
 
 /// Lists the contents of a CoppeliaSim scene; throws nothing. See tessera::ListWorld.
-extern "C" __attribute__((visibility("default"))) bool tessera_list_world_3(
+extern "C" __attribute__((visibility("default"))) bool tessera_list_world_4(
     const tessera::WorldOptions& options, std::string& json, std::string& error) {
   auto listed = tessera::sim::without_exceptions([&] { return tessera::coppelia::list(options); });
   if (listed)

@@ -103,7 +103,10 @@ std::unique_ptr<RealEffector> actuator(const DeviceContext& context, const Drive
                                           ? "actuator '" + request.targets[0] + "' takes"
                                           : "these actuators take");
   buffer.convert_from(units, "the command of an actuator");
-  for (const Drive& drive : drives) context.simulation->add_robot_of_actuator(drive.id);
+  std::vector<int> ids;
+  for (const Drive& drive : drives) ids.push_back(drive.id);
+  claim(context, request, mjOBJ_ACTUATOR, ids);
+  for (const int id : ids) context.simulation->add_robot_of_actuator(id);
   if (wrap) context.simulation->wrap(wrap->joint, wrap->length);
   return commanding(context.simulation, std::move(buffer),
                     [drives, clamp, path = request.path](Physics& physics, std::span<const double> numbers) {
@@ -123,6 +126,7 @@ std::unique_ptr<RealEffector> colour(const DeviceContext& context, const DriverR
   int geom = 0;
   context.simulation->use(
       [&](const Physics& physics) { geom = element_of(physics, mjOBJ_GEOM, request, only_target(request)); });
+  claim(context, request, mjOBJ_GEOM, {&geom, 1});
   return commanding(context.simulation, std::move(buffer),
                     [geom](Physics& physics, std::span<const double> rgba) {
                       if (!std::ranges::all_of(rgba, [](double part) { return part >= 0 && part <= 1; }))

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "sim/devices/device_error.hpp"
+#include "sim/devices/writers.hpp"
 #include "sim/rendering/renderer.hpp"
 #include "sim/simulation.hpp"
 #include "tessera/device.hpp"
@@ -23,6 +24,7 @@ struct DeviceContext {
   double footprint_m = 0.008;
   std::uint64_t seed = 1;
   std::shared_ptr<Renderer> renderer{};  ///< for the cameras
+  std::shared_ptr<Writers> writers = std::make_shared<Writers>();
 };
 
 /// Make the device that the request asks for. Throw DeviceError if the world has no such element or it does

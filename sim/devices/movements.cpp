@@ -61,6 +61,7 @@ std::unique_ptr<RealEffector> weld(const DeviceContext& context, const DriverReq
   context.simulation->use([&](const Physics& physics) {
     equality = element_of(physics, mjOBJ_EQUALITY, request, only_target(request));
   });
+  claim(context, request, mjOBJ_EQUALITY, {&equality, 1});
   return commanding(context.simulation, std::move(buffer),
                     [equality](Physics& physics, std::span<const double> numbers) {
                       const bool on = numbers[0] != 0;
@@ -79,13 +80,15 @@ std::unique_ptr<RealEffector> mocap(const DeviceContext& context, const DriverRe
   buffer.convert_from(units_of_pose, "a pose");
   Options(request).refuse_others();
   const std::string& name = only_target(request);
-  int mocap_body = -1;
+  int body = -1, mocap_body = -1;
   context.simulation->use([&](const Physics& physics) {
-    mocap_body = physics.model().body_mocapid[element_of(physics, mjOBJ_BODY, request, name)];
+    body = element_of(physics, mjOBJ_BODY, request, name);
+    mocap_body = physics.model().body_mocapid[body];
   });
   if (mocap_body < 0)
     throw DeviceError("body '" + name + "' is no mocap body",
                       "give it mocap=\"true\" in the model; `place` moves bodies with a free joint", name);
+  claim(context, request, mjOBJ_BODY, {&body, 1});
   return commanding(
       context.simulation, std::move(buffer), [mocap_body](Physics& physics, std::span<const double> numbers) {
         if (is_no_pose(numbers)) return true;
@@ -105,13 +108,15 @@ std::unique_ptr<RealEffector> place(const DeviceContext& context, const DriverRe
   buffer.convert_from(units_of_pose, "a pose");
   Options(request).refuse_others();
   const std::string& name = only_target(request);
-  int joint = -1;
+  int body = -1, joint = -1;
   context.simulation->use([&](const Physics& physics) {
-    joint = free_joint_of(physics.model(), element_of(physics, mjOBJ_BODY, request, name));
+    body = element_of(physics, mjOBJ_BODY, request, name);
+    joint = free_joint_of(physics.model(), body);
   });
   if (joint < 0)
     throw DeviceError("body '" + name + "' has no free joint, so it cannot be put anywhere",
                       "`mocap` moves bodies with mocap=\"true\"", name);
+  claim(context, request, mjOBJ_BODY, {&body, 1});
   return commanding(
       context.simulation, std::move(buffer), [joint](Physics& physics, std::span<const double> numbers) {
         if (is_no_pose(numbers)) return true;

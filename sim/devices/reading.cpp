@@ -1,5 +1,7 @@
 #include "sim/devices/reading.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -56,6 +58,17 @@ int element_of(const Physics& physics, mjtObj type, const DriverRequest& request
   const std::string agent = request.agent();
   if (const auto id = find_element(physics.model(), type, agent, name)) return *id;
   throw DeviceError(unknown_name(word_for(type), name, names_for(physics.model(), type, agent)));
+}
+
+void claim(const DeviceContext& context, const DriverRequest& request, mjtObj type,
+           std::span<const int> elements) {
+  std::vector<Writers::Element> claimed;
+  for (std::size_t index = 0; index < elements.size(); ++index) {
+    const std::string& name = request.targets[index];
+    claimed.push_back({fmt::format("{} {}", word_for(type), elements[index]),
+                       fmt::format("{} '{}'", word_for(type), name), name});
+  }
+  context.writers->claim(request, claimed);
 }
 
 const std::string& only_target(const DriverRequest& request) {

@@ -20,6 +20,9 @@ namespace tessera::sim {
 /// The element that a target names. Throws DeviceError.
 [[nodiscard]] int element_of(const Physics& physics, mjtObj type, const DriverRequest& request,
                              const std::string& name);
+/// Takes elements for the device of the request, which writes them. Throws DeviceError, as Writers::claim.
+void claim(const DeviceContext& context, const DriverRequest& request, mjtObj type,
+           std::span<const int> elements);
 /// The one target. Throws DeviceError if there are several.
 [[nodiscard]] const std::string& only_target(const DriverRequest& request);
 /// A target that is a body or a site; bodies are looked up first.

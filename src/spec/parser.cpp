@@ -9,6 +9,7 @@
 #include "spec/channels/wiring.hpp"
 #include "spec/devices/drivers.hpp"
 #include "spec/devices/simulation.hpp"
+#include "spec/devices/writers.hpp"
 #include "spec/document/document.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
@@ -64,6 +65,7 @@ Model read_model(const Document& document, Diagnostics& out) {
   model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
   read_deployment(file.find("deploy"), groups, model, out);
+  check_writers(model, out);
   return model;
 }
 

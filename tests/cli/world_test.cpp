@@ -2,12 +2,15 @@
 
 #include <gmock/gmock.h>
 
+#include <cstdlib>
+
 #include "command.hpp"
 
 namespace tessera::cli_test {
 namespace {
 
 using ::testing::HasSubstr;
+using ::testing::Not;
 
 class World : public Command {
  protected:
@@ -29,6 +32,24 @@ TEST_F(World, IsAskedWhetherItHasTheDevices) {
   EXPECT_THAT(checked(), HasSubstr("spec.yaml:36:77: error E311: option 'outside' must be clamp or refuse"));
   replace(folder_ / "arm/arm.xml", "<worldbody>", "<world>");
   EXPECT_THAT(checked(), HasSubstr("error E312: the world cannot be opened: "));
+}
+
+TEST_F(World, RefusesTwoDriversOfOneActuator) {
+  const char* const data = std::getenv("TESSERA_TEST_DATA");
+  if (data == nullptr) GTEST_SKIP() << "TESSERA_TEST_DATA is not set";
+  const fs::path inputs = fs::path(data) / "field/specs/two_writers";
+  fs::create_directories(folder_ / "pair");
+  fs::copy_file(inputs / "sim.yaml", folder_ / "pair/spec.yaml");
+  fs::copy_file(inputs / "world.xml", folder_ / "pair/world.xml");
+  const project::Exit checked = tessera("check pair");
+  EXPECT_EQ(checked.code, 1);
+  EXPECT_THAT(checked.text,
+              HasSubstr("spec.yaml:14:40: error E319: actuator 'x' is driven by robot[0].base.command and by "
+                        "robot[1].base.command"));
+  EXPECT_THAT(checked.text, HasSubstr("hint: name another one for each agent, such as x{i}"));
+  replace(folder_ / "pair/spec.yaml", "robot[*].base.command: { actuator: x }",
+          "robot[0].base.command: { actuator: x }");
+  EXPECT_THAT(tessera("check pair").text, Not(HasSubstr("E319")));
 }
 
 TEST_F(World, NamesWithControlCharactersDoNotReachTheTerminal) {

@@ -42,6 +42,6 @@ class FakeWorld : public tessera::World {
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
 // NOLINTNEXTLINE(readability-identifier-naming): the name that the runtime looks up
-extern "C" std::unique_ptr<tessera::World> tessera_open_world_3(const tessera::WorldOptions&, std::string&) {
+extern "C" std::unique_ptr<tessera::World> tessera_open_world_4(const tessera::WorldOptions&, std::string&) {
   return std::make_unique<FakeWorld>();
 }

@@ -104,7 +104,7 @@ class FakeWorld final : public tessera::World {
 #if defined(__clang__)
 #pragma clang diagnostic ignored "-Wreturn-type-c-linkage"
 #endif
-extern "C" std::unique_ptr<tessera::World> tessera_open_world_3(const tessera::WorldOptions& options,
+extern "C" std::unique_ptr<tessera::World> tessera_open_world_4(const tessera::WorldOptions& options,
                                                                 std::string& error) {
   if (options.world == "missing.xml") {
     error = "no such world: missing.xml";

@@ -36,7 +36,7 @@ TEST(Actuators, RefuseWhatIsBeyondTheirRangeOrClampIt) {
   const auto single = effector<float>(*world, {"a.m.d", "velocity", {"wrist"}, {}});
   EXPECT_TRUE(write_as(*single, 0.1F)) << "the limit, rounded to float32, is a little more";
   EXPECT_EQ(refusal(*single, 0.11F), "a.m.d: actuator 'wrist' takes 0 to 0.1, not 0.11");
-  const auto lenient = effector<double>(*world, {"a.m.e", "actuator", {"shoulder"}, {{"outside", "clamp"}}});
+  const auto lenient = effector<double>(*world, {"a.m.c", "actuator", {"shoulder"}, {{"outside", "clamp"}}});
   EXPECT_TRUE(write_as(*lenient, 99.0));
   world->advance_to(Time(3s));
   const auto angle = receptor<double>(*world, {"a.s.p", "joint_position", {"shoulder"}, {}});
@@ -67,6 +67,45 @@ TEST(Actuators, AListIsTakenAsAWholeOrNotAtAll) {
   world->advance_to(Time(1s));
   const auto angle = receptor<double>(*world, {"a.s.p", "joint_position", {"shoulder"}, {}});
   EXPECT_NEAR(read_as<double>(*angle), 0, 1e-9);
+}
+
+TEST(Actuators, HaveOneWriter) {
+  const auto world = open_text("writers", workshop);
+  const auto problem = [&](DriverRequest request, const auto& value) {
+    using Value = std::remove_cvref_t<decltype(value)>;
+    const auto found = world->problem_with(request_for<Value>(std::move(request)), true);
+    return found ? std::string(found->second_writer ? "second: " : "") + found->text : "";
+  };
+  using Two = std::array<double, 2>;
+  using Pose = std::array<double, 7>;
+  using Colour = std::array<double, 4>;
+  EXPECT_EQ(problem({"robot[0].m.a", "actuator", {"shoulder"}, {}}, 0.0), "");
+  EXPECT_EQ(problem({"robot[0].m.a", "actuator", {"shoulder"}, {}}, 0.0), "") << "it asks again";
+  EXPECT_EQ(problem({"robot[1].m.a", "velocity", {"/shoulder"}, {}}, 0.0),
+            "second: actuator '/shoulder' is driven by robot[0].m.a and by robot[1].m.a");
+  EXPECT_EQ(problem({"arm.m.both", "actuator", {"wrist", "shoulder"}, {}}, Two{}),
+            "second: actuator 'shoulder' is driven by robot[0].m.a and by arm.m.both");
+  EXPECT_EQ(problem({"arm.m.twice", "actuator", {"wrist", "wrist"}, {}}, Two{}),
+            "second: actuator 'wrist' stands twice in the list of arm.m.twice");
+  EXPECT_EQ(problem({"arm.m.wrist", "actuator", {"wrist"}, {}}, 0.0), "") << "a refused device has none";
+  EXPECT_EQ(problem({"a.m.grip", "weld", {"grip"}, {}}, false), "");
+  EXPECT_EQ(problem({"b.m.grip", "weld", {"grip"}, {}}, false),
+            "second: equality 'grip' is driven by a.m.grip and by b.m.grip");
+  EXPECT_EQ(problem({"a.m.box", "place", {"box"}, {}}, Pose{}), "");
+  EXPECT_EQ(problem({"b.m.box", "place", {"box"}, {}}, Pose{}),
+            "second: body 'box' is driven by a.m.box and by b.m.box");
+  EXPECT_EQ(problem({"a.m.gate", "mocap", {"gate"}, {}}, Pose{}), "");
+  EXPECT_EQ(problem({"b.m.gate", "mocap", {"gate"}, {}}, Pose{}),
+            "second: body 'gate' is driven by a.m.gate and by b.m.gate");
+  EXPECT_EQ(problem({"a.m.lamp", "colour", {"bulb"}, {}}, Colour{}), "");
+  EXPECT_EQ(problem({"b.m.lamp", "colour", {"bulb"}, {}}, Colour{}),
+            "second: geom 'bulb' is driven by a.m.lamp and by b.m.lamp");
+  std::string error;
+  EXPECT_EQ(world->effector(request_for<double>({"b.m.a", "actuator", {"shoulder"}, {}}), error), nullptr);
+  EXPECT_EQ(
+      error,
+      "b.m.a: actuator 'shoulder' is driven by robot[0].m.a and by b.m.a; let one subsystem command it, "
+      "and send it what the others wish");
 }
 
 TEST(Actuators, AWeldTakesThePoseOfTheMoment) {

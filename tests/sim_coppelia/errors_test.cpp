@@ -347,6 +347,11 @@ TEST(CoppeliaErrors, WhatNeedsNoServerIsJudgedWithoutOne) {
   EXPECT_EQ(problem({"a.b.c", "camera", {"front"}, {}}, false, "uint8[36]"), "");
   EXPECT_EQ(problem({"a.b.c", "velocity", {"left", "right"}, {}}, true, "float32[2]"), "");
   EXPECT_THAT(problem({"a.b.c", "velocity", {"left", "right"}, {}}, true, "float64"), HasSubstr("2 numbers"));
+  EXPECT_EQ(problem({"a.b.twice", "velocity", {"up", "up"}, {}}, true, "float32[2]"),
+            "joint 'up' stands twice in the list of a.b.twice");
+  EXPECT_EQ(problem({"a.d.e", "velocity", {"left"}, {}}, true, "float32"),
+            "joint 'left' is driven by a.b.c and by a.d.e");
+  EXPECT_EQ(problem({"z.d.e", "velocity", {"left"}, {}}, true, "float32"), "") << "the scene decides";
   EXPECT_THAT(problem({"a.b.c", "reflectance", {"eye"}, {{"nois", 1}}}, false, "float64"),
               HasSubstr("no option 'nois'"));
   EXPECT_THAT(problem({"a.b.c", "scan", {"eye"}, {}}, false, "float64[4]"), HasSubstr("no receptor 'scan'"));

@@ -142,9 +142,10 @@ template <class T>
 
 /// The mistake in a request.
 struct DriverProblem {
-  std::string text;     ///< "the world has no sensor 'gyr'"
-  std::string hint;     ///< "did you mean 'gyro'?"; empty: none
-  std::string subject;  ///< the target or the name of the option that is wrong; empty: all of it
+  std::string text;            ///< "the world has no sensor 'gyr'"
+  std::string hint;            ///< "did you mean 'gyro'?"; empty: none
+  std::string subject;         ///< the target or the name of the option that is wrong; empty: all of it
+  bool second_writer = false;  ///< another device writes the same element of the world
 };
 
 /// A simulator that is a separate program and a server: CoppeliaSim.
@@ -250,10 +251,10 @@ class World {
 /// The types of the functions that the world's shared library exports. Their names have the version of this
 /// interface, so that a controller and a library of different versions do not come together.
 using OpenWorld = std::unique_ptr<World> (*)(const WorldOptions& options, std::string& error);
-inline constexpr const char* open_world_function = "tessera_open_world_3";
+inline constexpr const char* open_world_function = "tessera_open_world_4";
 /// Lists the contents of a world as JSON. false and `error`: it does not open.
 using ListWorld = bool (*)(const WorldOptions& options, std::string& json, std::string& error);
-inline constexpr const char* list_world_function = "tessera_list_world_3";
+inline constexpr const char* list_world_function = "tessera_list_world_4";
 
 /// Draws a world from recorded poses of its bodies, without simulating it.
 ///

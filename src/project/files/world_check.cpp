@@ -50,7 +50,7 @@ class Judge {
     ok_ = false;
     const diagnostics::Span place = place_of(driver, *problem);
     if (said_.insert({place, problem->subject}).second)
-      out_.error("E311", place, problem->text, problem->hint);
+      out_.error(problem->second_writer ? "E319" : "E311", place, problem->text, problem->hint);
   }
   [[nodiscard]] bool ok() const { return ok_; }
 

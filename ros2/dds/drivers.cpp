@@ -92,7 +92,9 @@ class Subscriber final : public RealReceptor {
 class Publisher final : public RealEffector {
  public:
   explicit Publisher(Prepared prepared)
-      : prepared_(std::move(prepared)), sink_(prepared_.encoding->most), maker_(getpid()) {}
+      : prepared_(std::move(prepared)), sink_(prepared_.encoding->most), maker_(getpid()) {
+    prepared_.endpoint.sole_writer = true;
+  }
 
   [[nodiscard]] bool open() override {
     endpoint_.emplace(prepared_.endpoint, /*writes=*/true);
@@ -111,10 +113,26 @@ class Publisher final : public RealEffector {
     if (!prepared_.plan.encode(sink_.bytes(), stamp_now(), message_)) return false;
     if (is_guardian()) return write_until_received();
     endpoint_->watch();
+    warn_of_others();
     return (*endpoint_)->write(message_);
   }
 
  private:
+  /// A device obeys every publisher of its commands, also one that nobody thinks of any more.
+  void warn_of_others() {
+    for (const OtherWriters::Writer& other : (*endpoint_)->new_other_writers()) {
+      if (!is_told(++others_)) continue;
+      const std::string& topic = prepared_.endpoint.topic;
+      std::fprintf(stderr,
+                   "warning: %s: %s publishes %s, too (%llu until now; type %s, participant %s): subscribers "
+                   "obey both in turn; `ros2 topic info -v %s` names its node\n",
+                   prepared_.endpoint.path.c_str(),
+                   other.own_process ? "another driver of this controller" : "another program", topic.c_str(),
+                   static_cast<unsigned long long>(others_), other.type.c_str(), other.participant.c_str(),
+                   topic.c_str());
+    }
+  }
+
   /// A subscriber receives no sample that was written before it has found the writer, even if the writer has
   /// found it already. So the command is sent several times.
   [[nodiscard]] bool write_until_received() {
@@ -136,6 +154,7 @@ class Publisher final : public RealEffector {
   std::optional<WatchedEndpoint> endpoint_;
   ValueSink sink_;
   std::vector<std::byte> message_;
+  std::uint64_t others_ = 0;
   pid_t maker_;
 };
 

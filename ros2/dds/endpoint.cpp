@@ -103,9 +103,25 @@ Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     throw std::runtime_error("cannot use the topic " + setup.topic + ": " + dds_strretcode(entity_));
   }
   participant_->add(setup.node, entity_, writes);
+  if (writes && setup.sole_writer) look_for_other_writers(setup);
+}
+
+/// Without a look at the other writers, everything else works.
+void Endpoint::look_for_other_writers(const EndpointSetup& setup) {
+  try {
+    other_writers_.emplace(participant_->entity(), entity_, setup.dds_topic);
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "warning: %s: %s\n", setup.path.c_str(), error.what());
+  }
+}
+
+std::vector<OtherWriters::Writer> Endpoint::new_other_writers() {
+  if (!other_writers_) return {};
+  return other_writers_->look(OtherWriters::Clock::now());
 }
 
 Endpoint::~Endpoint() {
+  other_writers_.reset();
   participant_->remove(entity_);
   dds_delete(entity_);
   dds_delete(topic_.entity);

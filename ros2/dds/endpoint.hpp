@@ -10,6 +10,7 @@
 
 #include "ros2/dds/blob.hpp"
 #include "ros2/dds/domain.hpp"
+#include "ros2/dds/other_writers.hpp"
 #include "ros2/naming/names.hpp"
 #include "tessera/time.hpp"
 
@@ -24,6 +25,7 @@ struct EndpointSetup {
   std::string node;
   Qos qos;
   Network network;
+  bool sole_writer = false;  ///< whether a writer looks for others of its topic
 };
 
 /// A writer or reader of a ROS 2 topic. If the quality of service of the other side is incompatible with
@@ -58,6 +60,8 @@ class Endpoint {
   /// For a reader: the user data of a writer that it has found. A message may be read after its writer has
   /// left. nullopt: it was never found.
   [[nodiscard]] std::optional<std::string> user_data_of(dds_instance_handle_t writer) const;
+  /// For a sole writer: the other writers of its topic that were found since the last call.
+  [[nodiscard]] std::vector<OtherWriters::Writer> new_other_writers();
   /// A number that no other writer or reader has.
   [[nodiscard]] std::uint64_t identity() const;
 
@@ -71,12 +75,14 @@ class Endpoint {
     std::map<dds_instance_handle_t, std::string> found{};
   };
   static void remember(dds_entity_t reader, dds_instance_handle_t writer, ListenerState& state);
+  void look_for_other_writers(const EndpointSetup& setup);
   static void warn_of_qos(const ListenerState& state, std::uint32_t policy);
 
   std::shared_ptr<Participant> participant_;
   std::unique_ptr<ListenerState> state_;
   BlobTopic topic_;
   dds_entity_t entity_ = 0;
+  std::optional<OtherWriters> other_writers_;
   bool writes_;
   std::size_t depth_;
 };

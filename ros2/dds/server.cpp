@@ -75,6 +75,8 @@ bool ServiceServer::reply(std::uint64_t number, std::vector<std::byte> message) 
 /// Precondition of this and the following: the mutex is locked.
 void ServiceServer::progress() {
   if (!ends_) return;
+  for (std::size_t others = ends_->new_other_servers(); others > 0; --others)
+    warn(several_, "another server executes the requests, too, and clients take the first reply");
   take_requests();
   if (current_ && !reply_.empty()) send_reply();
   if (!current_ || Clock::now() < current_->until) return;

@@ -65,7 +65,8 @@ class ServiceServer {
   std::vector<std::byte> reply_;  ///< to the current request; empty: there is none yet
   std::uint64_t number_ = 0;      ///< number of the newest request that was given
   std::uint64_t told_ = 0;
-  std::uint64_t foreign_ = 0, strange_ = 0, crowded_ = 0, unanswered_ = 0, unheard_ = 0, useless_ = 0;
+  std::uint64_t foreign_ = 0, strange_ = 0, crowded_ = 0, unanswered_ = 0, unheard_ = 0, useless_ = 0,
+                several_ = 0;
 };
 
 }  // namespace tessera::ros2

@@ -37,6 +37,7 @@ ServiceEnds::ServiceEnds(const ServiceSetup& setup) {
   requests.dds_type = dds_type_name(request_type(setup.type));
   replies.dds_topic = dds_reply_name(replies.topic);
   replies.dds_type = dds_type_name(response_type(setup.type));
+  replies.sole_writer = !setup.is_client;
   reader_.emplace(setup.is_client ? replies : requests, /*writes=*/false);
   writer_.emplace(setup.is_client ? requests : replies, /*writes=*/true);
 }

@@ -57,6 +57,8 @@ class ServiceEnds {
     bool foreign = false;  ///< some server would misread a request
   };
   [[nodiscard]] Servers servers() const;
+  /// For a server: the number of other servers that were found since the last call.
+  [[nodiscard]] std::size_t new_other_servers() { return writer_->new_other_writers().size(); }
   /// For a server: the client with that writer, which may have left; nullopt: it is no client of this kind.
   [[nodiscard]] std::optional<std::string> client_of(dds_instance_handle_t writer) const;
   /// Whether that client still exists.

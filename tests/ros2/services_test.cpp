@@ -11,6 +11,7 @@
 #include "fast_peer.hpp"
 #include "ros2/dds/drivers.hpp"
 #include "ros2/definitions/resolver.hpp"
+#include "stderr_text.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/fields.hpp"
 
@@ -305,6 +306,17 @@ TEST_F(WithFastService, ServerDropsRequestsWithoutAHeader) {
     return told.find("is not one of rmw_cyclonedds_cpp") != std::string::npos;
   }));
   told += testing::internal::GetCapturedStderr();
+}
+
+TEST_F(WithFastService, ServerTellsOfASecondServer) {
+  Server server;
+  auto* const rival = peer.writer<fast::SetBoolResponse>("rr/enableReply", true, "serviceid=01.0f.9;");
+  ASSERT_NE(rival, nullptr);
+  const StderrText told;
+  EXPECT_TRUE(eventually([&] {
+    EXPECT_FALSE(server.read());
+    return told.has("service /enable: another server executes the requests, too");
+  })) << told.now();
 }
 
 TEST(Services, OfTwoControllersFindEachOther) {

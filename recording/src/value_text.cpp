@@ -20,6 +20,7 @@ struct ValueLayout::Node {
   std::shared_ptr<const Node> element;  ///< of a sequence
   std::vector<Field> fields;            ///< of a structure
   std::size_t scalars = 1;              ///< in total
+  bool bounded = false;                 ///< a sequence of at most `size` elements
 };
 
 // --------------------------------------------------------------------------------------------- parsing
@@ -61,10 +62,12 @@ class ValueLayoutParser {
     if (++depth_ > deepest) return nullptr;
     NodePtr made = accept("{") ? structure() : scalar();
     while (made != nullptr && accept("[")) {
+      const bool bounded = accept("<=");
       const std::optional<std::size_t> count = number();
       if (!count || !accept("]") || made->scalars == 0 || *count > most_scalars / made->scalars)
         return nullptr;
-      made = std::make_shared<Node>(Node{Node::Kind::sequence, *count, made, {}, *count * made->scalars});
+      made = std::make_shared<Node>(
+          Node{Node::Kind::sequence, *count, made, {}, *count * made->scalars, bounded});
     }
     --depth_;
     return made;
@@ -92,7 +95,7 @@ class ValueLayoutParser {
   NodePtr scalar() {
     using Kind = Node::Kind;
     const auto make = [](Kind kind, std::size_t size) {
-      return std::make_shared<const Node>(Node{kind, size, {}, {}, 1});
+      return std::make_shared<const Node>(Node{kind, size, {}, {}, 1, false});
     };
     if (accept("bool")) return make(Kind::boolean, 1);
     struct Name {
@@ -169,7 +172,8 @@ namespace {
 template <class Node>
 class Walk {
  public:
-  Walk(std::string_view bytes, const ValueLayout::Visit& visit) : left_(bytes), visit_(visit) {}
+  Walk(std::string_view bytes, const ValueLayout::Visit& visit, const ValueLayout::VisitLength& visit_length)
+      : left_(bytes), visit_(visit), visit_length_(visit_length) {}
 
   [[nodiscard]] bool over(const Node& type, std::string& path) {
     using Kind = typename Node::Kind;
@@ -188,11 +192,19 @@ class Walk {
 
  private:
   [[nodiscard]] bool over_elements(const Node& type, std::string& path) {
-    const std::size_t length = path.size();
-    for (std::size_t index = 0; index < type.size; ++index) {
+    const std::size_t before = path.size();
+    std::size_t count = type.size;
+    if (type.bounded) {
+      if (left_.size() < sizeof(std::uint32_t)) return false;
+      count = as<std::uint32_t>(left_);
+      left_.remove_prefix(sizeof(std::uint32_t));
+      if (count > type.size) return false;
+      if (visit_length_) visit_length_(path, count);
+    }
+    for (std::size_t index = 0; index < count; ++index) {
       path += fmt::format("[{}]", index);
       const bool whole = over(*type.element, path);
-      path.resize(length);
+      path.resize(before);
       if (!whole) return false;
     }
     return true;
@@ -262,6 +274,7 @@ class Walk {
 
   std::string_view left_;
   const ValueLayout::Visit& visit_;
+  const ValueLayout::VisitLength& visit_length_;
 };
 
 }  // namespace
@@ -282,8 +295,8 @@ std::string ValueLayout::Scalar::shown() const {
   return "";
 }
 
-bool ValueLayout::visit(std::string_view bytes, const Visit& visit) const {
-  Walk<Node> walk(bytes, visit);
+bool ValueLayout::visit(std::string_view bytes, const Visit& visit, const VisitLength& visit_length) const {
+  Walk<Node> walk(bytes, visit, visit_length);
   std::string path;
   return walk.over(*root_, path) && walk.finished();
 }
@@ -307,6 +320,30 @@ void collect_paths(const Node& type, const std::string& path, std::vector<std::s
 }  // namespace
 
 std::size_t ValueLayout::scalars() const { return root_->scalars; }
+
+namespace {
+
+void collect_sequences(const auto& type, const std::string& path, std::vector<std::string>& sequences) {
+  using Kind = std::remove_cvref_t<decltype(type.kind)>;
+  if (type.bounded) sequences.push_back(path);
+  for (std::size_t index = 0; type.kind == Kind::sequence && index < type.size; ++index) {
+    const std::size_t before = sequences.size();
+    collect_sequences(*type.element, fmt::format("{}[{}]", path, index), sequences);
+    if (sequences.size() == before) return;  // then no element has any
+  }
+  for (const auto& field : type.fields)
+    collect_sequences(*field.type, path.empty() ? field.name : path + '.' + field.name, sequences);
+}
+
+}  // namespace
+
+std::vector<std::string> ValueLayout::sequences() const {
+  std::vector<std::string> sequences;
+  collect_sequences(*root_, "", sequences);
+  return sequences;
+}
+
+bool ValueLayout::has_sequences() const { return !sequences().empty(); }
 
 std::vector<std::string> ValueLayout::paths() const {
   std::vector<std::string> paths;
@@ -356,13 +393,19 @@ std::vector<std::string> ValueLayout::types() const {
 std::string ValueLayout::shown(std::string_view bytes, std::size_t most) const {
   std::string text;
   bool one = false;
-  const bool whole = visit(bytes, [&](const std::string& path, const Scalar& scalar) {
+  const auto add = [&](const std::string& path, const std::string& value) {
     one = path.empty();
     if (text.size() > most) return;
-    const std::string value =
-        scalar.kind == Scalar::Kind::text ? '"' + std::string(scalar.text) + '"' : scalar.shown();
     text += (text.empty() ? "" : ", ") + (one ? "" : path + ": ") + value;
-  });
+  };
+  const bool whole = visit(
+      bytes,
+      [&](const std::string& path, const Scalar& scalar) {
+        add(path, scalar.kind == Scalar::Kind::text ? '"' + std::string(scalar.text) + '"' : scalar.shown());
+      },
+      [&](const std::string& path, std::size_t length) {
+        if (length == 0) add(path, "[]");
+      });
   if (text.size() > most) text = text.substr(0, most) + "...";
   if (!whole) text += text.empty() ? "not the bytes of its type" : ", and bytes that are not of its type";
   return one ? text : '{' + text + '}';

@@ -47,10 +47,12 @@ class Finder {
       if (step.block) blocks_[*step.block] = found;
       if (step.fill == Plan::Fill::names) names_ = found;
       reader_.skip(step.type, count);
-    } else if (step.per_element && count != step.members.size()) {
+    } else if (step.per_element &&
+               (step.length ? count > step.members.size() : count != step.members.size())) {
       other_length_ = true;
       for (std::size_t index = 0; index < count && reader_.ok(); ++index) walk(step.members.front().members);
     } else {
+      if (step.length) blocks_[*step.length] = {reader_.at(), count, &step};
       for (std::size_t index = 0; index < count && reader_.ok(); ++index)
         walk(step.per_element ? step.members[index].members : step.members);
     }
@@ -88,10 +90,16 @@ class ValueWriter {
   Outcome add(const Finder::Found& found, const Plan::Block& block, const std::vector<std::size_t>& order,
               std::size_t names) {
     const bool by_name = found.step->by_name;
-    if (found.count != (by_name ? names : block.count)) return Outcome::other_length;
+    if (block.is_sequence ? found.count > block.count : found.count != (by_name ? names : block.count))
+      return Outcome::other_length;
+    if (block.is_sequence) add_length(found.count);
     reader_.go_to(found.at);
     if (block.primitive == Primitive::string) return add_texts(found, block, by_name ? &order : nullptr);
     return add_numbers(found, block, by_name ? &order : nullptr);
+  }
+  void add_length(std::size_t count) {
+    const auto length = static_cast<std::uint32_t>(count);
+    put(&length, sizeof length);
   }
   std::vector<std::byte>& value() { return value_; }
 
@@ -101,11 +109,11 @@ class ValueWriter {
     const Primitive source = found.step->type.primitive;
     const auto bytes = reader_.numbers(size_of(source), found.count);
     const std::size_t first = value_.size(), size = size_of(block.primitive);
-    value_.resize(first + size * block.count);
+    const std::size_t count = block.is_sequence ? found.count : block.count;
+    value_.resize(first + size * count);
     bool good = true;
-    if (order == nullptr)
-      good = convert(source, bytes.data(), reader_.swapped(), block.primitive, value_.data() + first,
-                     block.count);
+    if (order == nullptr && count > 0)
+      good = convert(source, bytes.data(), reader_.swapped(), block.primitive, value_.data() + first, count);
     for (std::size_t index = 0; order != nullptr && index < block.count; ++index)
       good = convert(source, bytes.data() + (*order)[index] * size_of(source), reader_.swapped(),
                      block.primitive, value_.data() + first + index * size, 1) &&
@@ -117,7 +125,8 @@ class ValueWriter {
                     const std::vector<std::size_t>* order) {
     std::vector<std::string_view> texts(found.count);
     for (std::string_view& text : texts) text = reader_.text();
-    for (std::size_t index = 0; index < block.count; ++index) {
+    const std::size_t count = block.is_sequence ? found.count : block.count;
+    for (std::size_t index = 0; index < count; ++index) {
       const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
       if (text.size() > block.capacity) return Outcome::other_length;
       const auto length = static_cast<std::uint32_t>(text.size());
@@ -136,21 +145,40 @@ class ValueWriter {
   std::vector<std::byte> value_;
 };
 
+/// The number that begins a sequence of the buffer.
+std::uint32_t length_of(std::span<const std::byte> part) {
+  std::uint32_t length = 0;
+  if (part.size() >= sizeof length) std::memcpy(&length, part.data(), sizeof length);
+  return length;
+}
+
 /// The positions of the blocks of a value; nullopt: the bytes are not such a value.
 std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
     std::span<const std::byte> value, const std::vector<Plan::Block>& blocks) {
   std::vector<std::span<const std::byte>> parts;
   parts.reserve(blocks.size());
   for (const Plan::Block& block : blocks) {
+    if (block.sequence && block.element >= length_of(parts[*block.sequence])) {
+      parts.emplace_back();  // the sequence does not have that element
+      continue;
+    }
     std::size_t size = 0;
-    if (block.primitive != Primitive::string) size = size_of(block.primitive) * block.count;
-    for (std::uint32_t index = 0; block.primitive == Primitive::string && index < block.count; ++index) {
+    std::uint32_t count = block.count;
+    if (block.is_sequence) {
+      if (value.size() < sizeof count) return std::nullopt;
+      count = length_of(value);
+      if (count > block.count) return std::nullopt;
+      size = sizeof count;
+    }
+    if (block.primitive != Primitive::string) size += size_of(block.primitive) * count;
+    for (std::uint32_t index = 0; block.primitive == Primitive::string && index < count; ++index) {
       std::uint32_t length = 0;
       if (value.size() < size + sizeof length) return std::nullopt;
       std::memcpy(&length, value.data() + size, sizeof length);
       size += sizeof length + length;
     }
     if (size > value.size()) return std::nullopt;
+    if (block.is_length && length_of(value) > block.capacity) return std::nullopt;
     parts.push_back(value.first(size));
     value = value.subspan(size);
   }
@@ -200,22 +228,31 @@ class MessageWriter {
   [[nodiscard]] std::size_t count_of(const Plan::Step& step) const {
     if (step.type.repeat == Type::Repeat::once) return 1;
     if (step.type.repeat == Type::Repeat::array) return step.type.count;
-    if (step.block) return blocks_[*step.block].count;
+    if (step.block) return count_of(*step.block);
+    if (step.length) return length_of(parts_[*step.length]);
     if (step.per_element) return step.members.size();
     return step.fill == Plan::Fill::names ? names_.size() : step.defaults.size();
   }
 
+  /// The number of elements in the value.
+  [[nodiscard]] std::size_t count_of(std::size_t block) const {
+    return blocks_[block].is_sequence ? length_of(parts_[block]) : blocks_[block].count;
+  }
+
   void write_block(const Type& type, std::size_t number) {
     const Plan::Block& block = blocks_[number];
-    const std::span<const std::byte> part = parts_[number];
+    const std::size_t count = count_of(number);
+    const std::span<const std::byte> part =
+        parts_[number].subspan(block.is_sequence ? sizeof(std::uint32_t) : 0);
+    if (count == 0) return;
     if (type.primitive != Primitive::string) {
-      std::byte* const to = writer_.numbers(size_of(type.primitive), block.count);
+      std::byte* const to = writer_.numbers(size_of(type.primitive), count);
       // A bool of a buffer may be any byte that the compiler takes for true; the message gets 0 or 1.
-      static_cast<void>(convert(block.primitive, part.data(), false, type.primitive, to, block.count));
+      static_cast<void>(convert(block.primitive, part.data(), false, type.primitive, to, count));
       return;
     }
     std::size_t at = 0;
-    for (std::uint32_t index = 0; index < block.count; ++index) {
+    for (std::size_t index = 0; index < count; ++index) {
       std::uint32_t length = 0;
       std::memcpy(&length, part.data() + at, sizeof length);
       at += sizeof length;
@@ -302,7 +339,13 @@ Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::
       put_number(*number, blocks_[block], writer.value());
       continue;
     }
-    const Outcome outcome = writer.add(finder.blocks()[block], blocks_[block], order, finder.names().count);
+    const Block& one = blocks_[block];
+    if (one.is_length) {
+      writer.add_length(finder.blocks()[block].count);
+      continue;
+    }
+    if (one.sequence && one.element >= finder.blocks()[*one.sequence].count) continue;
+    const Outcome outcome = writer.add(finder.blocks()[block], one, order, finder.names().count);
     if (outcome != Outcome::good) return outcome;
   }
   value = std::move(writer.value());
@@ -316,9 +359,11 @@ std::vector<std::byte> Plan::empty_value(std::span<const std::uint64_t> own) con
       put_number(*number, blocks_[block], value);
       continue;
     }
+    if (blocks_[block].sequence) continue;  // which is empty
     const bool text = blocks_[block].primitive == Primitive::string;
     const std::size_t one = text ? sizeof(std::uint32_t) : size_of(blocks_[block].primitive);
-    value.resize(value.size() + one * blocks_[block].count);
+    value.resize(value.size() +
+                 (blocks_[block].is_sequence ? sizeof(std::uint32_t) : one * blocks_[block].count));
   }
   return value;
 }

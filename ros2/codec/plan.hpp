@@ -72,7 +72,7 @@ class Plan {
   enum class Outcome : std::uint8_t {
     good,
     malformed,     ///< no such message: too short, too long, a bool of 2 ...
-    other_length,  ///< a sequence or string has another length than the buffer
+    other_length,  ///< a sequence or string has another length than the buffer, or one too great for it
     other_names    ///< one of Mapping::names is missing, or is there twice
   };
   /// The value is unchanged unless the outcome is good. Reads any bytes safely.
@@ -92,10 +92,15 @@ class Plan {
   [[nodiscard]] bool encode(std::span<const std::byte> value, const Stamp& stamp,
                             std::vector<std::byte>& message) const;
 
-  /// Numbers and texts of the buffer, in its order; an array of numbers is one block.
+  /// Numbers and texts of the buffer, in its order; an array of numbers is one block. A sequence of structures
+  /// is a block for its length, then those of all elements that it can have.
   struct Block {
     Primitive primitive = Primitive::boolean;
     std::uint32_t count = 1, capacity = 0;
+    bool is_sequence = false;               ///< its length comes first, and `count` is the largest
+    bool is_length = false;                 ///< of a sequence of structures
+    std::optional<std::size_t> sequence{};  ///< in an element of a sequence: the block of its length
+    std::uint32_t element = 0;              ///< the number of that element
   };
   enum class Fill : std::uint8_t { nothing, stamp_sec, stamp_nanosec, frame_id, names };
   /// A field of the message, or an element of it.
@@ -103,8 +108,10 @@ class Plan {
     Type type;
     std::optional<std::size_t> block{};  ///< the corresponding part of the buffer
     Fill fill = Fill::nothing;
-    bool by_name = false;       ///< its elements are in the order of Mapping::names
-    bool per_element = false;   ///< `members` has one step for each element of an array of messages
+    bool by_name = false;      ///< its elements are in the order of Mapping::names
+    bool per_element = false;  ///< `members` has one step for each element of an array of messages
+    std::optional<std::size_t>
+        length{};               ///< per element of a sequence of the buffer: the block of its length
     std::vector<Step> members;  ///< for a message
     std::vector<Literal> defaults{};
   };

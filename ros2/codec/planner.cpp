@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 #include <set>
+#include <utility>
 
 #include "ros2/codec/cdr.hpp"
 #include "ros2/codec/plan.hpp"
@@ -58,7 +59,7 @@ class Planner {
     plan_.names_ = mapping_.names;
     plan_.frame_id_ = mapping_.frame_id;
     plan_.steps_ = steps_of(*plan_.message_);
-    number_blocks(value_, "");
+    number_blocks(value_, "", {});
     if (plan_.blocks_.size() >= most_blocks) {
       wrong("the buffer has too many structures", "use arrays of numbers");
       return std::nullopt;
@@ -99,19 +100,42 @@ class Planner {
     return true;
   }
 
+  /// The element of a sequence in which a part of the buffer lies, if it lies in one.
+  struct Element {
+    std::optional<std::size_t> sequence{};  ///< the block of its length
+    std::uint32_t number = 0;
+  };
+
   /// The blocks of the buffer, and their number by path: "v", "poses[2].x".
-  void number_blocks(const ValueType& type, const std::string& path) {
+  void number_blocks(const ValueType& type, const std::string& path, const Element& element) {
     if (plan_.blocks_.size() >= most_blocks) return;
     if (type.primitive != Primitive::structure) {
-      block_of_.emplace(path, plan_.blocks_.size());
-      paths_.push_back(path);
-      plan_.blocks_.push_back({type.primitive, std::max(type.count, 1U), type.capacity});
+      add_block(path, {.primitive = type.primitive,
+                       .count = std::max(type.count, 1U),
+                       .capacity = type.capacity,
+                       .is_sequence = type.is_sequence,
+                       .sequence = element.sequence,
+                       .element = element.number});
       return;
+    }
+    std::optional<std::size_t> length;
+    if (type.is_sequence) {
+      length = plan_.blocks_.size();
+      add_block(length_path(path),
+                {.primitive = Primitive::uint32, .capacity = type.count, .is_length = true});
     }
     for (std::uint32_t index = 0; index < std::max(type.count, 1U); ++index)
       for (const ValueType::Member& member : type.members)
-        number_blocks(member.type, member_path(element_path(path, type, index), member.name));
+        number_blocks(member.type, member_path(element_path(path, type, index), member.name),
+                      length ? Element{length, index} : element);
   }
+  void add_block(const std::string& path, Plan::Block block) {
+    block_of_.emplace(path, plan_.blocks_.size());
+    paths_.push_back(path);
+    plan_.blocks_.push_back(std::move(block));
+  }
+  /// No field has such a name.
+  static std::string length_path(const std::string& path) { return path + "#"; }
   static std::string element_path(const std::string& path, const ValueType& type, std::uint32_t index) {
     return type.count == 0 ? path : path + "[" + std::to_string(index) + "]";
   }
@@ -214,21 +238,126 @@ class Planner {
   void map_as_told() {
     for (const auto& [of_message, of_value] : mapping_.fields) {
       subject_ = of_message;
-      Plan::Step* const step = step_at(of_message);
-      const ValueType* const value = step == nullptr ? nullptr : value_at(of_value);
-      if (value != nullptr) match(*value, of_value, *step, of_message);
+      if (!match_in_elements(of_message, of_value)) match_whole(of_message, of_value);
     }
     subject_.clear();
   }
 
-  Plan::Step* step_at(const std::string& path) {
+  void match_whole(const std::string& of_message, const std::string& of_value) {
+    Plan::Step* const step = step_at(of_message, plan_.steps_, *plan_.message_);
+    const ValueType* const value = step == nullptr ? nullptr : value_at(of_value, value_);
+    if (value != nullptr) match(*value, of_value, *step, of_message);
+  }
+
+  /// A path through an array of messages, and one through an array of the buffer: "boxes.center.x" and "x".
+  /// The field is that of every element. false: the path of the message leads through no array.
+  bool match_in_elements(const std::string& of_message, const std::string& of_value) {
+    const auto array = array_in(of_message);
+    if (!array) return false;
+    const auto elements = elements_in(of_value);
+    if (!elements) {
+      wrong("the field " + in_quotes(of_message) + " lies in the array " + in_quotes(array->path) + ", and " +
+                shown(of_value) + " in none",
+            "give the buffer an array of structures, such as Element<=16, for the whole array");
+      return true;
+    }
+    if (!divide(*elements->type, elements->path, *array->step, array->path)) return true;
+    ValueType element = *elements->type;
+    element.count = 0;
+    element.is_sequence = false;
+    const std::size_t before = problems_.size();
+    for (std::uint32_t index = 0; index < elements->type->count && problems_.size() == before; ++index) {
+      Plan::Step* const step =
+          step_at(array->rest, array->step->members[index].members, *array->step->type.structure);
+      const ValueType* const value = step == nullptr ? nullptr : value_at(elements->rest, element);
+      if (value == nullptr) break;
+      std::string path = element_path(elements->path, *elements->type, index);
+      if (!elements->rest.empty()) path = member_path(path, elements->rest);
+      match(*value, path, *step, of_message);
+    }
+    return true;
+  }
+
+  struct ArrayOfMessage {
+    Plan::Step* step;
+    std::string path, rest;  ///< of the array; inside its elements
+  };
+  /// The first array of messages through which the path leads, to something inside.
+  std::optional<ArrayOfMessage> array_in(const std::string& path) {
     std::vector<Plan::Step>* steps = &plan_.steps_;
     const Structure* structure = plan_.message_.get();
+    std::string way, rest = path;
+    for (const std::string& part : split_path(path)) {
+      Plan::Step* const step = structure == nullptr ? nullptr : find_step(*steps, *structure, part);
+      if (step == nullptr) return std::nullopt;
+      way = member_path(way, part);
+      rest = rest.substr(std::min(part.size() + 1, rest.size()));
+      if (step->type.structure != nullptr && step->type.repeat != Type::Repeat::once)
+        return rest.empty() ? std::nullopt : std::optional(ArrayOfMessage{step, way, rest});
+      steps = &step->members;
+      structure = step->type.structure.get();
+    }
+    return std::nullopt;
+  }
+
+  struct ElementsOfBuffer {
+    const ValueType* type;
+    std::string path, rest;
+  };
+  /// The first array of structures of the buffer through which the path leads, or to which it leads.
+  [[nodiscard]] std::optional<ElementsOfBuffer> elements_in(const std::string& path) const {
+    const ValueType* type = &value_;
+    std::string way, rest = path;
+    for (const std::string& part : split_path(path)) {
+      if (type->count > 0) break;
+      const ValueType::Member* const member = type->find(part);
+      if (member == nullptr) return std::nullopt;
+      type = &member->type;
+      way = member_path(way, part);
+      rest = rest.substr(std::min(part.size() + 1, rest.size()));
+    }
+    if (type->count == 0 || type->primitive != Primitive::structure) return std::nullopt;
+    return ElementsOfBuffer{type, way, rest};
+  }
+
+  /// Gives an array of messages a step for each element of the array of the buffer. false: they do not fit,
+  /// which has been said.
+  bool divide(const ValueType& value, const std::string& value_path, Plan::Step& step,
+              const std::string& message_path) {
+    if (step.per_element) {
+      if (divided_.at(&step) == value_path) return true;
+      wrong(in_quotes(message_path) + " corresponds to " + shown(divided_.at(&step)) + " and to " +
+            shown(value_path));
+      return false;
+    }
+    if (!same_shape(value, value_path, step, message_path)) return false;
+    step.per_element = true;
+    divided_.emplace(&step, value_path);
+    Plan::Step one;
+    one.type = step.type;
+    one.members = std::move(step.members);
+    one.type.repeat = Type::Repeat::once;
+    step.members.assign(value.count, one);
+    if (!value.is_sequence) return true;
+    step.length = block_of_.at(length_path(value_path));
+    if (!used_.insert(*step.length).second && receives_) {
+      wrong("two arrays of the message for " + shown(value_path));
+      return false;
+    }
+    return true;
+  }
+
+  Plan::Step* step_at(const std::string& path, std::vector<Plan::Step>& first, const Structure& root) {
+    std::vector<Plan::Step>* steps = &first;
+    const Structure* structure = &root;
     Plan::Step* step = nullptr;
     for (const std::string& part : split_path(path)) {
       if (structure == nullptr) {
-        wrong("the field " + in_quotes(path) + " lies in an array, or in a number",
-              "name the array as a whole, and give the buffer an array of structures");
+        wrong("the field " + in_quotes(path) +
+                  (step->type.structure == nullptr ? " lies in a number or text"
+                                                   : " lies in an array that is inside of another"),
+              step->type.structure == nullptr ? "leave out what stands behind it"
+                                              : "a buffer cannot hold arrays of arrays");
         return nullptr;
       }
       step = find_step(*steps, *structure, part);
@@ -244,14 +373,18 @@ class Planner {
     return step;
   }
 
-  const ValueType* value_at(const std::string& path) {
-    const ValueType* value = &value_;
+  const ValueType* value_at(const std::string& path, const ValueType& root) {
+    const ValueType* value = &root;
     for (const std::string& part : split_path(path)) {
       const ValueType::Member* const member = value->count == 0 ? value->find(part) : nullptr;
       if (member == nullptr) {
-        wrong("the buffer has no field " + in_quotes(path),
-              value->members.empty() ? "its type is " + value->text()
-                                     : hint_of(part, member_names(*value), "the buffer"));
+        wrong(
+            "the buffer has no field " + in_quotes(path),
+            value->members.empty() ? Hint("its type is " + value->text())
+            : value->count > 0
+                ? Hint("it is an array: begin the field of the message with that of its array, as in array." +
+                       part)
+                : hint_of(part, member_names(*value), "the buffer"));
         return nullptr;
       }
       value = &member->type;
@@ -270,6 +403,7 @@ class Planner {
 
   void match_members(const ValueType& value, const std::string& value_path, std::vector<Plan::Step>& steps,
                      const Structure& structure, const std::string& message_path) {
+    std::set<std::string> proposed;
     for (const ValueType::Member& member : value.members) {
       if (value_path.empty() && is_own(member.name)) continue;
       if (Plan::Step* const step = find_step(steps, structure, member.name))
@@ -277,12 +411,26 @@ class Planner {
               member_path(message_path, member.name));
       else
         wrong(in_quotes(structure.name) + " has no field " + in_quotes(member.name),
-              did_you_mean(member.name, field_names(structure)).empty()
-                  ? "say which fields correspond: fields: { " +
-                        (structure.fields.empty() ? "x" : structure.fields.front().name) + ": " +
-                        member.name + " }"
-                  : did_you_mean(member.name, field_names(structure)));
+              missing_member_hint(member, value_path, structure, message_path, proposed));
     }
+  }
+
+  /// For a field of the buffer that the message does not have by that name at that place. proposed: the fields
+  /// of the message that hints have named.
+  [[nodiscard]] Hint missing_member_hint(const ValueType::Member& member, const std::string& value_path,
+                                         const Structure& structure, const std::string& message_path,
+                                         std::set<std::string>& proposed) const {
+    std::string found = find_inside(member, structure, /*by_name=*/true, {});
+    if (Hint guess = did_you_mean(member.name, field_names(structure)); found.empty() && !guess.empty())
+      return guess;
+    if (found.empty()) found = find_inside(member, structure, /*by_name=*/false, proposed);
+    if (found.empty()) return hint_of(member.name, field_names(structure), structure.name);
+    proposed.insert(found);
+    std::string of_value = member_path(value_path, member.name);
+    for (std::size_t open = 0; (open = of_value.find('[')) != std::string::npos;)
+      of_value.erase(open, of_value.find(']') + 1 - open + (open == 0 ? 1 : 0));
+    return "say which fields correspond: fields: { " + member_path(message_path, found) + ": " + of_value +
+           " }";
   }
 
   void match_structures(const ValueType& value, const std::string& value_path, Plan::Step& step,
@@ -291,12 +439,12 @@ class Planner {
     if (!same_shape(value, value_path, step, message_path)) return;
     const Structure& structure = *step.type.structure;
     if (value.count == 0) return match_members(value, value_path, step.members, structure, message_path);
-    step.per_element = true;
-    Plan::Step one;
-    one.type = step.type;
-    one.members = std::move(step.members);
-    one.type.repeat = Type::Repeat::once;
-    step.members.assign(value.count, one);
+    if (const std::string fields = fields_of_elements(value, value_path, structure, message_path);
+        !fields.empty())
+      return wrong("the elements of " + in_quotes(message_path) + " do not have the fields of those of " +
+                       shown(value_path),
+                   fields);
+    if (!divide(value, value_path, step, message_path)) return;
     const std::size_t before = problems_.size();
     for (std::uint32_t index = 0; index < value.count && problems_.size() == before; ++index)
       match_members(value, element_path(value_path, value, index), step.members[index].members, structure,
@@ -320,7 +468,7 @@ class Planner {
     step.block = block;
     step.by_name = !mapping_.names.empty() && step.type.repeat == Type::Repeat::sequence &&
                    message_path.find('.') == std::string::npos;
-    if (step.by_name && value.count != mapping_.names.size())
+    if (step.by_name && (value.is_sequence || value.count != mapping_.names.size()))
       wrong("there are " + std::to_string(mapping_.names.size()) + " names, and " + shown(value_path) +
             " is " + value.text());
   }
@@ -332,10 +480,12 @@ class Planner {
   bool same_shape(const ValueType& value, const std::string& value_path, const Plan::Step& step,
                   const std::string& message_path) {
     using Repeat = Type::Repeat;
+    // A sequence of the buffer takes a message's sequence of any bound: what is too long is dropped.
+    const bool bounded_enough = step.type.count == 0 || value.count <= step.type.count;
     const bool fits = step.type.repeat == Repeat::once ? value.count == 0
                       : step.type.repeat == Repeat::array
-                          ? value.count == step.type.count
-                          : value.count > 0 && (step.type.count == 0 || value.count <= step.type.count);
+                          ? value.count == step.type.count && !value.is_sequence
+                          : value.count > 0 && (bounded_enough || (value.is_sequence && receives_));
     if (!fits) differ(value, value_path, step, message_path);
     return fits;
   }
@@ -348,22 +498,97 @@ class Planner {
           fitting_type(step));
   }
 
+  /// For an element of the buffer with a field that the element of the message does not have: a hint with the
+  /// entries of `fields` for the whole element. A field is that of the same name and a type that fits, wherever
+  /// it lies in the element, or else the first one of such a type. Empty: no field is missing, or one has no
+  /// such type.
+  [[nodiscard]] std::string fields_of_elements(const ValueType& value, const std::string& value_path,
+                                               const Structure& structure,
+                                               const std::string& message_path) const {
+    if (value_path.find('[') != std::string::npos) return {};  // an array in an element has no names
+    std::string entries;
+    bool missing = false, guessed = false;
+    std::set<std::string> used;
+    for (const bool by_name : {true, false})
+      for (const ValueType::Member& member : value.members) {
+        const std::string named = find_inside(member, structure, /*by_name=*/true, {});
+        if (named.empty() == by_name) continue;
+        const std::string found = by_name ? named : find_inside(member, structure, /*by_name=*/false, used);
+        if (found.empty()) return {};
+        used.insert(found);
+        missing = missing || found != member.name;
+        guessed = guessed || !by_name;
+        entries += (entries.empty() ? "" : ", ") + message_path + "." + found + ": " +
+                   member_path(value_path, member.name);
+      }
+    if (!missing) return {};
+    const std::string example = guessed ? ", for example" : value_path.empty() ? ":" : "";
+    return value_path.empty() ? "say which fields correspond" + example + " fields: { " + entries + " }"
+                              : "say which ones correspond" + example + (guessed ? "" : ",") +
+                                    " beside the others in `fields`: { " + entries + " }";
+  }
+
+  /// The path of the nearest field with a type that fits the member, and with its name if `by_name`; empty:
+  /// there is none. without: paths that do not count.
+  [[nodiscard]] std::string find_inside(const ValueType::Member& member, const Structure& structure,
+                                        bool by_name, const std::set<std::string>& without) const {
+    constexpr int deepest = 8;
+    std::vector<std::pair<const Structure*, std::string>> level{{&structure, ""}};
+    for (int depth = 0; depth < deepest && !level.empty(); ++depth) {
+      std::vector<std::pair<const Structure*, std::string>> below;
+      for (const auto& [one, path] : level)
+        for (const Field& field : one->fields) {
+          const std::string here = member_path(path, field.name);
+          if ((!by_name || field.name == member.name) && may_fit(member.type, field.type) &&
+              !without.contains(here))
+            return here;
+          if (field.type.structure != nullptr && field.type.repeat == Type::Repeat::once)
+            below.emplace_back(field.type.structure.get(), here);
+        }
+      level = std::move(below);
+    }
+    return {};
+  }
+
+  [[nodiscard]] bool may_fit(const ValueType& value, const Type& type) const {
+    if ((value.count > 0) != (type.repeat != Type::Repeat::once)) return false;
+    if (value.primitive == Primitive::structure || type.primitive == Primitive::structure)
+      return value.primitive == type.primitive;
+    return receives_ ? converts_exactly(type.primitive, value.primitive)
+                     : converts_exactly(value.primitive, type.primitive);
+  }
+
   [[nodiscard]] std::string fitting_type(const Plan::Step& step) const {
-    if (step.type.primitive == Primitive::structure)
+    if (step.type.primitive == Primitive::structure) {
+      const std::string name = step.type.refers.substr(step.type.refers.rfind('/') + 1);
+      if (step.type.repeat == Type::Repeat::sequence)
+        return "it is a sequence: a buffer such as Element<=16, where Element is a structure with fields "
+               "of " +
+               name + ", does";
+      if (step.type.repeat == Type::Repeat::array)
+        return "it is an array: a buffer Element[" + std::to_string(step.type.count) +
+               "], where Element is a structure with fields of " + name + ", does";
       return "map its fields one by one, or give the buffer a structure";
+    }
     std::string type = name_of(step.type.primitive);
     if (step.type.string_bound > 0) type += "<=" + std::to_string(step.type.string_bound);
     if (step.type.repeat == Type::Repeat::array) type += "[" + std::to_string(step.type.count) + "]";
     if (step.type.repeat == Type::Repeat::sequence)
-      type += step.type.count > 0 ? "[" + std::to_string(step.type.count) + "]" : "[N], with a number for N";
-    return "a buffer of type " + type + " does";
+      type += step.type.count > 0 ? "<=" + std::to_string(step.type.count) : "<=16";
+    return "a buffer of type " + type + " does" +
+           (step.type.repeat == Type::Repeat::sequence
+                ? ": it has 0 to " +
+                      std::to_string(step.type.count > 0 ? step.type.count : std::uint32_t{16}) + " elements"
+                : "");
   }
 
   /// A part of the buffer that is silently left out would be worse than an error.
   void complain_of_rest() {
     for (std::size_t block = 0; block < plan_.blocks_.size(); ++block)
       if (!used_.contains(block))
-        return wrong("no field of the message corresponds to " + shown(paths_[block]), "name it in `fields`");
+        return wrong("no field of the message corresponds to " +
+                         shown(paths_[block].substr(0, paths_[block].find('#'))),
+                     "name it in `fields`");
     if (plan_.blocks_.empty()) wrong("the buffer has no fields");
   }
 
@@ -374,6 +599,7 @@ class Planner {
   Plan plan_;
   std::string subject_;
   std::map<std::string, std::size_t> block_of_;
+  std::map<const Plan::Step*, std::string> divided_;  ///< the array of the buffer for an array of messages
   std::vector<std::string> paths_;
   std::set<std::size_t> used_;
 };

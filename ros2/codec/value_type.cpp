@@ -38,6 +38,7 @@ class ValueTypeReader {
     ValueType type;
     if (left_.starts_with('{') ? !read_members(type, depth) : !read_scalar(type)) return std::nullopt;
     if (!skip("[")) return type;
+    type.is_sequence = skip("<=");
     const auto count = number();
     if (!count || *count == 0 || !skip("]")) return std::nullopt;
     type.count = *count;
@@ -83,8 +84,10 @@ class ValueTypeReader {
 std::string ValueType::text() const {
   std::string text = primitive == Primitive::structure ? "a structure" : name_of(primitive);
   if (primitive == Primitive::string) text += "<=" + std::to_string(capacity);
-  if (count > 0 && primitive == Primitive::structure) return std::to_string(count) + " structures";
-  return count > 0 ? text + "[" + std::to_string(count) + "]" : text;
+  if (count > 0 && primitive == Primitive::structure)
+    return (is_sequence ? "at most " : "") + std::to_string(count) + " structures";
+  if (count == 0) return text;
+  return text + (is_sequence ? "<=" + std::to_string(count) : "[" + std::to_string(count) + "]");
 }
 
 const ValueType::Member* ValueType::find(std::string_view name) const {

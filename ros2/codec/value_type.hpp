@@ -16,6 +16,7 @@ struct ValueType {
   Primitive primitive = Primitive::boolean;
   std::uint32_t capacity = 0;  ///< of a string, in bytes
   std::uint32_t count = 0;     ///< elements of an array; 0: no array
+  bool is_sequence = false;    ///< an array of 0 to `count` elements
   struct Member;
   std::vector<Member> members;
 

@@ -9,6 +9,7 @@ namespace {
 constexpr std::size_t longest_dds_name = 256;
 constexpr int deepest_history = 10000;
 constexpr std::string_view service_folder = "/srv/";
+constexpr std::string_view action_folder = "/action/";
 
 bool is_letter(char c) { return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); }
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
@@ -93,6 +94,8 @@ std::string request_type(std::string_view service_type) { return std::string(ser
 std::string response_type(std::string_view service_type) { return std::string(service_type) + "_Response"; }
 
 bool is_service_type(std::string_view type) { return type.find(service_folder) != std::string_view::npos; }
+
+bool is_action_type(std::string_view type) { return type.find(action_folder) != std::string_view::npos; }
 
 std::optional<std::string> full_service_name(std::string_view written) {
   const std::size_t folder = written.find(service_folder);

@@ -17,6 +17,8 @@ namespace tessera::ros2 {
 [[nodiscard]] std::optional<std::string> full_message_name(std::string_view written);
 /// Whether the type is a service: "std_srvs/srv/SetBool".
 [[nodiscard]] bool is_service_type(std::string_view type);
+/// Whether the type is an action: "nav2_msgs/action/NavigateToPose".
+[[nodiscard]] bool is_action_type(std::string_view type);
 /// "std_srvs/srv/SetBool" for itself; nullopt: no such form.
 [[nodiscard]] std::optional<std::string> full_service_name(std::string_view written);
 /// "rq/enableRequest" and "rr/enableReply" for the service "/enable".

@@ -15,6 +15,9 @@ Buffer::Buffer(const DriverRequest& request)
   if (!layout)
     throw DeviceError("a device of the world cannot serve a buffer of this type",
                       "its size is not fixed, or its fields are unknown");
+  if (layout->has_sequences())
+    throw DeviceError("a device of the world cannot serve a buffer with sequences: " + type_,
+                      "give them a fixed length, such as float64[4]");
   fields_ = layout->paths();
   for (const std::string& type : layout->types())
     kinds_.push_back(type == "float64"   ? Kind::real

@@ -68,12 +68,19 @@ std::string type_name(const spec::Model& model, const spec::Type& type,
                       const std::set<std::string_view>& hidden) {
   std::string element = element_name(model, type, hidden);
   if (type.extent == 0) return element;
+  if (type.is_sequence)
+    return fmt::format("tessera::{}<{}, {}>", is_large(type) ? "LargeSequence" : "BoundedSequence", element,
+                       type.extent);
   return fmt::format("{}<{}, {}>", is_large(type) ? "tessera::LargeArray" : "std::array", element,
                      type.extent);
 }
 
 void add_headers(const spec::Type& type, std::set<std::string>& headers) {
-  if (type.extent != 0) headers.insert(is_large(type) ? "<tessera/large_array.hpp>" : "<array>");
+  if (type.extent != 0)
+    headers.insert(type.is_sequence
+                       ? (is_large(type) ? "<tessera/large_sequence.hpp>" : "<tessera/bounded_sequence.hpp>")
+                   : is_large(type) ? "<tessera/large_array.hpp>"
+                                    : "<array>");
   if (type.kind == spec::Type::Kind::string) headers.insert("<tessera/bounded_string.hpp>");
   if (type.kind == spec::Type::Kind::scalar && type.scalar >= spec::Scalar::int8 &&
       type.scalar <= spec::Scalar::uint64)

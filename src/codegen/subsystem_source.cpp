@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <optional>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "codegen/conditions.hpp"
 #include "codegen/cpp_text.hpp"
@@ -55,6 +58,31 @@ std::string bind_limit(const spec::Subsystem& subsystem, const spec::Limit& limi
       fmt::join(members, ", "));
 }
 
+/// "tessera::all_finite(value.velocity) && ...": the parts of a real buffer that must be finite.
+void add_finite_parts(const Project& project, const spec::Subsystem& subsystem, spec::RealId at,
+                      const spec::Type& type, const std::string& field, std::vector<std::string>& parts) {
+  if (subsystem.divides_non_finite(at, field)) {
+    for (const spec::Field& member : project.model.structures[type.structure].fields)
+      add_finite_parts(project, subsystem, at, member.type,
+                       field.empty() ? member.name : field + "." + member.name, parts);
+  } else if (!subsystem.may_be_non_finite(at, field)) {
+    parts.push_back(fmt::format("tessera::all_finite(value{}{})", field.empty() ? "" : ".", field));
+  }
+}
+
+/// nullopt: all numbers of the buffer must be finite, as those of every buffer.
+std::optional<std::string> bind_non_finite(const Project& project, const spec::Subsystem& subsystem,
+                                           spec::RealId at) {
+  if (!subsystem.divides_non_finite(at, "") && !subsystem.may_be_non_finite(at, "")) return std::nullopt;
+  std::vector<std::string> parts;
+  add_finite_parts(project, subsystem, at, subsystem.real[at].type, "", parts);
+  if (parts.empty())
+    return fmt::format("bindings.only_finite(out.{}, [](const auto&) {{ return true; }});",
+                       subsystem.real[at].name);
+  return fmt::format("bindings.only_finite(out.{}, [](const auto& value) {{ return {}; }});",
+                     subsystem.real[at].name, fmt::join(parts, " && "));
+}
+
 std::string bind(const Project& project, const Unit& unit) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   std::vector<std::string> lines;
@@ -63,6 +91,8 @@ std::string bind(const Project& project, const Unit& unit) {
   if (whole) lines.emplace_back("yours::Real& real = bindings.all_real<yours::Real>();");
   for (const spec::RealId at : subsystem.real.ids()) {
     lines.push_back(bind_real(project, subsystem, at, whole));
+    if (subsystem.kind == SubsystemKind::effector)
+      if (auto non_finite = bind_non_finite(project, subsystem, at)) lines.push_back(std::move(*non_finite));
     for (const spec::Limit& limit : subsystem.limits)
       if (limit.real == at) lines.push_back(bind_limit(subsystem, limit));
   }

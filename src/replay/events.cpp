@@ -156,10 +156,10 @@ class Columns {
   Columns(const Recording& recording, const std::string& filter) {
     for (const Recording::Buffer& buffer : recording.buffers) {
       if (buffer.path.find(filter) == std::string::npos) continue;
-      if (const auto layout = ValueLayout::parse(buffer.type))
-        for (const std::string& path : layout->paths())
-          if (wanted(path) && columns_.emplace(name(path), names_.size()).second)
-            names_.push_back(name(path));
+      const auto layout = ValueLayout::parse(buffer.type);
+      if (!layout) continue;
+      for (const std::string& path : layout->sequences()) add(length_path(path));
+      for (const std::string& path : layout->paths()) add(name(path));
     }
   }
   [[nodiscard]] std::string head() const {
@@ -170,10 +170,12 @@ class Columns {
   [[nodiscard]] std::string row(const ValueTrack::Change& change) const {
     std::vector<std::string> cells(names_.size());
     if (!change.hashed && change.layout != nullptr)
-      static_cast<void>(change.layout->visit(change.bytes, [&](const std::string& path, const auto& scalar) {
-        if (const auto column = columns_.find(name(path)); column != columns_.end())
-          cells[column->second] = quoted_field(scalar.shown());
-      }));
+      static_cast<void>(change.layout->visit(
+          change.bytes,
+          [&](const std::string& path, const auto& scalar) { put(cells, name(path), scalar.shown()); },
+          [&](const std::string& path, std::size_t length) {
+            put(cells, length_path(path), std::to_string(length));
+          }));
     std::string text;
     for (const std::string& cell : cells) text += ',' + cell;
     return text;
@@ -181,6 +183,13 @@ class Columns {
 
  private:
   static constexpr std::size_t most_elements = 16;
+  void add(const std::string& name) {
+    if (wanted(name) && columns_.emplace(name, names_.size()).second) names_.push_back(name);
+  }
+  void put(std::vector<std::string>& cells, const std::string& name, const std::string& text) const {
+    if (const auto column = columns_.find(name); column != columns_.end())
+      cells[column->second] = quoted_field(text);
+  }
   static std::string name(const std::string& path) { return path.empty() ? "value" : path; }
   static bool wanted(const std::string& path) {
     for (std::size_t at = path.find('['); at != std::string::npos; at = path.find('[', at + 1))

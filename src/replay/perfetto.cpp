@@ -126,15 +126,21 @@ class Writing {
       const std::string name = change->buffer.path.substr(agent.size() + 1);
       const TraceRow row = rows_.at(recording_.instances[change->buffer.instance]);
       std::size_t shown = 0;
-      static_cast<void>(
-          change->layout->visit(change->bytes, [&](const std::string& path, const auto& scalar) {
-            if (scalar.kind == ValueLayout::Scalar::Kind::text || !std::isfinite(scalar.number)) return;
-            if (++shown > most_counters) return;
-            write({{"ph", "C"},
-                   {"name", path.empty() ? name : name + (path.front() == '[' ? "" : ".") + path},
-                   {"pid", row.process},
-                   {"ts", at_us},
-                   {"args", {{"value", scalar.number}}}});
+      const auto count = [&](const std::string& path, double value) {
+        if (!std::isfinite(value) || ++shown > most_counters) return;
+        write({{"ph", "C"},
+               {"name", path.empty() ? name : name + (path.front() == '[' ? "" : ".") + path},
+               {"pid", row.process},
+               {"ts", at_us},
+               {"args", {{"value", value}}}});
+      };
+      static_cast<void>(change->layout->visit(
+          change->bytes,
+          [&](const std::string& path, const auto& scalar) {
+            if (scalar.kind != ValueLayout::Scalar::Kind::text) count(path, scalar.number);
+          },
+          [&](const std::string& path, std::size_t length) {
+            count(length_path(path), static_cast<double>(length));
           }));
     }
   }

@@ -6,6 +6,10 @@
 
 namespace tessera::replay {
 
+std::string length_path(const std::string& sequence) {
+  return sequence.empty() ? "size()" : sequence + ".size()";
+}
+
 ValueTrack::ValueTrack(const Recording& recording) : recording_(recording), held_(recording.buffers.size()) {
   for (std::size_t buffer = 0; buffer < held_.size(); ++buffer)
     held_[buffer].layout = ValueLayout::parse(recording.buffers[buffer].type);

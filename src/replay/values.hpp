@@ -10,6 +10,9 @@
 
 namespace tessera::replay {
 
+/// The name under which the length of a sequence is shown: "boxes.size()"; "size()" if it is the whole value.
+[[nodiscard]] std::string length_path(const std::string& sequence);
+
 /// Follows the values of buffers through the entries of a recording.
 class ValueTrack {
  public:

@@ -177,7 +177,8 @@ TEST_F(Files, APathThatCMakeCannotHandleIsNamedAtOnce) {
        {Case{"a;b", "the character ;"}, Case{"a\"b", "the character \""}, Case{"a\\b", "the character \\"},
         Case{"a[b", "the character ["}, Case{"a]b", "the character ]"}, Case{"a|b", "the character |"},
         Case{"a`b", "the character `"}, Case{"a${b}", "the character $ before {"},
-        Case{"a\nb", "a control character (code 10)"}, Case{"a\tb", "a control character (code 9)"}}) {
+        Case{"a$(x)b", "the character $ before ("}, Case{"a\nb", "a control character (code 10)"},
+        Case{"a\tb", "a control character (code 9)"}}) {
     write(folder_ / one.name / "spec.yaml", small);
     const project::Exit done = project::capture(
         {TESSERA_BINARY_DIR "/tessera", "simulate", (folder_ / one.name).string(), "--for", "1s"});

@@ -38,7 +38,13 @@ MSG: fuzz/Nothing
 )";
 constexpr const char* rich_value =
     "{flag: bool, word: string(8), position: float64[2], pair: {a: int16, b: string(4), c: float64}[2], "
-    "three: float64[3], last: int64}";
+    "three: float64[3], parts: {b: string(4), a: int16}[<=3], few: int16[<=5], bytes: uint8[<=8], last: "
+    "int64}";
+/// With the types of the message, so that it can be sent.
+constexpr const char* same_value =
+    "{flag: bool, word: string(8), position: float64[2], pair: {a: int8, b: string(4), c: float64}[2], "
+    "three: float32[3], parts: {b: string(4), a: int8}[<=3], few: int16[<=3], bytes: uint8[<=8], last: "
+    "int64}";
 
 /// One definition, under any name.
 class OneText final : public Definitions {
@@ -65,9 +71,7 @@ const Case& rich_case() {
     if (message == nullptr || !value) std::abort();
     const Mapping mapping{{}, {"left", "right"}, ""};
     auto receive = Plan::make(message, *value, mapping, Direction::receive, problems);
-    const auto same = parse_value_type(
-        "{flag: bool, word: string(8), position: float64[2], pair: {a: int8, b: string(4), c: float64}[2], "
-        "three: float32[3], last: int64}");
+    const auto same = parse_value_type(same_value);
     auto send = Plan::make(message, *same, mapping, Direction::send, problems);
     if (!receive || !send) std::abort();
     return Case{*receive, *send};
@@ -81,11 +85,8 @@ void try_message(std::span<const std::byte> bytes) {
     std::vector<Mistake> mistakes;
     std::vector<MappingProblem> problems;
     const auto message = resolve("fuzz/msg/Rich", DefinitionBundle("fuzz/msg/Rich", rich_message), mistakes);
-    auto plan =
-        Plan::make(message,
-                   *parse_value_type("{flag: bool, word: string(8), position: float64[2], pair: {a: "
-                                     "int8, b: string(4), c: float64}[2], three: float32[3], last: int64}"),
-                   {{}, {"left", "right"}, ""}, Direction::receive, problems);
+    auto plan = Plan::make(message, *parse_value_type(same_value), {{}, {"left", "right"}, ""},
+                           Direction::receive, problems);
     return plan ? *plan : rich_case().receive;
   }();
   std::vector<std::byte> value, again, other;

@@ -98,6 +98,174 @@ TEST(Codec, WritesTheBytesOfOtherImplementations) {
   EXPECT_EQ(value, text);
 }
 
+/// An encoded value in the form of buffers: "2: 1.5 2.5".
+template <class... Numbers>
+Bytes sequence_of(Numbers... numbers) {
+  Bytes bytes = bytes_of(static_cast<std::uint32_t>(sizeof...(numbers)));
+  const Bytes elements = bytes_of(numbers...);
+  bytes.insert(bytes.end(), elements.begin(), elements.end());
+  return bytes;
+}
+
+TEST(Codec, SequencesOfNumbersHaveTheLengthThatTheyHave) {
+  const Wanted wanted{"int32 before\nfloat64[] data\nint8 behind",
+                      "{before: int32, data: float64[<=3], behind: int8}"};
+  const Plan sends = plan_of(wanted, Direction::send), receives = plan_of(wanted, Direction::receive);
+  for (const Bytes& data : {sequence_of(), sequence_of(1.5), sequence_of(1.5, 2.5, -3.0)}) {
+    Bytes value = bytes_of(std::int32_t{7}), message, back;
+    append(value, data.data(), data.size());
+    append(value, "\x05", 1);
+    ASSERT_TRUE(sends.encode(value, {}, message));
+    ASSERT_EQ(receives.decode(message, back), Plan::Outcome::good);
+    EXPECT_EQ(hex(back), hex(value));
+  }
+  Bytes too_many = bytes_of(std::int32_t{7}), message, back{std::byte{9}};
+  const Bytes four = sequence_of(1.0, 2.0, 3.0, 4.0);
+  append(too_many, four.data(), four.size());
+  append(too_many, "\x05", 1);
+  EXPECT_FALSE(sends.encode(too_many, {}, message)) << "no value of the buffer";
+  ASSERT_TRUE(
+      plan_of({wanted.definition, "{before: int32, data: float64[<=4], behind: int8}"}, Direction::send)
+          .encode(too_many, {}, message));
+  EXPECT_EQ(receives.decode(message, back), Plan::Outcome::other_length);
+  EXPECT_EQ(back, Bytes{std::byte{9}}) << "a message that is dropped changes nothing";
+}
+
+const std::string path_definition = R"(int32 id
+Pose[] poses
+string end
+================================================================================
+MSG: pkg/Pose
+string name
+Point at
+float64[] ignored
+================================================================================
+MSG: pkg/Point
+float64 x
+float64 y
+)";
+
+TEST(Codec, SequencesOfStructuresHaveZeroToTheirLargestLength) {
+  const std::string value_type =
+      "{id: int32, poses: {name: string(8), y: float64, x: float64}[<=16], end: string(4)}";
+  const std::string fields = "id=id, poses.name=poses.name, poses.at.x=poses.x, poses.at.y=poses.y, end=end";
+  const Plan sends = plan_of({path_definition, value_type, fields}, Direction::send);
+  const Plan receives = plan_of({path_definition, value_type, fields}, Direction::receive);
+  const auto value_of = [](std::uint32_t count) {
+    Bytes value = bytes_of(std::int32_t{-1}, count);
+    for (std::uint32_t index = 0; index < count; ++index) {
+      const std::string name(index % 9, 'a');
+      const Bytes length = bytes_of(static_cast<std::uint32_t>(name.size()));
+      append(value, length.data(), length.size());
+      append(value, name.data(), name.size());
+      const Bytes numbers = bytes_of(0.5 * index, -1.0 * index);
+      append(value, numbers.data(), numbers.size());
+    }
+    const Bytes end = bytes_of(std::uint32_t{2});
+    append(value, end.data(), end.size());
+    append(value, "ab", 2);
+    return value;
+  };
+  Bytes message, back;
+  for (std::uint32_t count = 0; count <= 16; ++count) {
+    ASSERT_TRUE(sends.encode(value_of(count), {}, message)) << count;
+    ASSERT_EQ(receives.decode(message, back), Plan::Outcome::good) << count;
+    EXPECT_EQ(hex(back), hex(value_of(count))) << count;
+  }
+  EXPECT_FALSE(sends.encode(value_of(17), {}, message));
+  const std::string longer =
+      "{id: int32, poses: {name: string(8), y: float64, x: float64}[<=17], end: string(4)}";
+  ASSERT_TRUE(plan_of({path_definition, longer, fields}, Direction::send).encode(value_of(17), {}, message));
+  EXPECT_EQ(receives.decode(message, back), Plan::Outcome::other_length);
+  EXPECT_EQ(hex(back), hex(value_of(16))) << "the last good one";
+  EXPECT_EQ(receives.empty_value({}).size(), 4U + 4U + 4U);
+}
+
+TEST(Codec, SequencesSurviveDamagedMessages) {
+  const std::string value_type = "{name: string(8), x: float64}[<=4]";
+  const std::string fields = "poses.name=name, poses.at.x=x";
+  const Plan receives = plan_of({path_definition, value_type, fields}, Direction::receive);
+  Bytes value = bytes_of(std::uint32_t{2}, std::uint32_t{0}, 1.0, std::uint32_t{1});
+  append(value, "a", 1);
+  const Bytes last = bytes_of(2.0);
+  append(value, last.data(), last.size());
+  Bytes message, back;
+  ASSERT_TRUE(plan_of({path_definition, value_type, fields}, Direction::send).encode(value, {}, message));
+  ASSERT_EQ(receives.decode(message, back), Plan::Outcome::good);
+  EXPECT_EQ(hex(back), hex(value));
+  std::mt19937 random(1);
+  for (int time = 0; time < 20'000; ++time) {
+    Bytes damaged = message;
+    if (time % 3 == 0) damaged.resize(random() % damaged.size());
+    for (std::uint32_t change = random() % 3 + 1; change > 0 && !damaged.empty(); --change)
+      damaged[random() % damaged.size()] = static_cast<std::byte>(random());
+    static_cast<void>(receives.decode(damaged, back));
+  }
+}
+
+TEST(Mapping, OfArraysNamesTheFieldsOfTheirElements) {
+  const auto problems = [](const std::string& value, const std::string& fields,
+                           Direction direction = Direction::receive) {
+    return problems_of({path_definition, value, fields}, direction);
+  };
+  const std::string two = "{x: float64, y: float64}";
+  // The hint names fields that are right.
+  EXPECT_EQ(problems(two + "[4]", "poses="),
+            "poses|the elements of 'poses' do not have the fields of those of the buffer|say which fields "
+            "correspond: fields: { poses.at.x: x, poses.at.y: y }\n");
+  EXPECT_EQ(problems(two + "[4]", "poses.at.x=x, poses.at.y=y"), "");
+  EXPECT_EQ(problems(two + "[<=4]", "poses.at.x=x, poses.at.y=y"), "");
+  EXPECT_EQ(problems(two + "[<=4]", "poses.at="), "") << "a structure in each element";
+  EXPECT_EQ(problems("{all: " + two + "[<=4]}", "poses.at.x=all.x, poses.at.y=all.y"), "");
+  EXPECT_EQ(problems("{all: " + two + "[<=4]}", "poses.at=all"), "");
+  EXPECT_EQ(
+      problems("{id: int32, all: " + two + "[4]}", "id=id, poses=all"),
+      "poses|the elements of 'poses' do not have the fields of those of the buffer's 'all'|say which ones "
+      "correspond, beside the others in `fields`: { poses.at.x: all.x, poses.at.y: all.y }\n");
+  EXPECT_EQ(problems("{x: float64, height: float64}[4]", "poses="),
+            "poses|the elements of 'poses' do not have the fields of those of the buffer|say which fields "
+            "correspond, for example fields: { poses.at.x: x, poses.at.y: height }\n");
+  EXPECT_EQ(problems("{x: float64, when: int64}[4]", "poses="),
+            "poses|'pkg/msg/Pose' has no field 'x'|say which fields correspond: fields: { poses.at.x: x }\n"
+            "poses|'pkg/msg/Pose' has no field 'when'|pkg/msg/Pose has name, at, ignored\n")
+      << "nothing of that type";
+  EXPECT_EQ(
+      problems("float64", "poses.at.x="),
+      "poses.at.x|the field 'poses.at.x' lies in the array 'poses', and the buffer in none|give the buffer "
+      "an array of structures, such as Element<=16, for the whole array\n");
+  EXPECT_EQ(
+      problems(two, "poses="),
+      "poses|'poses' of type pkg/Pose[] does not fit the buffer of type a structure|it is a sequence: a "
+      "buffer such as Element<=16, where Element is a structure with fields of Pose, does\n");
+  EXPECT_EQ(problems(two + "[4]", "poses.at.x=x"),
+            "|no field of the message corresponds to the buffer's '[0].y'|name it in `fields`\n");
+  EXPECT_EQ(problems(two + "[4]", "poses.at.z=x, poses.at.y=y"),
+            "poses.at.z|'pkg/msg/Point' has no field 'z'|pkg/msg/Point has x, y\n");
+  EXPECT_EQ(problems(two + "[<=4]", "id=x, poses.at.y=y"),
+            "id|the buffer has no field 'x'|it is an array: begin the field of the message with that of its "
+            "array, as in array.x\n");
+}
+
+TEST(Mapping, OfSequencesNeedsASequence) {
+  const auto problems = [](const std::string& definition, const std::string& value, Direction direction) {
+    return problems_of({definition, value, "data="}, direction);
+  };
+  using enum Direction;
+  EXPECT_EQ(problems("float64[] data", "float64[<=4]", receive), "");
+  EXPECT_EQ(problems("float64[] data", "float64[<=4]", send), "");
+  EXPECT_EQ(problems("float64[<=2] data", "float64[<=4]", receive), "");
+  EXPECT_EQ(problems("float64[<=2] data", "float64[<=4]", send),
+            "data|the buffer of type float64<=4 does not fit 'data' of type float64[<=2]|a buffer of type "
+            "float64<=2 does: it has 0 to 2 elements\n");
+  EXPECT_EQ(problems("float64[4] data", "float64[<=4]", receive),
+            "data|'data' of type float64[4] does not fit the buffer of type float64<=4|a buffer of type "
+            "float64[4] does\n");
+  EXPECT_EQ(
+      problems("float64[] data", "float64", receive),
+      "data|'data' of type float64[] does not fit the buffer of type float64|a buffer of type float64<=16 "
+      "does: it has 0 to 16 elements\n");
+}
+
 TEST(Codec, ReadsBothOrdersOfBytes) {
   const Plan plan =
       plan_of({"uint8 a\nint32 b\nfloat64[] c\nstring d", "{b: int64, c: float64[1], d: string(3)}"},
@@ -267,10 +435,11 @@ TEST(Mapping, MistakesAreTold) {
             "|no field of the message corresponds to the buffer's 'omega'|name it in `fields`\n");
   EXPECT_EQ(problems_of({twist, motion, "linear.x=v, angular.z=omgea"}, Direction::send),
             "angular.z|the buffer has no field 'omgea'|did you mean 'omega'?\n");
-  EXPECT_EQ(problems_of({twist, motion}, Direction::send),
-            "|'geometry_msgs/msg/Twist' has no field 'v'|say which fields correspond: fields: { linear: v }\n"
-            "|'geometry_msgs/msg/Twist' has no field 'omega'|say which fields correspond: fields: { linear: "
-            "omega }\n");
+  EXPECT_EQ(
+      problems_of({twist, motion}, Direction::send),
+      "|'geometry_msgs/msg/Twist' has no field 'v'|say which fields correspond: fields: { linear.x: v }\n"
+      "|'geometry_msgs/msg/Twist' has no field 'omega'|say which fields correspond: fields: { linear.y: "
+      "omega }\n");
   EXPECT_EQ(
       problems_of({"std_msgs/msg/Float32", "float64"}, Direction::send),
       "|the buffer of type float64 does not fit 'data' of type float32|a buffer of type float32 does\n");
@@ -280,7 +449,7 @@ TEST(Mapping, MistakesAreTold) {
             "does\n");
   EXPECT_EQ(problems_of({"float64[<=4] a", "float64[8]"}, Direction::send),
             "|the buffer of type float64[8] does not fit 'a' of type float64[<=4]|a buffer of type "
-            "float64[4] does\n");
+            "float64<=4 does: it has 0 to 4 elements\n");
   EXPECT_EQ(
       problems_of({"string<=4 a", "string(8)"}, Direction::send),
       "|the buffer of type string<=8 does not fit 'a' of type string<=4|a buffer of type string<=4 does\n");

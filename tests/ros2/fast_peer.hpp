@@ -108,6 +108,28 @@ struct Float64MultiArray {
   }
 };
 
+/// nav_msgs/msg/Path: a sequence of structures.
+struct PoseStamped {
+  Header header;
+  std::array<double, 7> pose{};  ///< x, y, z, quaternion
+};
+struct Path {
+  static constexpr const char* name = "nav_msgs::msg::dds_::Path_";
+  Header header;
+  std::vector<PoseStamped> poses;
+  template <class Archive>
+  void fields(Archive& all) {
+    header.fields(all);
+    auto count = static_cast<std::uint32_t>(poses.size());
+    all(count);
+    poses.resize(count);
+    for (PoseStamped& one : poses) {
+      one.header.fields(all);
+      for (double& number : one.pose) all(number);
+    }
+  }
+};
+
 /// The two messages of std_srvs/srv/SetBool, with the header of rmw_cyclonedds_cpp.
 struct SetBoolRequest {
   static constexpr const char* name = "std_srvs::srv::dds_::SetBool_Request_";

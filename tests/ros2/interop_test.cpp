@@ -7,16 +7,23 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <limits>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 
 #include "bindings.hpp"
 #include "eventually.hpp"
 #include "fast_peer.hpp"
 #include "ros2/dds/clock.hpp"
+#include "ros2/dds/other_writers.hpp"
 #include "stderr_text.hpp"
+#include "tessera/bounded_sequence.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/fields.hpp"
+#include "tessera/large_sequence.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -134,6 +141,181 @@ TEST_F(WithFastDds, GivesScansOfABestEffortSensorAndDropsThoseOfAnotherLength) {
       << told;
   EXPECT_EQ(seen.ranges[4], 9);
   receptor->close();
+}
+
+/// Acts until standard error has the text.
+std::string stderr_until(const std::string& text, const std::function<void()>& act) {
+  const StderrText told;
+  EXPECT_TRUE(eventually([&] {
+    act();
+    return told.has(text);
+  })) << told.now();
+  return told.now();
+}
+
+struct Step {
+  double x{}, y{};
+  BoundedString<8> frame;
+  TESSERA_FIELDS(Step, x, y, frame)
+};
+struct Way {
+  std::int32_t sec{};
+  BoundedSequence<Step, 16> steps;
+  TESSERA_FIELDS(Way, sec, steps)
+};
+constexpr const char* way_fields =
+    "header.stamp.sec=sec, poses.pose.position.x=steps.x, poses.pose.position.y=steps.y, "
+    "poses.header.frame_id=steps.frame";
+
+fast::Path path_of(std::size_t length, std::int32_t sec) {
+  fast::Path path;
+  path.header.sec = sec;
+  path.poses.resize(length);
+  for (std::size_t index = 0; index < length; ++index) {
+    path.poses[index].header.frame_id = std::string(index % 9, 'f');
+    path.poses[index].pose = {static_cast<double>(index), -0.5 * static_cast<double>(index)};
+  }
+  return path;
+}
+
+TEST_F(WithFastDds, GivesPathsOfZeroToSixteenPosesAndDropsLongerOnes) {
+  auto* const writer = peer.writer<fast::Path>("rt/path");
+  auto receptor = opened_receptor(binding<Way>("/path", "nav_msgs/msg/Path", way_fields));
+  Way way;
+  for (std::size_t length = 0; length <= 16; ++length) {
+    fast::Path path = path_of(length, static_cast<std::int32_t>(length) + 1);
+    ASSERT_TRUE(eventually([&] {
+      writer->write(&path);
+      return read(*receptor, way) && way.sec == path.header.sec;
+    })) << length;
+    ASSERT_EQ(way.steps.size(), length);
+    for (std::size_t index = 0; index < length; ++index) {
+      EXPECT_EQ(way.steps[index].x, index);
+      EXPECT_EQ(way.steps[index].y, -0.5 * static_cast<double>(index));
+      EXPECT_EQ(way.steps[index].frame, std::string(index % 9, 'f'));
+    }
+  }
+  fast::Path longer = path_of(17, 100), good = path_of(1, 101);
+  const std::string told = stderr_until("was dropped", [&] {
+    writer->write(&longer);
+    writer->write(&good);
+    static_cast<void>(read(*receptor, way));
+  });
+  EXPECT_NE(told.find("a message of /path was dropped (1 until now)"), std::string::npos) << told;
+  EXPECT_TRUE(eventually([&] {
+    writer->write(&good);
+    return read(*receptor, way) && way.sec == 101;
+  }));
+  EXPECT_EQ(way.steps.size(), 1U);
+  receptor->close();
+}
+
+TEST_F(WithFastDds, GetsPathsOfTheLengthOfTheBuffer) {
+  auto* const reader = peer.reader<fast::Path>("rt/path");
+  auto effector =
+      opened_effector(binding<BoundedSequence<Step, 16>>("/path", "nav_msgs/msg/Path",
+                                                         "poses.pose.position.x=x, poses.pose.position.y=y, "
+                                                         "poses.header.frame_id=frame"));
+  BoundedSequence<Step, 16> steps;
+  for (std::size_t length = 0; length <= 16; ++length) {
+    std::optional<fast::Path> path;
+    ASSERT_TRUE(eventually([&] {
+      EXPECT_TRUE(write(*effector, steps));
+      while (auto next = fast::Peer::take<fast::Path>(*reader)) path = std::move(next);
+      return path && path->poses.size() == length;
+    })) << length;
+    for (std::size_t index = 0; index < length; ++index) {
+      EXPECT_EQ(path->poses[index].pose[0], index);
+      EXPECT_EQ(path->poses[index].pose[1], 7);
+      EXPECT_EQ(path->poses[index].header.frame_id, "map");
+    }
+    if (length < 16) steps.push_back({static_cast<double>(length), 7, "map"});
+  }
+  effector->close();
+}
+
+TEST_F(WithFastDds, GivesRangesOfTheLengthThatTheyHave) {
+  auto* const writer = peer.writer<fast::LaserScan>("rt/ranges");
+  auto receptor =
+      opened_receptor(binding<LargeSequence<float, 1200>>("/ranges", "sensor_msgs/msg/LaserScan", "ranges"));
+  LargeSequence<float, 1200> ranges;
+  for (const std::size_t length : {0U, 1U, 1200U, 5U}) {
+    fast::LaserScan scan;
+    scan.ranges.assign(length, 0.25F);
+    ASSERT_TRUE(eventually([&] {
+      writer->write(&scan);
+      return read(*receptor, ranges) && ranges.size() == length;
+    })) << length;
+    EXPECT_TRUE(std::all_of(ranges.begin(), ranges.end(), [](float one) { return one == 0.25F; }));
+  }
+  receptor->close();
+}
+
+TEST_F(WithFastDds, GetsAndGivesNumbersThatAreNotFinite) {
+  auto* const reader = peer.reader<fast::Twist>("rt/setpoint");
+  auto* const writer = peer.writer<fast::Twist>("rt/echo");
+  auto effector =
+      opened_effector(binding<Motion>("/setpoint", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  auto receptor =
+      opened_receptor(binding<Motion>("/echo", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  std::optional<fast::Twist> twist;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_TRUE(write(*effector, Motion{std::numeric_limits<double>::quiet_NaN(),
+                                        -std::numeric_limits<double>::infinity()}));
+    twist = fast::Peer::take<fast::Twist>(*reader);
+    return twist.has_value();
+  }));
+  EXPECT_TRUE(std::isnan(twist->linear_x));
+  EXPECT_EQ(twist->angular_z, -std::numeric_limits<double>::infinity());
+  Motion motion;
+  ASSERT_TRUE(eventually([&] {
+    writer->write(&*twist);
+    return read(*receptor, motion);
+  }));
+  EXPECT_TRUE(std::isnan(motion.v));
+  EXPECT_EQ(motion.omega, -std::numeric_limits<double>::infinity());
+  effector->close();
+  receptor->close();
+}
+
+TEST_F(WithFastDds, WarnsOfASecondPublisherOfItsTopicAndOfNoOtherOnes) {
+  auto effector =
+      opened_effector(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  // Neither a reader of the topic nor a writer of another one is a second writer.
+  auto* const reader = peer.reader<fast::Twist>("rt/cmd_vel");
+  auto* const other = peer.writer<fast::Twist>("rt/cmd_vel_2");
+  static_cast<void>(other);
+  ASSERT_TRUE(eventually([&] { return fast::Peer::is_matched(*reader); }));
+  {
+    const StderrText told;
+    const auto until = std::chrono::steady_clock::now() + 3 * OtherWriters::between_looks;
+    while (std::chrono::steady_clock::now() < until) {
+      EXPECT_TRUE(write(*effector, Motion{}));
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    }
+    EXPECT_FALSE(told.has("publishes")) << told.now();
+  }
+  auto* const rival = peer.writer<fast::Twist>("rt/cmd_vel");
+  ASSERT_NE(rival, nullptr);
+  const std::string told =
+      stderr_until("publishes /cmd_vel, too", [&] { EXPECT_TRUE(write(*effector, Motion{})); });
+  EXPECT_NE(
+      told.find("warning: robot.part.buffer: another program publishes /cmd_vel, too (1 until now; type "
+                "geometry_msgs::msg::dds_::Twist_, participant 01.0f."),
+      std::string::npos)
+      << told;
+  effector->close();
+}
+
+TEST_F(WithFastDds, WarnsOfASecondPublisherOfTheSameController) {
+  const auto base = binding<Motion>("/twice", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega");
+  auto first = opened_effector(base);
+  auto second = opened_effector(base);
+  const std::string told =
+      stderr_until("publishes /twice, too", [&] { EXPECT_TRUE(write(*first, Motion{})); });
+  EXPECT_NE(told.find("another driver of this controller publishes /twice, too"), std::string::npos) << told;
+  first->close();
+  second->close();
 }
 
 TEST_F(WithFastDds, GivesOdometryAndStrings) {

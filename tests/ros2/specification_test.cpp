@@ -142,6 +142,25 @@ TEST(Specification, WithServicesHasTheirDefinitions) {
     EXPECT_EQ(report_of_golden(file, true), "");
 }
 
+/// The hint names `fields` that are right.
+TEST(Specification, OfTheFieldIsRightOnceTheHintIsFollowed) {
+  const char* const data = std::getenv("TESSERA_TEST_DATA");
+  if (data == nullptr) GTEST_SKIP() << "TESSERA_TEST_DATA is not set";
+  const fs::path file = fs::path(data) / "field/specs/array_hint.yaml";
+  const std::string report = report_of_golden(file, false);
+  const std::string before = "hint: say which fields correspond: ", with = "fields: detections";
+  const std::size_t hint = report.find(before);
+  ASSERT_NE(hint, std::string::npos) << report;
+  const std::size_t first = hint + before.size();
+  std::string text = text_in(file);
+  ASSERT_NE(text.find(with), std::string::npos);
+  text.replace(text.find(with), with.size(), report.substr(first, report.find('\n', first) - first));
+  const fs::path followed = fs::path(testing::TempDir()) / ("followed_" + std::to_string(getpid()) + ".yaml");
+  std::ofstream(followed) << text;
+  EXPECT_EQ(report_of_golden(followed, true), "") << text;
+  fs::remove(followed);
+}
+
 TEST(Specification, SeesTheMistakesOfItsOwnMessages) {
   const fs::path own = fs::path(testing::TempDir()) / ("msg_" + std::to_string(getpid()));
   fs::create_directories(own / "my_robot/msg");

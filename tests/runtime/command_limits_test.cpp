@@ -5,7 +5,9 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <cmath>
 #include <limits>
+#include <utility>
 
 #include "nets.hpp"
 #include "tessera/recording.hpp"
@@ -40,6 +42,7 @@ struct Limited : ::testing::Test {
     bindings.real_output("step", out.step, std::int8_t{0});
     bindings.limit("step", payload(out.step), {.minimum = -1.5, .maximum = 2.5});
   }
+  static constexpr double none_ = std::numeric_limits<double>::quiet_NaN();
   Bindings bindings;
   Motor out;
 };
@@ -77,6 +80,36 @@ TEST_F(Limited, TheChangeIsThatOfOnePeriodAndBeginsAtTheSafeCommand) {
   EXPECT_DOUBLE_EQ(sent(Time(5s)), 3.5) << "a pause does not save up a jump";
   limits.note_safe(Time(5s));
   EXPECT_DOUBLE_EQ(sent(Time(5010ms)), 2);
+}
+
+TEST_F(Limited, NaNIsNoCommandAndChangesAreCountedFromTheLastNumber) {
+  CommandLimits limits(bindings, 10ms);
+  const auto sent = [&](double asked, Time at) {
+    out.left = asked;
+    const bool exceeds = limits.apply(at) != nullptr;
+    limits.note_sent(at);
+    return std::pair(out.left.value(), exceeds);
+  };
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto [nan, exceeds] = sent(none, Time(10ms));
+  EXPECT_TRUE(std::isnan(nan));
+  EXPECT_FALSE(exceeds);
+  EXPECT_EQ(sent(10, Time(20ms)), std::pair(2.0, true)) << "1, the safe command, and 100 a second for 10 ms";
+  EXPECT_EQ(sent(Bindings::Limits::infinity, Time(30ms)).first, 3.0);
+}
+
+TEST_F(Limited, InfinityWithoutALimitDoesNotHoldTheNextCommand) {
+  Output<double> free;
+  bindings.real_output("free", free, none_);
+  bindings.limit("free", payload(free), {.minimum = 0});
+  CommandLimits limits(bindings, 10ms);
+  free = Bindings::Limits::infinity;
+  static_cast<void>(limits.apply(Time(10ms)));
+  limits.note_sent(Time(10ms));
+  EXPECT_EQ(free, Bindings::Limits::infinity);
+  free = 4;
+  static_cast<void>(limits.apply(Time(20ms)));
+  EXPECT_EQ(free, 4);
 }
 
 TEST_F(Limited, AFaultIsToldBeforeWhatIsOnlyLimitedAndTheRestOncePerTime) {

@@ -1,16 +1,23 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <array>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <stdexcept>
 #include <string>
+#include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "nets.hpp"
+#include "tessera/bounded_sequence.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/fields.hpp"
 #include "tessera/large_array.hpp"
+#include "tessera/large_sequence.hpp"
 #include "tessera/recording.hpp"
 #include "tessera/value_encoding.hpp"
 #include "tessera/value_text.hpp"
@@ -91,6 +98,103 @@ TEST(ValueEncoding, LargeArraysGoThereAndBack) {
   const std::string bytes = encoded(image);
   EXPECT_TRUE(value_encoding_of<Image>()->take(&back, std::as_bytes(std::span(bytes))));
   EXPECT_TRUE(back == image);
+}
+
+struct Detections {
+  BoundedSequence<Point, 3> boxes;
+  BoundedSequence<BoundedString<4>, 2> names;
+  LargeSequence<float, 2000> ranges;
+  TESSERA_FIELDS(Detections, boxes, names, ranges)
+};
+
+TEST(BoundedSequence, IsAVectorThatRefusesWhatItCannotHold) {
+  using Four = BoundedSequence<double, 4>;
+  static_assert(std::is_trivially_copyable_v<Four>);
+  Four numbers{1, 2};
+  numbers.push_back(3);
+  EXPECT_EQ(numbers, (Four{1, 2, 3}));
+  EXPECT_EQ(numbers.size(), 3U);
+  EXPECT_EQ(std::accumulate(numbers.begin(), numbers.end(), 0.0), 6);
+  EXPECT_EQ(numbers.back(), 3);
+  EXPECT_THROW(static_cast<void>(numbers[3]), std::out_of_range);
+  numbers.push_back(numbers.front());
+  EXPECT_TRUE(numbers.full());
+  EXPECT_THROW(numbers.push_back(5), std::length_error);
+  EXPECT_THROW(numbers.resize(5), std::length_error);
+  EXPECT_EQ(numbers, (Four{1, 2, 3, 1})) << "as it was";
+  numbers.resize(1);
+  numbers.resize(2);
+  EXPECT_EQ(numbers, (Four{1, 0})) << "new elements are zero";
+  numbers.pop_back();
+  numbers.clear();
+  numbers.pop_back();
+  EXPECT_TRUE(numbers.empty());
+  EXPECT_THROW(static_cast<void>(numbers.front()), std::out_of_range);
+  EXPECT_THROW(static_cast<void>(numbers.back()), std::out_of_range);
+  EXPECT_TRUE(std::all_of(numbers.data(), numbers.data() + 4, [](double one) { return one == 0; }))
+      << "nothing is left of what was removed";
+  EXPECT_THROW((Four{1, 2, 3, 4, 5}), std::length_error);
+}
+
+TEST(BoundedSequence, OfManyElementsSharesThemAmongCopies) {
+  LargeSequence<float, 2000> image;
+  image.resize(1000);
+  image[7] = 7;
+  const LargeSequence<float, 2000> copy = image;
+  image[7] = 8;
+  EXPECT_EQ(copy[7], 7);
+  EXPECT_EQ(std::as_const(image).data()[7], 8);
+  EXPECT_FALSE(copy == image);
+  image[7] = 7;
+  EXPECT_TRUE(copy == image);
+}
+
+TEST(ValueEncoding, SequencesGoThereAndBackWithTheirLength) {
+  const ValueEncoding& encoding = *value_encoding_of<Detections>();
+  EXPECT_EQ(encoding.type(),
+            "{boxes: {x: int8, y: float64}[<=3], names: string(4)[<=2], ranges: float32[<=2000]}");
+  const auto layout = ValueLayout::parse(encoding.type());
+  ASSERT_TRUE(layout);
+  Detections value;
+  EXPECT_EQ(layout->shown(encoded(value)), "{boxes: [], names: [], ranges: []}");
+  EXPECT_EQ(encoded(value).size(), 12U);
+  value.boxes = {{1, 2}, {3, 4}};
+  value.names = {"ab"};
+  value.ranges.resize(2);
+  EXPECT_EQ(layout->shown(encoded(value)),
+            "{boxes[0].x: 1, boxes[0].y: 2, boxes[1].x: 3, boxes[1].y: 4, names[0]: \"ab\", ranges[0]: 0, "
+            "ranges[1]: 0}");
+  for (std::size_t length = 0; length <= 3; ++length) {
+    value.boxes.resize(length);
+    Detections back;
+    back.boxes = {{9, 9}, {9, 9}};
+    const std::string bytes = encoded(value);
+    ASSERT_TRUE(encoding.take(&back, std::as_bytes(std::span(bytes)))) << length;
+    EXPECT_EQ(encoded(back), bytes) << length;
+    EXPECT_EQ(back.boxes.size(), length);
+    EXPECT_FALSE(encoding.take(&back, std::as_bytes(std::span(bytes).first(bytes.size() - 1))));
+    EXPECT_FALSE(layout->visit(bytes + 'x', [](const auto&, const auto&) {}));
+  }
+  value.boxes.resize(3);
+  value.names.resize(2);
+  value.ranges.resize(2000);
+  EXPECT_LE(encoded(value).size(), encoding.most);
+  EXPECT_EQ(layout->sequences(), (std::vector<std::string>{"boxes", "names", "ranges"}));
+  EXPECT_EQ(layout->scalars(), 6U + 2U + 2000U);
+  EXPECT_EQ(layout->paths().size(), layout->scalars());
+}
+
+TEST(ValueEncoding, OfSequencesRefusesLengthsThatAreTooGreat) {
+  std::string bytes("\4\0\0\0", 4);
+  bytes.append(4 * sizeof(double), '\0');
+  BoundedSequence<double, 3> value;
+  EXPECT_FALSE(value_encoding_of<decltype(value)>()->take(&value, std::as_bytes(std::span(bytes))));
+  const auto layout = ValueLayout::parse("float64[<=3]");
+  ASSERT_TRUE(layout);
+  EXPECT_FALSE(layout->visit(bytes, [](const auto&, const auto&) {}));
+  EXPECT_EQ(ValueLayout::parse("float64[<=4]")->shown(bytes), "{[0]: 0, [1]: 0, [2]: 0, [3]: 0}");
+  for (const char* text : {"float64[<=", "float64[<=]", "float64[<3]", "float64[<=3", "bool[<=99999999999]"})
+    EXPECT_FALSE(ValueLayout::parse(text)) << text;
 }
 
 TEST(ValueSink, OfWhatDoesNotFitTellsSizeAndAHashOfEveryByte) {

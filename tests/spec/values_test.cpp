@@ -55,8 +55,8 @@ TEST(Memory, StructuresAndArraysBecomeInitialisers) {
   ASSERT_EQ(memory.size(), 6U);
   EXPECT_EQ(memory[0].initial, "1.5");
   EXPECT_EQ(memory[1].initial, "");
-  EXPECT_EQ(memory[2].initial, ".x{1.0}, .y{}, .heading{90.0F}");
-  EXPECT_EQ(memory[3].initial, "{{.x{1.0}, .y{}, .heading{}}, {.x{}, .y{}, .heading{}}}");
+  EXPECT_EQ(memory[2].initial, ".x = 1.0, .y{}, .heading = 90.0F");
+  EXPECT_EQ(memory[3].initial, "{{.x = 1.0, .y{}, .heading{}}, {.x{}, .y{}, .heading{}}}");
   EXPECT_EQ(memory[4].initial, "{1.0, -2.5, 1e-07}");
   EXPECT_EQ(memory[5].initial, "\"none\"");
 }

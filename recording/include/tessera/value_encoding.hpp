@@ -19,6 +19,7 @@
 ///     bool  int8 .. int64  uint8 .. uint64  float32  float64
 ///     string(N)            uint32 length and so many bytes
 ///     TYPE[N]              N of them
+///     TYPE[<=N]            uint32 length and so many of them
 ///     {name: TYPE, ...}    the fields in this order
 ///   bytes(N)             a type that does not list its fields
 namespace tessera {
@@ -40,6 +41,13 @@ template <class T>
 concept BoundedText = requires(const T& value) {
   T::capacity();
   { value.view() } -> std::convertible_to<std::string_view>;
+};
+
+/// BoundedSequence and similar types.
+template <class T>
+concept BoundedList = Sequence<T> && !BoundedText<T> && requires(T & value) {
+  T::capacity();
+  value.resize(value.size());
 };
 
 /// Takes the bytes of a value. It keeps them if there are at most `limit`, and otherwise only their number
@@ -117,6 +125,8 @@ template <class T>
 [[nodiscard]] constexpr bool possible() {
   if constexpr (std::is_arithmetic_v<T> || std::is_enum_v<T> || BoundedText<T>)
     return true;
+  else if constexpr (BoundedList<T>)
+    return possible<Element<T>>();
   else if constexpr (Sequence<T>)
     return extent<T>() != 0 && possible<Element<T>>();
   else if constexpr (WithFields<T>)
@@ -131,6 +141,8 @@ template <class T>
 [[nodiscard]] constexpr std::size_t most() {
   if constexpr (BoundedText<T>)
     return sizeof(std::uint32_t) + T::capacity();
+  else if constexpr (BoundedList<T>)
+    return sizeof(std::uint32_t) + T::capacity() * most<Element<T>>();
   else if constexpr (Sequence<T>)
     return extent<T>() * most<Element<T>>();
   else if constexpr (WithFields<T>)
@@ -151,6 +163,8 @@ template <class T>
     return kind + std::to_string(8 * sizeof(T));
   } else if constexpr (BoundedText<T>) {
     return "string(" + std::to_string(T::capacity()) + ")";
+  } else if constexpr (BoundedList<T>) {
+    return type_text<Element<T>>() + "[<=" + std::to_string(T::capacity()) + "]";
   } else if constexpr (Sequence<T>) {
     return type_text<Element<T>>() + "[" + std::to_string(extent<T>()) + "]";
   } else if constexpr (WithFields<T>) {
@@ -180,8 +194,13 @@ void put(const T& value, ValueSink& to) {
     to.put(&length, sizeof length);
     to.put(text.data(), text.size());
   } else if constexpr (Sequence<T>) {
+    const std::size_t count = static_cast<std::size_t>(value.size());
+    if constexpr (BoundedList<T>) {
+      const auto length = static_cast<std::uint32_t>(count);
+      to.put(&length, sizeof length);
+    }
     if constexpr (std::is_arithmetic_v<Element<T>>)
-      to.put(value.data(), extent<T>() * sizeof(Element<T>));
+      to.put(value.data(), count * sizeof(Element<T>));
     else
       for (const auto& element : value) put(element, to);
   } else if constexpr (WithFields<T>) {
@@ -201,8 +220,15 @@ void take(T& value, ValueSource& from) {
     from.take(text.data(), length);
     value = std::string_view(text.data(), length);
   } else if constexpr (Sequence<T>) {
+    if constexpr (BoundedList<T>) {
+      std::uint32_t length = 0;
+      from.take(&length, sizeof length);
+      // Bytes are left if it is more, so that the value is refused.
+      value.clear();
+      value.resize(length < T::capacity() ? length : T::capacity());
+    }
     if constexpr (std::is_arithmetic_v<Element<T>>)
-      from.take(value.data(), extent<T>() * sizeof(Element<T>));
+      from.take(value.data(), static_cast<std::size_t>(value.size()) * sizeof(Element<T>));
     else
       for (auto& element : value) take(element, from);
   } else if constexpr (WithFields<T>) {

@@ -29,13 +29,20 @@ class ValueLayout {
   };
   /// path: "linear", "points[3].x"; empty for a value that is one scalar.
   using Visit = std::function<void(const std::string& path, const Scalar& scalar)>;
-  /// Visits the scalars in the order of the bytes. false: the bytes do not encode such a value; the scalars
-  /// before the mistake have been visited.
-  [[nodiscard]] bool visit(std::string_view bytes, const Visit& visit) const;
+  /// The length of a sequence, before its elements: `TYPE[<=N]` alone has one.
+  using VisitLength = std::function<void(const std::string& path, std::size_t length)>;
+  /// Visits the scalars in the order of the bytes, those that a sequence does not have left out. false: the
+  /// bytes do not encode such a value; the scalars before the mistake have been visited.
+  [[nodiscard]] bool visit(std::string_view bytes, const Visit& visit,
+                           const VisitLength& visit_length = {}) const;
 
-  /// The number of scalars in every such value.
+  /// The number of scalars in every such value; with sequences, the largest number.
   [[nodiscard]] std::size_t scalars() const;
-  /// The paths of the scalars.
+  /// Whether the number of scalars depends on the value.
+  [[nodiscard]] bool has_sequences() const;
+  /// The paths of the sequences of varying length.
+  [[nodiscard]] std::vector<std::string> sequences() const;
+  /// The paths of the scalars; those of all elements that a sequence can have.
   [[nodiscard]] std::vector<std::string> paths() const;
   /// The types of the scalars, such as "float32", "bool" or "string(8)".
   [[nodiscard]] std::vector<std::string> types() const;

@@ -224,6 +224,12 @@ struct Bindings {
   void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
     real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe), part});
   }
+  /// The numbers of the real output that was bound last that must be finite; without it, all of them.
+  /// check: a lambda without captures that takes a value and says whether they are.
+  template <class T, class Check>
+  void only_finite(const Output<T>& /*output*/, Check /*check*/) {
+    real_outputs.back().finite = [](const void* at) { return Check{}(*static_cast<const T*>(at)); };
+  }
   /// number: a member of the real output that was bound last. It is an arithmetic type, or a std::array of
   /// one.
   template <class T>

@@ -115,7 +115,7 @@ struct Policies {
   Overrun overrun = Overrun::skip;
   Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: no watchdog
   bool operator_resets = false;     ///< effector: a fault or a stale input begins an emergency stop
-  bool non_finite_allowed = false;  ///< outputs to channels may be infinite or NaN
+  bool non_finite_allowed = false;  ///< outputs to channels may be infinite or NaN; real ones: Bindings
   RealTime realtime{};
 };
 

@@ -5,6 +5,14 @@
 #include <utility>
 
 namespace tessera {
+namespace {
+
+/// A change is counted from the last number: none can be reached from NaN or infinity.
+void note(double& last, double sent) {
+  if (std::isfinite(sent)) last = sent;
+}
+
+}  // namespace
 
 CommandLimits::CommandLimits(const Bindings& bindings, Duration period)
     : bindings_(&bindings),
@@ -23,6 +31,7 @@ void CommandLimits::limit(Limited& one, double allowed_s, Excess& excess) {
   const Bindings::Limits& limits = one.limit->limits;
   for (std::size_t element = 0; element < one.last.size(); ++element) {
     const double asked = one.limit->get(place(one), element);
+    if (std::isnan(asked)) continue;  // which the specification allows here, and which is no command
     const double change = std::isinf(limits.per_second) ? limits.per_second : limits.per_second * allowed_s;
     const double last = one.last[element];
     // The safe command is within the range. So the range and the largest change
@@ -59,7 +68,7 @@ void CommandLimits::note_safe(Time now) {
         static_cast<const std::byte*>(bindings_->real_outputs[one.limit->output].safe.get()) +
         one.limit->offset;
     for (std::size_t element = 0; element < one.last.size(); ++element)
-      one.last[element] = one.limit->get(safe, element);
+      note(one.last[element], one.limit->get(safe, element));
   }
   last_ = now;
 }
@@ -67,7 +76,7 @@ void CommandLimits::note_safe(Time now) {
 void CommandLimits::note_sent(Time now) {
   for (Limited& one : limited_)
     for (std::size_t element = 0; element < one.last.size(); ++element)
-      one.last[element] = one.limit->get(place(one), element);
+      note(one.last[element], one.limit->get(place(one), element));
   last_ = now;
 }
 

@@ -6,6 +6,9 @@
 #include <charconv>
 #include <cmath>
 #include <cstring>
+#include <map>
+#include <optional>
+#include <string>
 #include <string_view>
 
 #include "system/waker.hpp"
@@ -53,9 +56,18 @@ void put_number(const std::string& type, double value, std::byte* at) {
 std::vector<Panel::Control> controls_of(const std::string& text, const ValueLayout& layout,
                                         std::size_t& size) {
   const std::vector<std::string> paths = layout.paths(), types = layout.types();
+  const std::vector<std::string> sequences = layout.sequences();  // which a panel leaves empty
+  std::optional<std::string> in_sequence;
   std::map<std::string, Panel::Control, std::less<>> all;
   size = 0;
   for (std::size_t index = 0; index < paths.size(); ++index) {
+    const auto around = std::ranges::find_if(
+        sequences, [&](const std::string& sequence) { return paths[index].starts_with(sequence + '['); });
+    if (around != sequences.end()) {
+      if (in_sequence != *around) size += sizeof(std::uint32_t);
+      in_sequence = *around;
+      continue;
+    }
     const std::string field = paths[index].empty() ? std::string(only_field) : paths[index];
     all[field] = {.field = field, .type = types[index], .offset = size};
     size += encoded_size(types[index]);

@@ -17,8 +17,8 @@ std::optional<std::string> trouble_in(std::string_view path) {
     if (byte < 0x20 || byte == 0x7f) return fmt::format("a control character (code {})", byte);
     if (std::string_view(";\"\\[]|`").find(path[at]) != std::string_view::npos)
       return fmt::format("the character {}", path[at]);
-    if (path[at] == '$' && path.find_first_of("{<", at) != std::string_view::npos)
-      return fmt::format("the character $ before {}", path[path.find_first_of("{<", at)]);
+    if (path[at] == '$' && path.find_first_of("{<(", at) != std::string_view::npos)
+      return fmt::format("the character $ before {}", path[path.find_first_of("{<(", at)]);
   }
   return std::nullopt;
 }

@@ -31,16 +31,27 @@ class LimitReader {
   LimitReader(const Entry* safe, const std::vector<Field>& real, const Types& types, Diagnostics& out)
       : safe_(safe), real_(real), types_(types), out_(out) {}
 
-  std::vector<Limit> read(const Entry& section) {
+  void read(const Entry& section, Subsystem& subsystem) {
     for (const Entry& entry : entries_of(*section.value, section.span, "limits", out_)) read_one(entry);
-    return std::move(limits_);
+    subsystem.limits = std::move(limits_);
+    subsystem.non_finite = std::move(non_finite_);
   }
 
  private:
   void read_one(const Entry& entry) {
     const std::optional<Target> target = find(entry);
-    const Section section(*entry.value, entry.span, "a limit", {"min", "max", "per_second", "beyond"}, out_);
+    const Section section(*entry.value, entry.span, "a limit",
+                          {"min", "max", "per_second", "beyond", "non_finite"}, out_);
     if (!target || !section.readable()) return;
+    read_non_finite(entry, section, *target);
+    const bool limits =
+        std::ranges::any_of(entry.value->entries, [](const Entry& key) { return key.key != "non_finite"; });
+    if (!limits && section.find("non_finite") != nullptr) return;
+    if (!holds_numbers(*target->type)) {
+      out_.error("E211", entry.span, in_quotes(entry.key) + " holds no numbers that could be limited",
+                 "a limit is for a number, or for a short array of numbers");
+      return;
+    }
     Limit limit;
     limit.real = target->real;
     limit.field = target->field;
@@ -75,10 +86,24 @@ class LimitReader {
       at = end;
     }
     if (Types::is_unknown(*target.type)) return std::nullopt;
-    if (holds_numbers(*target.type)) return target;
-    out_.error("E211", entry.span, in_quotes(entry.key) + " holds no numbers that could be limited",
-               "a limit is for a number, or for a short array of numbers");
-    return std::nullopt;
+    return target;
+  }
+
+  /// `non_finite: allowed`: the device gives NaN or infinity a meaning.
+  void read_non_finite(const Entry& entry, const Section& section, const Target& target) {
+    const Entry* const key = section.find("non_finite");
+    if (key == nullptr) return;
+    const Node* text = text_of(*key->value, key->span, "non_finite", out_, "write allowed or fault");
+    if (text == nullptr) return;
+    if (text->text != "allowed" && text->text != "fault") {
+      out_.error("E104", text->span, "non_finite must be allowed or fault, not " + in_quotes(text->text),
+                 did_you_mean(text->text, {"allowed", "fault"}));
+    } else if (!types_.holds_floats(*target.type)) {
+      out_.error("E211", entry.span, in_quotes(entry.key) + " holds no floating-point numbers",
+                 "only a float32 or float64 can be infinite or NaN");
+    } else {
+      non_finite_.push_back({target.real, target.field, text->text == "allowed", entry.span});
+    }
   }
 
   bool step(const Entry& entry, const std::string& name, Target& target) {
@@ -112,7 +137,8 @@ class LimitReader {
   }
 
   static bool holds_numbers(const Type& type) {
-    return type.kind == Type::Kind::scalar && type.scalar != Scalar::boolean && type.extent <= most_elements;
+    return type.kind == Type::Kind::scalar && type.scalar != Scalar::boolean && !type.is_sequence &&
+           type.extent <= most_elements;
   }
 
   std::optional<double> number(const Entry* entry, const Type& type) {
@@ -152,7 +178,7 @@ class LimitReader {
                  "the first is on line " + std::to_string(twice->span.line));
     if (section.find("min") == nullptr && section.find("max") == nullptr &&
         section.find("per_second") == nullptr)
-      out_.error("E103", entry.span, "a limit needs min, max or per_second", limits_hint);
+      out_.error("E103", entry.span, "a limit needs min, max, per_second or non_finite", limits_hint);
     if (limit.per_second && *limit.per_second <= 0)
       out_.error("E206", section.find("per_second")->value->span, "per_second must be positive");
     if (limit.minimum && limit.maximum && *limit.minimum > *limit.maximum) {
@@ -189,13 +215,14 @@ class LimitReader {
   const Types& types_;
   Diagnostics& out_;
   std::vector<Limit> limits_;
+  std::vector<NonFinite> non_finite_;
 };
 
 }  // namespace
 
-std::vector<Limit> read_limits(const Entry* limits, const Entry* safe, const std::vector<Field>& real,
-                               const Types& types, Diagnostics& out) {
-  return limits == nullptr ? std::vector<Limit>() : LimitReader(safe, real, types, out).read(*limits);
+void read_limits(const Entry* limits, const Entry* safe, const Types& types, Subsystem& subsystem,
+                 Diagnostics& out) {
+  if (limits != nullptr) LimitReader(safe, subsystem.real, types, out).read(*limits, subsystem);
 }
 
 }  // namespace tessera::spec

@@ -76,10 +76,12 @@ class LongForm {
 
   void check_type(const std::string& name, Span at) {
     if (Types::is_unknown(type_)) return;
-    if (type_.kind == Type::Kind::structure || (type_.extent > 0 && type_.kind == Type::Kind::string)) {
+    if (type_.kind == Type::Kind::structure || type_.is_sequence ||
+        (type_.extent > 0 && type_.kind == Type::Kind::string)) {
       out_.error("E203", at,
                  "parameter " + in_quotes(name) + " must be a number, bool, string, or an array of numbers",
-                 "give every field a parameter of its own");
+                 type_.is_sequence ? "give it a fixed length, such as float64[4]"
+                                   : "give every field a parameter of its own");
     } else if (type_.extent > largest_array) {
       out_.error(
           "E204", at,
@@ -96,11 +98,7 @@ class LongForm {
     return type_.kind == Type::Kind::scalar && type_.scalar != Scalar::boolean;
   }
 
-  [[nodiscard]] Type element() const {
-    Type one = type_;
-    one.extent = 0;
-    return one;
-  }
+  [[nodiscard]] Type element() const { return type_.element(); }
 
   void read_unit() {
     const Entry* unit = section_.find("unit");

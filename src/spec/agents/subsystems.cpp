@@ -8,9 +8,9 @@
 #include "spec/agents/buffers.hpp"
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
+#include "spec/agents/safe_commands.hpp"
 #include "spec/document/section.hpp"
 #include "spec/model/behaviour_flow.hpp"
-#include "spec/values/literals.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"
 
@@ -40,26 +40,6 @@ void check_kind(const Section& section, SubsystemKind kind, Diagnostics& out) {
               in_quotes(key.name) + " belongs to " + std::string(key.owners) + ", this is a " +
                   std::string(name_of(kind)) + (kind == SubsystemKind::control ? " subsystem" : ""));
   }
-}
-
-std::vector<std::string> read_safe(const Entry* entry, const std::vector<Field>& real, const Types& types,
-                                   Diagnostics& out) {
-  std::vector<std::string> safe(real.size());
-  if (entry == nullptr) return safe;
-  for (const Entry& value : entries_of(*entry->value, entry->span, "safe", out)) {
-    const auto buffer =
-        std::find_if(real.begin(), real.end(), [&](const Field& one) { return one.name == value.key; });
-    if (buffer == real.end()) {
-      std::vector<std::string> names;
-      for (const Field& one : real) names.push_back(one.name);
-      out.error("E101", value.span, "unknown real buffer " + in_quotes(value.key),
-                did_you_mean(value.key, names));
-      continue;
-    }
-    safe[static_cast<std::size_t>(buffer - real.begin())] =
-        initialiser(*value.value, value.span, buffer->type, types, "the safe command", out).value_or("");
-  }
-  return safe;
 }
 
 BehaviourId read_start(const Entry* entry, const std::vector<Behaviour>& behaviours, Diagnostics& out) {
@@ -140,12 +120,12 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
   subsystem.memory = read_memory(section.find("memory"), around.types, out);
   subsystem.parameters = read_parameters(section.find("parameters"), around.types, out);
   check_shadowing(subsystem.parameters, around.parameters, out);
-  subsystem.safe = read_safe(section.find("safe"), subsystem.real, around.types, out);
-  if (kind == SubsystemKind::effector)
-    subsystem.limits =
-        read_limits(section.find("limits"), section.find("safe"), subsystem.real, around.types, out);
-  read_stale(section.find("stale"), subsystem, out);
   read_policies(section, subsystem, out);
+  if (kind == SubsystemKind::effector) {
+    read_limits(section.find("limits"), section.find("safe"), around.types, subsystem, out);
+    read_safe(section.find("safe"), around.types, subsystem, out);
+  }
+  read_stale(section.find("stale"), subsystem, out);
   if (const Entry* behaviours = section.require("behaviours", "for example behaviours: { run: {} }")) {
     const ConditionScope scope{kind,
                                subsystem.inputs,

@@ -364,8 +364,7 @@ bool ConditionNames::read_subscript(std::size_t& at, Value& value, const std::st
                    in_words(value, scope_.types),
                "elements count from 0: the last one is " + std::to_string(value.type.extent - 1));
   at = behind_bracket(at);
-  value.type.extent = 0;
-  value = value_of(Type(value.type));
+  value = value_of(value.type.element());
   return true;
 }
 

@@ -13,7 +13,7 @@ std::string in_words(const Value& value, const Types& types) {
     case Value::Kind::number:
       return value.declared ? "a number (" + types.spelled(value.type) + ")" : "a number";
     case Value::Kind::array:
-      return "an array (" + types.spelled(value.type) + ")";
+      return (value.type.is_sequence ? "a sequence (" : "an array (") + types.spelled(value.type) + ")";
     case Value::Kind::text:
       return "a string";
     case Value::Kind::structure:

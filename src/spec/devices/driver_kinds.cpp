@@ -36,6 +36,7 @@ constexpr std::array kinds = std::to_array<DriverKind>(
 /// Whether all parts of a value are scalars of such a kind.
 template <class IsSuch>
 bool consists_of(const Type& type, const Model& model, IsSuch is_such) {
+  if (type.is_sequence) return false;  // a device of the world has a fixed number of numbers
   if (type.kind == Type::Kind::scalar) return is_such(type.scalar);
   if (type.kind != Type::Kind::structure) return false;
   if (!model.structures.has(type.structure)) return true;  // unknown, which is said elsewhere

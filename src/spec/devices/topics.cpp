@@ -71,7 +71,11 @@ class TopicReader {
         entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the type", out_, topic_hint);
     if (text == nullptr) return;
     const auto name = ros2::full_message_name(text->text);
-    if (!name)
+    if (ros2::is_action_type(text->text))
+      out_.error("E323", text->span, in_quotes(text->text) + " is an action, and Tessera has no actions",
+                 "use a topic or service that the node offers beside it, or a node of yours that turns a "
+                 "message into a goal; see \"Actions\" in docs/ros2.md");
+    else if (!name)
       out_.error("E105", text->span, in_quotes(text->text) + " is no name of a message",
                  "for example geometry_msgs/msg/Twist");
     put(*entry, name.value_or(""));
@@ -81,7 +85,10 @@ class TopicReader {
     const Entry* const type = section_.require("type", "for example type: std_srvs/srv/SetBool");
     const Node* const name = type == nullptr ? nullptr : text_of(*type->value, type->span, "the type", out_);
     if (name != nullptr) {
-      if (!ros2::full_service_name(name->text))
+      if (ros2::is_action_type(name->text))
+        out_.error("E323", name->span, in_quotes(name->text) + " is an action, and Tessera has no actions",
+                   "an action is more than a service; see \"Actions\" in docs/ros2.md");
+      else if (!ros2::full_service_name(name->text))
         out_.error("E105", name->span, in_quotes(name->text) + " is no name of a service",
                    "for example std_srvs/srv/SetBool");
       put(*type, name->text);

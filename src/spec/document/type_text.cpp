@@ -63,6 +63,8 @@ std::string bracket_hint(const TypeText& parts, std::string_view unit) {
   const std::size_t open = unit.find_first_of("[]");
   const bool is_length = unit[open] == '[' && Cursor(unit.substr(open + 1)).take_number();
   if (!is_length) return "a unit has no brackets";
+  if (parts.extent > 0 && parts.is_sequence)
+    return "an array of sequences does not exist: define a structure with the sequence as a field";
   if (parts.extent > 0)
     return "arrays of arrays do not exist: define a structure with the inner array as a field";
   const std::size_t end = unit.find(']', open);
@@ -70,6 +72,16 @@ std::string bracket_hint(const TypeText& parts, std::string_view unit) {
   std::string_view before = unit.substr(0, open);
   before = before.substr(0, before.find_last_not_of(' ') + 1);
   return "the length comes before the unit: " + parts.name + length + " " + std::string(before);
+}
+
+/// For the ways in which ROS writes sequences: `Box[<=16]` and `Box[]`.
+std::string sequence_hint(const TypeText& parts, Cursor cursor) {
+  const bool bounded = cursor.take("<=");
+  const auto most = bounded ? cursor.take_number() : std::nullopt;
+  const std::string name =
+      parts.name + (parts.capacity ? "<=" + std::to_string(*parts.capacity) : std::string());
+  if (most) return "a sequence of at most so many is written " + name + "<=" + std::to_string(*most);
+  return "a sequence needs its largest length: " + name + "<=16";
 }
 
 }  // namespace
@@ -88,7 +100,7 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   Cursor cursor(text.text);
   const auto fail = [&](std::string code, const std::string& message) {
     out.error(std::move(code), text.span, message,
-              "types are written float64, float64 m/s, string<=64, Point[8]");
+              "types are written float64, float64 m/s, string<=64, Point[8], Point<=8");
     return std::nullopt;
   };
   TypeText parts;
@@ -96,7 +108,7 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   parts.name = cursor.take_word();
   parts.name_span = text.part(begin, std::max<std::size_t>(parts.name.size(), 1));
   if (!is_identifier(parts.name)) return fail("E201", in_quotes(text.text) + " is not a type");
-  if (cursor.take("<=")) {
+  if (parts.name == "string" && cursor.take("<=")) {
     const auto capacity = cursor.take_number();
     if (!capacity) return fail("E201", "a number must follow '<='");
     if (*capacity == 0 || *capacity > largest_capacity) {
@@ -104,9 +116,16 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
     }
     parts.capacity = static_cast<std::uint32_t>(*capacity);
   }
-  if (cursor.take("[")) {
+  parts.is_sequence = cursor.take("<=");
+  if (parts.is_sequence || cursor.take("[")) {
+    if (!parts.is_sequence && (cursor.rest().starts_with("<=") || cursor.rest().starts_with("]"))) {
+      out.error("E201", text.span, in_quotes(text.text) + " is not a type", sequence_hint(parts, cursor));
+      return std::nullopt;
+    }
     const auto extent = cursor.take_number();
-    if (!extent || !cursor.take("]")) return fail("E201", "an array needs its length in brackets");
+    if (!extent || !(parts.is_sequence || cursor.take("]")))
+      return fail("E201",
+                  parts.is_sequence ? "a number must follow '<='" : "an array needs its length in brackets");
     if (*extent == 0 || *extent > largest_extent) {
       return fail("E204", "the length of an array must lie between 1 and 268435456");
     }
@@ -118,6 +137,11 @@ std::optional<TypeText> split_type(const Node& text, Diagnostics& out) {
   parts.unit_span = text.part(cursor.position(), std::max<std::size_t>(unit.size(), 1));
   if (unit.find_first_of("[]") != std::string_view::npos) {
     out.error("E201", parts.unit_span, in_quotes(unit) + " is not a unit", bracket_hint(parts, unit));
+    return std::nullopt;
+  }
+  if (unit.starts_with("<=")) {
+    out.error("E201", parts.unit_span, in_quotes(unit) + " is not a unit",
+              "a sequence has one '<=', and a sequence of strings two: string<=64<=8");
     return std::nullopt;
   }
   const bool attached = !unit.empty() && cursor.position() > 0 && text.text[cursor.position() - 1] != ' ' &&

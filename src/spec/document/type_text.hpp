@@ -9,12 +9,14 @@
 
 namespace tessera::spec {
 
-/// The parts of a type as written: NAME [<=CAPACITY] ['[' EXTENT ']'] [UNIT].
+/// The parts of a type as written: NAME [<=CAPACITY] ['[' EXTENT ']' | <=EXTENT] [UNIT], where only a string has
+/// a capacity.
 struct TypeText {
   std::string name;
   Span name_span;
   std::optional<std::uint32_t> capacity;
   std::uint64_t extent = 0;  ///< 0: no array
+  bool is_sequence = false;  ///< an array of 0 to `extent` elements
   std::string unit;
   Span unit_span;
 };

@@ -33,7 +33,35 @@ std::string Model::layout_of(const Type& type) const {
         text += (text.empty() ? "" : ", ") + field.name + ": " + layout_of(field.type);
       text = "{" + text + "}";
   }
-  return type.extent == 0 ? text : text + "[" + std::to_string(type.extent) + "]";
+  if (type.extent == 0) return text;
+  return text + (type.is_sequence ? "[<=" : "[") + std::to_string(type.extent) + "]";
+}
+
+namespace {
+
+/// Whether the field lies in the part, or is it. An empty part is the whole buffer.
+bool lies_in(std::string_view field, std::string_view part) {
+  return field.starts_with(part) &&
+         (part.empty() || field.size() == part.size() || field[part.size()] == '.');
+}
+
+}  // namespace
+
+bool Subsystem::may_be_non_finite(RealId buffer, std::string_view field) const {
+  bool allowed = non_finite_allowed;
+  std::size_t nearest = 0;
+  for (const NonFinite& rule : non_finite) {
+    if (rule.real != buffer || !lies_in(field, rule.field) || rule.field.size() < nearest) continue;
+    allowed = rule.allowed;
+    nearest = rule.field.size();
+  }
+  return allowed;
+}
+
+bool Subsystem::divides_non_finite(RealId buffer, std::string_view field) const {
+  for (const NonFinite& rule : non_finite)
+    if (rule.real == buffer && rule.field.size() > field.size() && lies_in(rule.field, field)) return true;
+  return false;
 }
 
 const Subsystem& Model::subsystem(InstanceId instance) const {

@@ -48,10 +48,19 @@ struct Type {
   Scalar scalar = Scalar::float64;
   std::uint32_t capacity = 256;  ///< of a string, in bytes
   StructureId structure;         ///< of a structure
-  std::uint64_t extent = 0;      ///< elements of a fixed array; 0: not an array
+  std::uint64_t extent = 0;      ///< elements of an array; 0: not an array
+  bool is_sequence = false;      ///< an array of 0 to `extent` elements, as its value has
   std::string unit;              ///< "m/s"; empty: none given
 
   bool operator==(const Type&) const = default;
+
+  /// The type of an element of an array.
+  [[nodiscard]] Type element() const {
+    Type one = *this;
+    one.extent = 0;
+    one.is_sequence = false;
+    return one;
+  }
 };
 
 /// A named and typed piece of data: field of a structure, buffer, memory cell.
@@ -187,6 +196,14 @@ struct Limit {
   Span span;
 };
 
+/// Whether numbers of commands may be infinite or NaN, because the device gives such numbers a meaning.
+struct NonFinite {
+  RealId real;
+  std::string field;  ///< inside the buffer, as in Limit; empty: all its numbers
+  bool allowed = true;
+  Span span;
+};
+
 struct Subsystem {
   SubsystemKind kind = SubsystemKind::control;
   std::string name;  ///< "control" for the control subsystem
@@ -199,16 +216,23 @@ struct Subsystem {
       real;  ///< read before (receptor) or written after (effector) the transition function
   Numbered<RealId, std::string> safe;  ///< effector: C++ initialiser per real buffer; empty string: zero
   std::vector<Limit> limits;           ///< effector: of real buffers
+  std::vector<NonFinite> non_finite;   ///< effector: in real buffers, instead of `non_finite_allowed`
   /// effector: if an input is older than this, the device gets the safe command
   std::optional<Duration> stale;
   /// effector: a fault or a stale input begins an emergency stop, which lasts until an operator ends it
   bool operator_resets = false;
   Overrun overrun = Overrun::skip;
   std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
-  bool non_finite_allowed = false;   ///< outputs may be infinite or not a number
+  bool non_finite_allowed = false;   ///< outputs and real outputs may be infinite or NaN
   std::optional<RealTime> realtime;
   Numbered<BehaviourId, Behaviour> behaviours;
   Span span;
+
+  /// Whether numbers at that place of a command may be infinite or NaN. Parts of it may have their own rule.
+  /// field: empty: the whole buffer.
+  [[nodiscard]] bool may_be_non_finite(RealId buffer, std::string_view field) const;
+  /// Whether a part inside of that place has a rule of its own.
+  [[nodiscard]] bool divides_non_finite(RealId buffer, std::string_view field) const;
 };
 
 /// The subsystems of an agent: an entry of `templates`, or an agent that `agents` describes in full.

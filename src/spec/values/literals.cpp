@@ -48,6 +48,26 @@ IntegerRange range(Scalar scalar) {
   }
 }
 
+/// `.nan` and `.inf` of YAML as C++; empty: the text is neither.
+std::string non_finite_literal(std::string_view text, Scalar scalar) {
+  const std::string limits =
+      std::string("std::numeric_limits<") + (scalar == Scalar::float32 ? "float" : "double") + ">::";
+  if (text == ".nan" || text == ".NaN" || text == ".NAN") return limits + "quiet_NaN()";
+  const bool negative = text.starts_with('-');
+  if (negative || text.starts_with('+')) text.remove_prefix(1);
+  if (text != ".inf" && text != ".Inf" && text != ".INF") return {};
+  return (negative ? "-" : "") + limits + "infinity()";
+}
+
+/// How YAML spells a number that is not finite, for a text that means one; empty: it means none.
+std::string yaml_of_non_finite(std::string_view text) {
+  std::string word;
+  for (const char c : text) word += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  if (word == "nan" || word == "qnan" || word == "null" || word == "~") return "write .nan";
+  if (word == "inf" || word == "infinity" || word == "+inf") return "write .inf";
+  return word == "-inf" || word == "-infinity" ? "write -.inf" : "";
+}
+
 template <class Float>
 std::string shortest(Float value) {
   std::array<char, 64> buffer{};
@@ -59,17 +79,20 @@ std::string shortest(Float value) {
 /// Writes values of one file; its members are shared by all parts of a value.
 class Writer {
  public:
-  Writer(const Types& types, std::string_view what, Diagnostics& out)
-      : types_(types), what_(what), out_(out) {}
+  Writer(const Types& types, std::string_view what, Diagnostics& out,
+         std::vector<NonFiniteNumber>* non_finite)
+      : types_(types), what_(what), out_(out), non_finite_(non_finite) {}
 
-  std::optional<std::string> write(const Node& node, Span at, const Type& type) const {
+  /// path: of the fields that lead to the value.
+  std::optional<std::string> write(const Node& node, Span at, const Type& type,
+                                   const std::string& path = {}) const {
     if (Types::is_unknown(type)) return std::nullopt;
-    if (type.extent > 0) return array(node, at, type);
-    if (type.kind == Type::Kind::structure) return structure(node, at, type);
+    if (type.extent > 0) return array(node, at, type, path);
+    if (type.kind == Type::Kind::structure) return structure(node, at, type, path);
     if (!node.is_scalar()) return mismatch(node, at, type);
     if (type.kind == Type::Kind::string) return string(node, type);
     if (type.scalar == Scalar::boolean) return boolean(node, at, type);
-    return number(node, at, type);
+    return number(node, at, type, path);
   }
 
  private:
@@ -87,27 +110,31 @@ class Writer {
     return std::nullopt;
   }
 
-  std::optional<std::string> array(const Node& node, Span at, const Type& type) const {
-    if (!node.is_sequence()) return mismatch(node, at, type, "write a list: [1, 2, 3]");
-    if (node.items.size() != type.extent) {
+  std::optional<std::string> array(const Node& node, Span at, const Type& type,
+                                   const std::string& path) const {
+    if (!node.is_sequence())
+      return mismatch(node, at, type,
+                      type.is_sequence ? "write a list: [], [1, 2]" : "write a list: [1, 2, 3]");
+    if (type.is_sequence ? node.items.size() > type.extent : node.items.size() != type.extent) {
       out_.error("E203", at,
                  what_ + " has " + std::to_string(node.items.size()) + " elements, " + types_.spelled(type) +
-                     " has " + std::to_string(type.extent));
+                     (type.is_sequence ? " has at most " : " has ") + std::to_string(type.extent));
       return std::nullopt;
     }
-    Type element = type;
-    element.extent = 0;
+    const Type element = type.element();
     std::string text;
     for (const Node* item : node.items) {
-      auto part = write(*item, item->span, element);
+      auto part = write(*item, item->span, element, path);
       if (!part) return std::nullopt;
       if (element.kind == Type::Kind::structure) part = "{" + *part + "}";
       text += (text.empty() ? "" : ", ") + *part;
     }
+    if (type.is_sequence) return text;
     return "{" + text + "}";  // the elements of std::array have their own braces
   }
 
-  std::optional<std::string> structure(const Node& node, Span at, const Type& type) const {
+  std::optional<std::string> structure(const Node& node, Span at, const Type& type,
+                                       const std::string& path) const {
     const Structure& shape = types_.structures()[type.structure];
     if (!node.is_map()) return mismatch(node, at, type, "write a map: { " + first_field(shape) + ": ... }");
     check_fields(node, shape);
@@ -116,9 +143,13 @@ class Writer {
       const auto given = std::find_if(node.entries.begin(), node.entries.end(),
                                       [&](const Entry& entry) { return entry.key == field.name; });
       std::optional<std::string> part = std::string();
-      if (given != node.entries.end()) part = write(*given->value, given->span, field.type);
+      if (given != node.entries.end())
+        part = write(*given->value, given->span, field.type,
+                     path.empty() ? field.name : path + "." + field.name);
       if (!part) return std::nullopt;
-      text += (text.empty() ? "." : ", .") + field.name + "{" + *part + "}";
+      // Compilers warn of braces around a number.
+      const bool bare = field.type.kind == Type::Kind::scalar && field.type.extent == 0 && !part->empty();
+      text += (text.empty() ? "." : ", .") + field.name + (bare ? " = " + *part : "{" + *part + "}");
     }
     return text;
   }
@@ -149,9 +180,18 @@ class Writer {
     return mismatch(node, at, type, "write true or false");
   }
 
-  std::optional<std::string> number(const Node& node, Span at, const Type& type) const {
+  std::optional<std::string> number(const Node& node, Span at, const Type& type,
+                                    const std::string& path) const {
+    const bool real = type.scalar == Scalar::float64 || type.scalar == Scalar::float32;
+    if (std::string special = non_finite_literal(node.text, type.scalar);
+        real && non_finite_ != nullptr && !node.quoted && !special.empty()) {
+      non_finite_->push_back({path, node.span});
+      return special;
+    }
     const auto quantity = split_quantity(node.text);
-    if (!quantity) return mismatch(node, at, type);
+    if (!quantity)
+      return mismatch(node, at, type,
+                      real && non_finite_ != nullptr ? yaml_of_non_finite(node.text) : std::string());
     if (!quantity->unit.empty() && quantity->unit != type.unit) {
       out_.error("E208", node.span,
                  "unit " + in_quotes(quantity->unit) + " where the type is " + types_.spelled(type),
@@ -190,13 +230,15 @@ class Writer {
   const Types& types_;
   std::string what_;
   Diagnostics& out_;
+  std::vector<NonFiniteNumber>* non_finite_;
 };
 
 }  // namespace
 
 std::optional<std::string> initialiser(const Node& node, Span at, const Type& type, const Types& types,
-                                       std::string_view what, Diagnostics& out) {
-  return Writer(types, what, out).write(node, at, type);
+                                       std::string_view what, Diagnostics& out,
+                                       std::vector<NonFiniteNumber>* non_finite) {
+  return Writer(types, what, out, non_finite).write(node, at, type);
 }
 
 std::string float_literal(double value) { return shortest(value); }

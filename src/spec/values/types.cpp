@@ -54,6 +54,7 @@ std::uint64_t bytes_of(const Type& type, const Numbered<StructureId, std::uint64
   if (type.kind == Type::Kind::structure)
     one = structures.has(type.structure) ? structures[type.structure] : 0;
   const std::uint64_t extent = std::max<std::uint64_t>(type.extent, 1);
+  if (type.is_sequence) one = std::min(one + 1, largest_type);  // its length, at most
   return one > largest_type / extent ? largest_type + 1 : one * extent;
 }
 
@@ -94,7 +95,9 @@ void Types::read(const Entry* section, Diagnostics& out) {
     structures_.push_back({entry.key, {}, entry.span});
   }
   for (std::size_t i = 0; i < entries.size(); ++i) read_fields(entries[i], structures_[i], out);
-  if (sort(out)) check_size(out);
+  if (!sort(out)) return;
+  check_size(out);
+  check_sequences(out);
 }
 
 void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& out) const {
@@ -148,6 +151,31 @@ void Types::check_size(Diagnostics& out) const {
   }
 }
 
+/// Precondition: the structures are sorted.
+void Types::check_sequences(Diagnostics& out) {
+  for (const StructureId id : structures_.ids()) {
+    bool holds = false;
+    for (const Field& field : structures_[id].fields) {
+      const bool inner = field.type.kind == Type::Kind::structure && holds_sequences(field.type.structure);
+      if (inner && field.type.is_sequence) refuse_nested(field.type, field.span, out);
+      holds = holds || inner || field.type.is_sequence;
+    }
+    holds_sequences_.push_back(holds);
+  }
+}
+
+bool Types::holds_sequences(StructureId structure) const {
+  return holds_sequences_.has(structure) && holds_sequences_[structure];
+}
+
+/// Recordings and messages could hold them, but every reader of a value would need a way into the inner one.
+void Types::refuse_nested(const Type& type, Span at, Diagnostics& out) const {
+  out.error(
+      "E217", at,
+      "a sequence of " + in_quotes(structures_[type.structure].name) + ", which holds a sequence itself",
+      "give the inner one a fixed length, such as float64[4]");
+}
+
 Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
   const Node* text = text_of(node, at, "a type", out, "for example float64 m/s");
   if (text == nullptr) return unknown();
@@ -155,6 +183,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
   if (!parts) return unknown();
   Type type;
   type.extent = parts->extent;
+  type.is_sequence = parts->is_sequence;
   type.unit = parts->unit;
   if (const auto scalar = index_of(scalars, parts->name)) {
     type.scalar = static_cast<Scalar>(*scalar);
@@ -174,9 +203,8 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
     }
     type.structure = found->second;
   }
-  if (parts->capacity && type.kind != Type::Kind::string) {
-    out.error("E201", text->span, "only a string has a '<=' capacity",
-              "an array is written " + parts->name + "[8]");
+  if (type.is_sequence && holds_sequences(type.structure)) {
+    refuse_nested(type, text->span, out);
   } else if (!type.unit.empty() && !has_unit(type)) {
     out.error("E201", parts->unit_span, "unit " + in_quotes(type.unit) + " on a type that is no number");
   } else if (bytes_of(type, {}) > largest_type) {
@@ -187,11 +215,23 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
   return unknown();
 }
 
+bool Types::holds_floats(const Type& type) const {
+  if (type.kind == Type::Kind::scalar)
+    return type.scalar == Scalar::float32 || type.scalar == Scalar::float64;
+  if (type.kind != Type::Kind::structure || !structures_.has(type.structure)) return false;
+  // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
+  return std::ranges::any_of(structures_[type.structure].fields, [&](const Field& field) {
+    const bool cycle = field.type.kind == Type::Kind::structure && field.type.structure >= type.structure;
+    return !cycle && holds_floats(field.type);
+  });
+}
+
 std::string Types::spelled(const Type& type) const {
   std::string text(name_of(type.scalar));
   if (type.kind == Type::Kind::string) text = "string<=" + std::to_string(type.capacity);
   if (type.kind == Type::Kind::structure) text = is_unknown(type) ? "?" : structures_[type.structure].name;
-  if (type.extent > 0) text += "[" + std::to_string(type.extent) + "]";
+  if (type.extent > 0)
+    text += type.is_sequence ? "<=" + std::to_string(type.extent) : "[" + std::to_string(type.extent) + "]";
   return type.unit.empty() ? text : text + " " + type.unit;
 }
 

@@ -210,7 +210,8 @@ std::string type_text(const spec::Model& model, const spec::Type& type) {
       text = model.structures.has(type.structure) ? model.structures[type.structure].name : "?";
       break;
   }
-  if (type.extent > 0) text += fmt::format("[{}]", type.extent);
+  if (type.extent > 0)
+    text += type.is_sequence ? fmt::format("<={}", type.extent) : fmt::format("[{}]", type.extent);
   return type.unit.empty() ? text : text + " " + type.unit;
 }
 

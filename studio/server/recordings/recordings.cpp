@@ -99,11 +99,17 @@ class ValueSeries {
     const replay::ValueTrack::Value value = track_->value(buffer);
     if (value.hashed || value.layout == nullptr || value.bytes.empty()) return;
     if (value.layout->scalars() > most_scalars) return;
-    static_cast<void>(
-        value.layout->visit(value.bytes, [&](const std::string& path, const ValueLayout::Scalar& scalar) {
+    static_cast<void>(value.layout->visit(
+        value.bytes,
+        [&](const std::string& path, const ValueLayout::Scalar& scalar) {
           if (++samples_ > Recordings::most_samples) return;
           const std::string dot = path.empty() || path.front() == '[' ? "" : ".";
           series_[recording_->buffers[buffer].path + dot + path].push_back({time_ns, json_of(scalar)});
+        },
+        [&](const std::string& path, std::size_t length) {
+          if (++samples_ > Recordings::most_samples) return;
+          series_[recording_->buffers[buffer].path + "." + replay::length_path(path)].push_back(
+              {time_ns, length});
         }));
   }
 

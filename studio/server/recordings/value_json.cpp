@@ -53,7 +53,8 @@ json& element(json& value, std::string_view path) {
 json json_of(const ValueLayout& layout, std::string_view bytes) {
   json value;
   const bool whole = layout.visit(
-      bytes, [&](const std::string& path, const Scalar& scalar) { element(value, path) = json_of(scalar); });
+      bytes, [&](const std::string& path, const Scalar& scalar) { element(value, path) = json_of(scalar); },
+      [&](const std::string& path, std::size_t) { element(value, path) = json::array(); });
   return whole ? value : json(nullptr);
 }
 

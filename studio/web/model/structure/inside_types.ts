@@ -7,7 +7,7 @@ export function limitNames({ yaml }: Structure, { name, type }: Pick<Buffer, "na
   const inside = (path: string, of: string, outer: readonly string[]): string[] => {
     const parts = typeParts(of);
     if (!parts) return [];
-    if (isNumber(parts.base)) return [path];
+    if (isNumber(parts.base)) return parts.length.startsWith("<=") ? [] : [path];
     if (parts.length || outer.includes(parts.base)) return [];
     const at = ["types", parts.base];
     return yaml

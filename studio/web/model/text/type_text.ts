@@ -1,9 +1,9 @@
-/** A type of the specification in parts: "float64[8] m/s", "string<=64", "Pose". */
+/** A type of the specification in parts: "float64[8] m/s", "string<=64", "Pose<=16". */
 export interface TypeParts {
   base: string;
   /** The largest number of characters of a text; empty: it is none. */
   most: string;
-  /** The number of elements; empty: it is no array. */
+  /** The number of elements: "8", or "<=16" for a sequence of at most so many; empty: it is no array. */
   length: string;
   unit: string;
 }
@@ -26,14 +26,17 @@ export const isNumber = (base: string) => (numberTypes as readonly string[]).inc
 
 /** null: the text is no type. */
 export function typeParts(text: string): TypeParts | null {
-  const found = /^\s*([A-Za-z_]\w*)\s*(?:<=\s*(\d+))?\s*(?:\[\s*(\d+)\s*\])?\s*(.*?)\s*$/.exec(text);
+  const found =
+    /^\s*(?:(string)\b\s*(?:<=\s*(\d+))?|([A-Za-z_]\w*))\s*(?:\[\s*(\d+)\s*\]|<=\s*(\d+))?\s*(.*?)\s*$/.exec(text);
   if (!found) return null;
-  const [, base = "", most = "", length = "", unit = ""] = found;
-  return /[<[\]{}"]/.test(unit) ? null : { base, most, length, unit };
+  const [, string, most = "", other = "", extent = "", largest, unit = ""] = found;
+  const length = largest === undefined ? extent : `<=${largest}`;
+  return /[<[\]{}"]/.test(unit) ? null : { base: string ?? other, most, length, unit };
 }
 
 /** Only texts have a largest length, and only numbers a unit. */
 export function typeText({ base, most, length, unit }: TypeParts): string {
   const limit = base === "string" ? `<=${most || "64"}` : "";
-  return `${base}${limit}${length && `[${length}]`}${isNumber(base) && unit ? ` ${unit}` : ""}`;
+  const elements = !length || length.startsWith("<=") ? length : `[${length}]`;
+  return `${base}${limit}${elements}${isNumber(base) && unit ? ` ${unit}` : ""}`;
 }

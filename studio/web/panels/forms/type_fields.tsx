@@ -17,6 +17,9 @@ interface TypeInputsProps {
 
 const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
 
+const wrongLength = (text: string) =>
+  /^(<=\s*\d+|\d*)$/.test(text.trim()) ? undefined : "A whole number, or <=16 for at most so many";
+
 /** A type, chosen by its parts: kind, number of elements, and unit. */
 export function TypeInputs({ structure, value, of = "", without = [], onChange }: TypeInputsProps) {
   const parts = typeParts(value);
@@ -47,7 +50,7 @@ export function TypeInputs({ structure, value, of = "", without = [], onChange }
           {...about}
           value={parts.length}
           placeholder="no array"
-          wrong={wrongNumber}
+          wrong={wrongLength}
           onChange={(length) => change({ length: length.trim() })}
         />
       )}

@@ -10,12 +10,14 @@ import { apply, scalarText, YamlText } from "../../model/text/yaml_text";
 const schema = schemaText as unknown as Schema;
 
 it("a type is the same after it was taken apart and put together", () => {
-  for (const text of ["bool", "float64 m/s", "float32[32] m", "string<=64", "Pose[3]", "int8[4]"])
+  for (const text of ["bool", "float64 m/s", "float32[32] m", "string<=64", "Pose[3]", "int8[4]", "Pose<=16", "float64<=8 m", "string<=64<=8"])
     expect(typeText(typeParts(text)!)).toBe(text);
   expect(typeParts("float64[8] m / s")).toEqual({ base: "float64", most: "", length: "8", unit: "m / s" });
   expect(typeText({ ...typeParts("float64[2] m")!, base: "bool" })).toBe("bool[2]");
   expect(typeText({ ...typeParts("bool")!, base: "string" })).toBe("string<=64");
   expect(typeParts("{ x: bool }")).toBeNull();
+  expect(typeParts("stringy<=4")).toEqual({ base: "stringy", most: "", length: "<=4", unit: "" });
+  expect(typeText({ ...typeParts("Pose<=4")!, length: "8" })).toBe("Pose[8]");
 });
 
 const parameters = `# all of them

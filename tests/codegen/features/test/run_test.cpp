@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
 #include <tessera/controller.hpp>
 
 #include "drivers.hpp"
@@ -39,6 +42,34 @@ TEST(System, MovesValuesOfAllTypesThroughItsChannels) {
   // x from the lidar through an array, y from the parameter of a walker through its report.
   EXPECT_TRUE(std::ranges::any_of(
       poses, [](const Pose& pose) { return pose.x > 9 && pose.x < 10 && pose.y == 0.1F; }));
+}
+
+TEST(System, MovesSequencesOfEveryLengthThroughItsChannels) {
+  tessera::RunOptions options;
+  options.duration = 1s;
+  std::string error;
+  devices::PoseSink::commands.clear();
+  ASSERT_TRUE(tessera::execute(system(), options, error)) << error;
+  std::set<double> lengths;
+  for (const Pose& pose : devices::PoseSink::commands) lengths.insert(pose.heading);
+  EXPECT_EQ(lengths, (std::set<double>{0, 1, 2, 3, 4, 5}));
+}
+
+TEST(System, GivesNumbersThatAreNotFiniteWhereTheyAreAllowed) {
+  tessera::RunOptions options;
+  options.duration = 500ms;
+  std::string error;
+  devices::JointSink::commands.clear();
+  const auto summary = tessera::execute(system(), options, error);
+  ASSERT_TRUE(summary) << error;
+  EXPECT_FALSE(summary->failed) << summary->ended;
+  const auto& safe = devices::JointSink::commands.back();
+  EXPECT_TRUE(std::isnan(safe[0]));
+  EXPECT_EQ(safe[1], 0);
+  EXPECT_EQ(safe[2], -std::numeric_limits<double>::infinity());
+  EXPECT_TRUE(std::ranges::any_of(devices::JointSink::commands, [](const auto& joints) {
+    return std::isnan(joints[0]) && joints[1] == 2 && joints[2] == 3;
+  })) << "a command, whose limit NaN does not break";
 }
 
 TEST(System, EndsWithTheSafeCommands) {

@@ -21,6 +21,9 @@ void walk(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
   memory.count = static_cast<std::uint8_t>(memory.count % 9 + 1);
   out.token += 1;
   out.report.pose[0] = in.order;
+  out.report.way.clear();
+  for (std::uint8_t step = 0; step < memory.count % 6; ++step) out.report.way.push_back(in.order);
+  out.report.cloud.resize(out.report.way.size() * 500);
   out.report.text = context.parameters.label.view();
   out.report.samples.fill(context.parameters.gain);
   out.report.all.e = context.parameters.limit;

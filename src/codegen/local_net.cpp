@@ -57,6 +57,8 @@ Step step_of(const net::Transition& transition) {
       return Step::end_sending;
     case Role::begin_receiving:
       return Step::begin_receiving;
+    case Role::end_receiving:
+      return Step::end_receiving;
     case Role::overwrite:
       return Step::overwrite;
     case Role::skip:
@@ -131,7 +133,9 @@ class Extraction {
         return fmt::format("tessera::calls({})",
                            string_literal(subsystem_.behaviours[place.operation.behaviour].name));
       case net::Operation::Kind::next_iteration:
-        return "tessera::counts()";
+        if (!subsystem_.receive_first) return "tessera::counts()";
+        return fmt::format("tessera::begins({})",
+                           string_literal(subsystem_.behaviours[place.behaviour].name));
       case net::Operation::Kind::write:
         return transfer("writes", place.operation, true);
       case net::Operation::Kind::read:

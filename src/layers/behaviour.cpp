@@ -71,28 +71,41 @@ Ending ending(const spec::Behaviour& behaviour) {
 }  // namespace
 
 /// Layer 4, a behaviour (paper, sec. IV-D). The paper joins t5 and t6; apart, an error can be routed.
+/// With `receive: first`, the same blocks stand in another order: the iteration begins (i := i + 1), receives,
+/// calculates its transition function, and sends (docs/decisions/0015-receive-first.md).
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
                            net::BehaviourId id) {
-  const spec::Behaviour& behaviour = draft.model.subsystem(subsystem).behaviours[id];
+  using net::Operation;
+  using net::TransitionRole;
+  const spec::Subsystem& owner = draft.model.subsystem(subsystem);
+  const spec::Behaviour& behaviour = owner.behaviours[id];
   Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, subsystem, behaviour.span);
   sheet.drawn().behaviour = id;
-  const std::uint32_t in = sheet.input({.kind = net::Operation::Kind::transition_function, .behaviour = id});
-  const std::uint32_t snd = sheet.page(draw_communication(draft, sheet.id(), subsystem, id, Direction::send));
-  const std::uint32_t step = sheet.place(words::step, {.kind = net::Operation::Kind::next_iteration});
-  const std::uint32_t rcv =
-      sheet.page(draw_communication(draft, sheet.id(), subsystem, id, Direction::receive));
+  const auto communication = [&](Direction direction) {
+    return sheet.page(draw_communication(draft, sheet.id(), subsystem, id, direction));
+  };
+  const Operation function{.kind = Operation::Kind::transition_function, .behaviour = id};
+  const Operation count{.kind = Operation::Kind::next_iteration};
+  const bool receives_first = owner.receive_first;
+  const std::uint32_t in = sheet.input(receives_first ? count : function);
+  const std::uint32_t early = communication(receives_first ? Direction::receive : Direction::send);
+  const std::uint32_t step = sheet.place(words::step, receives_first ? function : count);
+  const std::uint32_t late = communication(receives_first ? Direction::send : Direction::receive);
   const std::uint32_t out = sheet.output();
 
   auto [go_on, terminal, error] = ending(behaviour);
   const auto where = [&](const spec::Condition& given) {
     return given.kind == spec::Condition::Kind::never ? behaviour.span : given.span;
   };
-  sheet.transition(words::begin_sending, {in}, {snd}).role = net::TransitionRole::begin_sending;
-  sheet.transition(words::end_sending, {snd}, {step}).role = net::TransitionRole::end_sending;
-  sheet.transition(words::begin_receiving, {step}, {rcv}).role = net::TransitionRole::begin_receiving;
-  sheet.transition(words::go_on, {rcv}, {in}, std::move(go_on));
-  sheet.transition(words::terminal, {rcv}, {out}, std::move(terminal)).span = where(behaviour.terminal);
-  sheet.transition(words::error, {rcv}, {out}, std::move(error)).span = where(behaviour.error);
+  sheet.transition(words::first_step, {in}, {early}).role =
+      receives_first ? TransitionRole::begin_receiving : TransitionRole::begin_sending;
+  sheet.transition(words::second_step, {early}, {step}).role =
+      receives_first ? TransitionRole::end_receiving : TransitionRole::end_sending;
+  sheet.transition(words::third_step, {step}, {late}).role =
+      receives_first ? TransitionRole::begin_sending : TransitionRole::begin_receiving;
+  sheet.transition(words::go_on, {late}, {in}, std::move(go_on));
+  sheet.transition(words::terminal, {late}, {out}, std::move(terminal)).span = where(behaviour.terminal);
+  sheet.transition(words::error, {late}, {out}, std::move(error)).span = where(behaviour.error);
   return sheet.finish(in, out);
 }
 

@@ -111,9 +111,11 @@ enum class TransitionRole : std::uint8_t {
   start,            ///< enters the page: starts its agents, its subsystems, or its first behaviour
   end,              ///< leaves the page
   leave,            ///< of a subsystem: an entry of `next` of the behaviour it takes from is taken
-  begin_sending,    ///< of a behaviour, t1: the transition function has been calculated
-  end_sending,      ///< t2
-  begin_receiving,  ///< t3; its other transitions have conditions of their own kinds
+  // Of a behaviour. Its other transitions have conditions of their own kinds.
+  begin_sending,    ///< the transition function has been calculated: t1, or t3 with `receive: first`
+  end_sending,      ///< t2; with `receive: first` one of t4, t5 and t6 ends the sending
+  begin_receiving,  ///< t3, or t1 with `receive: first`
+  end_receiving,    ///< t2, only with `receive: first`: the transition function is about to run
   overwrite,        ///< of a block: replaces a value that has not been read
   skip,             ///< on a block: no value to read
   no_successor,     ///< a behaviour is left and no initial condition holds

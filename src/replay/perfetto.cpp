@@ -3,6 +3,7 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -82,19 +83,22 @@ class Writing {
       slice(lane.behaviours[behaviour], "behaviour", rows_.at(lane.path), from_s * 1e6, to_s * 1e6);
   }
 
-  /// From t1 to t4, t5 or t6 of a behaviour.
+  /// From the first transition of a behaviour to its t4, t5 or t6.
   void write_iterations() {
-    std::vector<double> begun(recording_.instances.size(), 0);
+    std::vector<std::optional<double>> begun(recording_.instances.size());
     for (const auto& [event, text] : recording_.entries) {
       if (event.kind() != Event::Kind::firing || event.instance() >= begun.size()) continue;
       const std::string& path = recording_.instances[event.instance()];
       const TransitionRole& role = recording_.transitions[event.subject].role;
       const double at_us = static_cast<double>(event.time_ns) * 1e-3;
-      if (role.step == Step::begin_sending) begun[event.instance()] = at_us;
+      std::optional<double>& since_us = begun[event.instance()];
+      if (!since_us && (role.step == Step::begin_sending || role.step == Step::begin_receiving))
+        since_us = at_us;
       if (!role.ends_iteration()) continue;
       const bool failed = role.step == Step::error;
-      slice(failed ? "iteration (error)" : "iteration", "iteration", rows_.at(path), begun[event.instance()],
+      slice(failed ? "iteration (error)" : "iteration", "iteration", rows_.at(path), since_us.value_or(0),
             at_us);
+      since_us.reset();
     }
   }
 

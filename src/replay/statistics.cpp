@@ -88,20 +88,33 @@ class Counting {
       if (called_) calls_.push_back(seconds(at_ns - *std::exchange(called_, std::nullopt)));
       if (begun_) periods_.push_back(seconds(at_ns - *begun_));
       begun_ = at_ns;
-      open_ = true;
     }
-    if (open_ && role.ends_iteration()) {
-      iterations_.push_back(seconds(at_ns - *begun_));
-      open_ = false;
-    }
+    communicate(role, at_ns);
     statistics_.errors += static_cast<std::uint64_t>(role.step == Step::error);
+  }
+
+  /// Sending and receiving follow one another, or, if the subsystem receives first, the transition function
+  /// is between them.
+  void communicate(const TransitionRole& role, std::int64_t at_ns) {
+    if (role.step == Step::begin_sending || role.step == Step::begin_receiving) {
+      if (!communicates_since_) communicates_since_ = at_ns;
+    } else if (role.step == Step::end_receiving || role.ends_iteration()) {
+      if (communicates_since_) communicated_ += at_ns - *communicates_since_;
+      communicates_since_.reset();
+      if (!role.ends_iteration()) return;
+      if (whole_) iterations_.push_back(seconds(communicated_));
+      communicated_ = 0;
+    }
+    // A recording may begin within an iteration.
+    if (role.step == Step::start || role.ends_iteration()) whole_ = true;
   }
 
   SubsystemStatistics statistics_;
   std::vector<double> periods_, calls_, iterations_;
   std::map<std::string, std::vector<double>> waits_;
-  std::optional<std::int64_t> last_, called_, begun_;
-  bool open_ = false;
+  std::optional<std::int64_t> last_, called_, begun_, communicates_since_;
+  std::int64_t communicated_ = 0;  // in this iteration
+  bool whole_ = false;             // its beginning is known
 };
 
 }  // namespace

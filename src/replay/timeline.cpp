@@ -24,6 +24,10 @@ class LaneBuilder {
         end(at_s);
         begin(at_s);
         break;
+      case Step::begin_receiving:  // it may wait before its first call
+        running_ = behaviour(role.behaviour);
+        if (!since_s_) since_s_ = at_s;
+        break;
       case Step::begin_sending:
         running_ = behaviour(role.behaviour);
         if (!since_s_) since_s_ = at_s;

@@ -26,7 +26,7 @@ struct Timeline {
 };
 
 /// Reads the firings by their roles: `start` enters a subsystem's first behaviour, `leave` leaves a behaviour,
-/// `begin_sending` (t1) is an iteration of it and `error` (t6) an error.
+/// `begin_sending` (its function has been calculated) is an iteration of it and `error` (t6) an error.
 [[nodiscard]] Timeline timeline_of(const Recording& recording);
 
 /// At most `columns` stretches: each column of time shows the behaviour that ran longest in it.

@@ -47,6 +47,25 @@ TEST(Pages, OfABehaviourStartItsTransitionFunctionAndNextIteration) {
   EXPECT_EQ(follow.nodes[2].operation.kind, net::Operation::Kind::next_iteration);
 }
 
+TEST(Pages, OfASubsystemThatReceivesFirstHaveTheSameBlocksInAnotherOrder) {
+  spec::Model model = line_follower();
+  model.definitions[0].subsystems[0].receive_first = true;
+  const Built built = build(model), usual = build(line_follower());
+  EXPECT_THAT(transitions_of(built.pages, "robot.control.follow"),
+              ElementsAre("t1: in -> rcv", "t2: rcv -> 2", "t3: 2 -> snd", "t4: snd -> in",
+                          "t5: snd -> out [never]", "t6: snd -> out [failure]"));
+  const net::Page& follow = built.pages.pages[built.pages.find("robot.control.follow").value];
+  EXPECT_EQ(follow.nodes[follow.input].operation.kind, net::Operation::Kind::next_iteration);
+  EXPECT_EQ(follow.nodes[2].operation, (net::Operation{net::Operation::Kind::transition_function, {1}}));
+  EXPECT_EQ(follow.transitions[0].role, net::TransitionRole::begin_receiving);
+  EXPECT_EQ(follow.transitions[1].role, net::TransitionRole::end_receiving);
+  EXPECT_EQ(follow.transitions[2].role, net::TransitionRole::begin_sending);
+  for (const char* page : {"robot.control.follow.snd", "robot.control.follow.rcv", "robot.motor.drive"})
+    EXPECT_EQ(transitions_of(built.pages, page), transitions_of(usual.pages, page));
+  EXPECT_EQ(built.net.places().size(), usual.net.places().size());
+  EXPECT_EQ(built.net.transitions().size(), usual.net.transitions().size());
+}
+
 TEST(Pages, BeginWithTheStartBehaviour) {
   spec::Model model = line_follower();
   model.definitions[0].subsystems[0].start = {1};

@@ -59,7 +59,7 @@ std::set<std::string> dead_behaviours(const net::Net& net) {
   std::set<std::string> dead;
   for (std::size_t place = 0; place < marked.size(); ++place)
     if (const net::Place& one = net.places()[place];
-        one.operation.kind == net::Operation::Kind::transition_function && !marked[place])
+        one.is(net::Layer::behaviour, net::PlaceRole::input) && !marked[place])
       dead.insert(one.name.substr(0, one.name.rfind('.')));
   return dead;
 }

@@ -56,6 +56,26 @@ TEST(Circuits, SendingBeforeReceivingIsTheTokenThatCrossedReceivesNeed) {
   EXPECT_EQ(judged.report.channels_flow, Answer::yes);
 }
 
+TEST(Circuits, CrossedReceivesNeedOneThatSendsFirst) {
+  for (const bool both : {false, true}) {
+    Pair pair;
+    const auto x = pair.system.channel(pair.a, pair.b, receiver_blocks);
+    const auto y = pair.system.channel(pair.b, pair.a, receiver_blocks);
+    pair.system.behaviour(pair.a, {x}, {y});
+    pair.system.behaviour(pair.b, {y}, {x});
+    pair.system.receive_first(pair.a);
+    if (both) pair.system.receive_first(pair.b);
+    const Judged judged = judge(pair.system.result());
+    EXPECT_EQ(judged.report.goes_on, both ? Answer::no : Answer::yes);
+    EXPECT_EQ(judged.report.deadlock_free, both ? Answer::no : Answer::yes);
+    if (!both) continue;
+    EXPECT_EQ(judged.report.groups.front().cause, Cause::no_token);
+    EXPECT_EQ(story(judged),
+              "a0.s0 waits for a value of a1.s1.y1->a0.s0.x1 from a1.s1; "
+              "a1.s1 waits for a value of a0.s0.y0->a1.s1.x0 from a0.s0");
+  }
+}
+
 TEST(Circuits, ASkipThatLosesTheTokenIsFound) {
   Pair pair;
   const auto there = pair.system.channel(pair.a, pair.b, sender_blocks);  // b may skip

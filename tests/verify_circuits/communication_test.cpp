@@ -49,6 +49,21 @@ TEST(Communication, OrderAndForksAreThoseOfThePages) {
             "a1.s1.b0: send 2, [receive 1 | receive 0], repeats\n");
 }
 
+TEST(Communication, ReceivesComeFirstWhereTheSubsystemReceivesFirst) {
+  SystemBuilder system;
+  const auto a = system.subsystem(), b = system.subsystem();
+  const auto x = system.channel(a, b, {}), y = system.channel(a, b, {}), z = system.channel(b, a, {});
+  const auto first = system.behaviour(a, {y, x}, {z}), second = system.behaviour(a, {}, {z});
+  system.leave(a, first, false, {second});
+  system.behaviour(b, {z}, {x, y}, spec::Transfer::parallel);
+  system.receive_first(a);
+  system.receive_first(b);
+  EXPECT_EQ(in_text(judge(system.result()).structure),
+            "a0.s0.b0: receive 2, send 0, send 1, repeats -> a0.s0.b1\n"
+            "a0.s0.b1: receive 2, repeats -> end\n"
+            "a1.s1.b0: [receive 1 | receive 0], send 2, repeats\n");
+}
+
 TEST(Communication, ConstantConditionsDecideWhatMayFollow) {
   SystemBuilder system;
   const auto a = system.subsystem();

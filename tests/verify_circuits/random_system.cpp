@@ -101,6 +101,8 @@ void SystemBuilder::may_fail(spec::InstanceId instance, spec::BehaviourId behavi
   error.expressions.push_back({"broken", "in.broken", {}});
 }
 
+void SystemBuilder::receive_first(spec::InstanceId instance) { at(instance).receive_first = true; }
+
 namespace {
 
 /// Both sides wait; only the sender does; a queue of two.
@@ -174,6 +176,8 @@ class RandomSystem {
     strict_ = between(2, 5);
     for (std::uint32_t left = between(1, subsystems_ == 2 ? 4 : 6); left > 0; --left) add_channel();
     for (const spec::InstanceId instance : sends_.ids()) add_behaviours(instance);
+    for (const spec::InstanceId instance : sends_.ids())
+      if (chance(4)) builder_.receive_first(instance);
     return builder_.result();
   }
 

@@ -8,8 +8,8 @@ namespace tessera::test {
 
 /// A small system: two to four subsystems and up to six channels of all modes, with and without timeouts.
 /// Most subsystems repeat one sequence of communications, in one behaviour or in several; some have a
-/// start-up, some may end, some transfer in parallel, and a few have behaviours that do not fold. The same
-/// seed gives the same system.
+/// start-up, some may end, some transfer in parallel, some receive first, and a few have behaviours that do
+/// not fold. The same seed gives the same system.
 [[nodiscard]] spec::Model random_system(std::uint64_t seed);
 /// The same, but most subsystems have behaviours that use different channels.
 [[nodiscard]] spec::Model random_differing_system(std::uint64_t seed);
@@ -38,6 +38,8 @@ class SystemBuilder {
   void leave(spec::InstanceId instance, spec::BehaviourId behaviour, bool always,
              const std::vector<spec::BehaviourId>& next);
   void may_fail(spec::InstanceId instance, spec::BehaviourId behaviour);
+  /// Its iterations receive before they calculate and send.
+  void receive_first(spec::InstanceId instance);
 
   [[nodiscard]] spec::Model result() const { return model_; }
 

@@ -22,10 +22,10 @@ extern const std::string_view leave;
 // Words of a behaviour.
 extern const std::string_view send_page;
 extern const std::string_view receive_page;
-extern const std::string_view step;
-extern const std::string_view begin_sending;  ///< the transition function has been calculated
-extern const std::string_view end_sending;
-extern const std::string_view begin_receiving;
+extern const std::string_view step;         ///< the place between sending and receiving
+extern const std::string_view first_step;   ///< transitions between its places and pages, along the way
+extern const std::string_view second_step;  ///< of the token
+extern const std::string_view third_step;
 extern const std::string_view go_on;
 extern const std::string_view terminal;
 extern const std::string_view error;

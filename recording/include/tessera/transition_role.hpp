@@ -21,9 +21,10 @@ enum class Step : std::uint8_t {
   start,  ///< it starts its first behaviour
   leave,  ///< an entry of `next` of the behaviour is taken
   // Layer 4, a behaviour.
-  begin_sending,    ///< t1: the transition function has been calculated
+  begin_sending,    ///< t1: the transition function has been calculated; with `receive: first` t3
   end_sending,      ///< t2
-  begin_receiving,  ///< t3
+  begin_receiving,  ///< t3; with `receive: first` t1
+  end_receiving,    ///< t2 with `receive: first`: the transition function is about to run
   go_on,            ///< t4: the iteration ends, and the behaviour goes on
   terminal,         ///< t5
   error,            ///< t6

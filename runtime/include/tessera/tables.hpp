@@ -22,12 +22,22 @@ inline constexpr int tables_version = 4;
 /// they evaluate conditions when the token arrives, and store which of the conditional transitions
 /// behind the place may fire.
 struct Does {
-  enum class Kind : std::uint8_t { nothing, call, count, write, read, decide, route } kind = Kind::nothing;
-  std::string_view subject;  ///< behaviour (call, decide, route) or port (write, read)
+  enum class Kind : std::uint8_t {
+    nothing,
+    call,
+    count,
+    write,
+    read,
+    begin,  ///< of a subsystem that receives first: waits for the instant of its rate, and counts
+    decide,
+    route
+  } kind = Kind::nothing;
+  std::string_view subject;  ///< behaviour (call, begin, decide, route) or port (write, read)
   std::uint16_t slot = 1;    ///< of the channel's memory, from 1 (write, read)
 };
 [[nodiscard]] constexpr Does calls(std::string_view behaviour) { return {Does::Kind::call, behaviour}; }
 [[nodiscard]] constexpr Does counts() { return {Does::Kind::count, {}}; }
+[[nodiscard]] constexpr Does begins(std::string_view behaviour) { return {Does::Kind::begin, behaviour}; }
 [[nodiscard]] constexpr Does writes(std::string_view port, std::uint16_t slot = 1) {
   return {Does::Kind::write, port, slot};
 }

@@ -144,7 +144,7 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     return next;
   }
 
-  /// The behaviour whose transition function starts after that entry of `next`, according to the net.
+  /// The behaviour that starts after that entry of `next`, according to the net.
   [[nodiscard]] static std::string follows(std::string_view behaviour, std::uint16_t entry) {
     for (const Transition& transition : Unit::net().transitions) {
       if (transition.role.step != Step::leave || transition.role.behaviour != behaviour) continue;
@@ -156,7 +156,8 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
   }
   [[nodiscard]] static std::string started_in(std::string_view place) {
     for (const Place& one : Unit::net().places)
-      if (one.name == place && one.does.kind == Does::Kind::call) return std::string(one.does.subject);
+      if (one.name == place && (one.does.kind == Does::Kind::call || one.does.kind == Does::Kind::begin))
+        return std::string(one.does.subject);
     return "end";
   }
 };

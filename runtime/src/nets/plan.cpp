@@ -76,6 +76,9 @@ class Compilation {
       case Does::Kind::nothing:
       case Does::Kind::count:
         break;
+      case Does::Kind::begin:
+        plan_.receive_first = true;
+        [[fallthrough]];
       case Does::Kind::call:
       case Does::Kind::decide:
       case Does::Kind::route:

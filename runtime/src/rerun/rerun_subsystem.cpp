@@ -225,6 +225,9 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
     case Does::Kind::count:
       operations_.count();
       break;
+    case Does::Kind::begin:
+      operations_.begin_iteration();
+      break;
     case Does::Kind::write:
       operations_.write(entry.subject, entry.slot, at_);
       break;

@@ -17,7 +17,7 @@ struct alignas(64) Gauges {
   std::atomic<std::int64_t> call_ns{0}, longest_call_ns{0};
   /// When it last came to a rest: nothing could fire. It counts while it still waits.
   std::atomic<std::int64_t> waits_since_ns{-1};
-  std::atomic<std::uint16_t> behaviour{0};  ///< the behaviour that was called last
+  std::atomic<std::uint16_t> behaviour{0};  ///< the behaviour that was called last, or has begun to receive
   std::atomic<bool> calling{false};         ///< the transition function has not returned
 
   void begin_call(std::uint16_t called, Time now) {

@@ -99,6 +99,13 @@ void Operations::take_changes(Time now) {
   });
 }
 
+/// The conditions of the last iteration saw which values were fresh in it.
+void Operations::begin_iteration() {
+  receives_first_ = true;
+  if (calls_ > 0) count();  // the first iteration has number 0
+  channels_.mark_seen();
+}
+
 void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t missed) {
   take_changes(now);
   behaviour_ = behaviour;
@@ -150,7 +157,7 @@ void Operations::fail_late(std::uint64_t missed) {
 
 void Operations::finish_call(Time now) {
   // Real inputs stay fresh for the conditions of this iteration; the next one reads them again.
-  channels_.mark_seen();
+  if (!receives_first_) channels_.mark_seen();
   devices_.beat(now, place_of_call(behaviour_));
   check_watchdog(now);
   check_outputs();

@@ -39,6 +39,8 @@ class Operations final : public ContextServices {
   ~Operations() { destroy_drivers(parts_); }
 
   // Operations of places.
+  /// An iteration of a subsystem that receives first. (In the other order it begins with start_call.)
+  void begin_iteration();
   /// missed: the number of missed instants of the rate. If it is not zero, this is a fault: the function is
   /// not called, and the iteration fails.
   void start_call(std::uint16_t behaviour, Time now, std::uint64_t missed = 0);
@@ -122,6 +124,7 @@ class Operations final : public ContextServices {
   std::uint16_t behaviour_ = 0;            // the behaviour called last
   std::atomic<std::uint32_t> reading_{0};  // 1 + number of the real input that is being read; 0: none
   bool failed_ = false;                    // the last transition function has failed
+  bool receives_first_ = false;
   bool erroneous_ = false;                 // the last outcome was error
 };
 

@@ -9,7 +9,7 @@
 
 namespace tessera {
 
-/// The start of the call for a token that has just arrived.
+/// The start of the iteration for a token that has just arrived.
 Time SubsystemExecutor::release() {
   const Duration waited = std::exchange(waited_, Duration::zero());
   if (!releases_.have_rate()) return Time::min();
@@ -24,6 +24,11 @@ Time SubsystemExecutor::release() {
 bool SubsystemExecutor::advance(std::uint32_t place) {
   Token& token = tokens_[place];
   const Duration watchdog = operations_.parts().instance->policies.watchdog;
+  if (places_[place].does == Does::Kind::begin) {
+    gauges_.behaviour.store(plan_->places[place].subject, std::memory_order_relaxed);
+    token.phase = Phase::finished;
+    return true;
+  }
   if (token.phase == Phase::released_later) {
     // User code may take long: a wait that is over must not hold back another subsystem meanwhile.
     if (registrations_ > 0 && !register_waits()) return true;

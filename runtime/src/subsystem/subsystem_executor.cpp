@@ -257,6 +257,11 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
       break;
     case Does::Kind::call:
       token.phase = Phase::released_later;
+      token.due = plan_->receive_first ? Time::min() : release();
+      break;
+    case Does::Kind::begin:
+      operations_.begin_iteration();
+      token.phase = Phase::released_later;
       token.due = release();
       break;
     case Does::Kind::count:

@@ -29,6 +29,8 @@ namespace tessera {
 /// not before the token's arrival and later than that of the call before. All behaviours share these
 /// instants. The first call starts at once. Instants passed over are overruns, unless the time was spent
 /// waiting for other subsystems. With Overrun::catch_up, the missed calls follow late, one after the other.
+/// If the subsystem receives first, the instants are those of the operation `begin`, and `call` starts at
+/// once.
 ///
 /// *Ends.* When the token is in `out`, the subsystem has ended. This is a fault, which stops the system, if
 /// it happens after an error (no entry of `next` leads to another behaviour). It is also a fault if no

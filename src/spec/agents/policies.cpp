@@ -59,6 +59,25 @@ RealTime read_realtime(const Entry& entry, Diagnostics& out) {
   return realtime;
 }
 
+/// A behaviour and a channel have keys of the same name with other values.
+void read_receive(const Section& section, const Entry& receive, Subsystem& subsystem, Diagnostics& out) {
+  const Node& value = *receive.value;
+  if (value.is_sequence()) {
+    out.error("E104", receive.span, "receive must be last or first, not a list",
+              "the list of the inputs that a behaviour receives belongs to the behaviour");
+    return;
+  }
+  if (value.is_scalar() && (value.text == "blocking" || value.text == "non_blocking")) {
+    out.error("E104", value.span, "receive must be last or first, not " + in_quotes(value.text),
+              "whether a receiver waits is said by its channel: { from: ..., to: ..., receive: blocking }");
+    return;
+  }
+  subsystem.receive_first = read_choice(receive, {"last", "first"}, out) == 1;
+  if (section.find("inputs") == nullptr)
+    out.error("E110", receive.span, "'receive' belongs to subsystems with inputs",
+              "without one there is nothing to receive; real buffers are always read before the function");
+}
+
 }  // namespace
 
 void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& out) {
@@ -68,6 +87,7 @@ void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& ou
       out.error("E110", overrun->span, "'overrun' belongs to subsystems with a rate",
                 "without one there is no instant to miss");
   }
+  if (const Entry* receive = section.find("receive")) read_receive(section, *receive, subsystem, out);
   if (const Entry* watchdog = section.find("watchdog"))
     subsystem.watchdog = read_duration(*watchdog->value, watchdog->span, "watchdog", out);
   if (const Entry* recovery = section.find("recovery"))

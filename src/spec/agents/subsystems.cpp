@@ -101,7 +101,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
   const Section section(
       *entry.value, entry.span, "a subsystem",
       {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real", "safe", "limits",
-       "stale", "recovery", "overrun", "watchdog", "non_finite", "realtime"},
+       "stale", "recovery", "overrun", "receive", "watchdog", "non_finite", "realtime"},
       out);
   check_kind(section, kind, out);
   Subsystem subsystem;

@@ -209,6 +209,7 @@ struct Subsystem {
   std::string name;  ///< "control" for the control subsystem
   std::optional<Duration> period;
   BehaviourId start{0};
+  bool receive_first = false;  ///< an iteration receives before its transition function, not after it
   Numbered<BufferId, Field> inputs, outputs;
   std::vector<Field> memory;
   std::vector<Parameter> parameters;

@@ -28,7 +28,7 @@ class SubsystemReader {
     for (std::size_t index = 0; index < entries_.size(); ++index) {
       flow_.behaviours.emplace_back();
       flow_.behaviours[index].name =
-          net_.parts().behaviour_path(flow_.id, net_[entries_[index]].operation.behaviour);
+          net_.parts().behaviour_path(flow_.id, net_[entries_[index]].behaviour);
       if (!read_behaviour(static_cast<std::uint32_t>(index))) return std::nullopt;
     }
     return std::move(flow_);
@@ -42,9 +42,9 @@ class SubsystemReader {
     return std::nullopt;
   }
 
-  /// The index of the behaviour whose transition function starts at the place.
+  /// The index of the behaviour that starts at the place.
   std::optional<std::uint32_t> behaviour_at(PlaceId place) {
-    if (net_[place].operation.kind != Operation::Kind::transition_function) return std::nullopt;
+    if (!net_[place].is(net::Layer::behaviour, net::PlaceRole::input)) return std::nullopt;
     const auto [entry, added] = numbers_.emplace(place, static_cast<std::uint32_t>(entries_.size()));
     if (added) entries_.push_back(place);
     return entry->second;

@@ -31,7 +31,7 @@ using Stage = std::vector<Communication>;
 
 struct BehaviourFlow {
   std::string name;           ///< "robot.control.follow"
-  std::vector<Stage> stages;  ///< those of snd, then those of rcv
+  std::vector<Stage> stages;  ///< those of snd, then those of rcv; with `receive: first` the other way round
   bool repeats = false;       ///< t4 may fire
   bool leaves = false;        ///< t5 or t6 may fire
   /// Once the behaviour is left, an entry of `next` can certainly be taken: one has no condition, or the last

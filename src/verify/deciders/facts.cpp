@@ -73,7 +73,7 @@ std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
     for (std::uint32_t page = 0; page < subject_.pages->pages.size(); ++page) all.push_back(page);
   if (kind == Question::Kind::live_behaviours)
     for (std::uint32_t place = 0; place < subject_.net.places().size(); ++place)
-      if (subject_.net.places()[place].operation.kind == net::Operation::Kind::transition_function)
+      if (subject_.net.places()[place].is(net::Layer::behaviour, net::PlaceRole::input))
         all.push_back(place);
   return all;
 }
@@ -85,7 +85,7 @@ net::PlaceId final_place(const net::Net& net) {
 }
 
 std::string behaviour_of(const net::Net& net, net::PlaceId place) {
-  return net.parts().behaviour_path(net[place].subsystem, net[place].operation.behaviour);
+  return net.parts().behaviour_path(net[place].subsystem, net[place].behaviour);
 }
 
 }  // namespace tessera::verify

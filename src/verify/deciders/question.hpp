@@ -20,7 +20,7 @@ struct Question {
     goes_on,          ///< subjects: subsystems, by Place::subsystem
     channels_flow,    ///< subjects: channels, by Place::channel
     sound_pages,      ///< subjects: pages
-    live_behaviours,  ///< subjects: places that start a transition function
+    live_behaviours,  ///< subjects: places that start a behaviour
     claims            ///< claims of `property`; subjects: their numbers
   } kind = Kind::safe;
   Assume assume = Assume::conditions;

@@ -56,6 +56,25 @@ TEST(LocalNet, AnInputAndAnOutputOfOneNameAreDifferentPorts) {
               HasSubstr("{0, \"snd.token\"}, {1, \"rcv.token\"}, tessera::asynchronous},\n"));
 }
 
+TEST(LocalNet, OfASubsystemThatReceivesFirstBeginsWithItsReceive) {
+  std::string text = fleet(3, true);
+  text.replace(text.find("      rate: 10 Hz\n"), 18, "      rate: 10 Hz\n      receive: first\n");
+  const Generated generated = generate(text);
+  std::string table = generated["walker.control.cpp"];
+  for (std::size_t at = table.find("  "); at != std::string::npos; at = table.find("  ")) table.erase(at, 1);
+  for (const char* row :
+       {R"({"walk.in", tessera::begins("walk")})", R"({"walk.2", tessera::calls("walk")})",
+        R"({"walk.snd.out", tessera::decides("walk")})",
+        R"({"walk.t1", {"walk.in"}, {"walk.rcv.in"}, {}, {tessera::Step::begin_receiving, "walk"}})",
+        R"({"walk.t2", {"walk.rcv.out"}, {"walk.2"}, {}, {tessera::Step::end_receiving, "walk"}})",
+        R"({"walk.t3", {"walk.2"}, {"walk.snd.in"}, {}, {tessera::Step::begin_sending, "walk"}})",
+        R"({"walk.t4", {"walk.snd.out"}, {"walk.in"}, tessera::if_go_on, {tessera::Step::go_on, "walk"}})",
+        R"({"walk.t5", {"walk.snd.out"}, {"walk.out"}, tessera::if_terminal, )",
+        R"({"walk.t6", {"walk.snd.out"}, {"walk.out"}, tessera::if_error, )"})
+    EXPECT_THAT(table, HasSubstr(row));
+  EXPECT_THAT(table, Not(HasSubstr("counts()")));
+}
+
 TEST(LocalNet, EachChannelOfAnOutputHasItsPort) {
   const Generated generated = generate(fleet(3, true));
   EXPECT_THAT(generated["base.control.cpp"], HasSubstr("{\"order#3\", tessera::Side::send, \"order\"},\n"));

@@ -170,7 +170,10 @@ class RandomModel {
       if (coin()) made.transfer = spec::Transfer::parallel;
       behaviours.push_back(std::move(made));
     }
-    return subsystem(spec::SubsystemKind::receptor, "s" + std::to_string(index), inputs, outputs, behaviours);
+    spec::Subsystem made =
+        subsystem(spec::SubsystemKind::receptor, "s" + std::to_string(index), inputs, outputs, behaviours);
+    made.receive_first = between(0, 3) == 0;
+    return made;
   }
 
   spec::Next any_next(std::uint32_t behaviours) {

@@ -15,6 +15,15 @@
   {b ".t3", {b ".2"}, {b ".rcv.in"}}, {b ".t4", {b ".rcv.out"}, {b ".in"}, if_go_on},             \
   {b ".t5", {b ".rcv.out"}, {b ".out"}, if_terminal}, {b ".t6", {b ".rcv.out"}, {b ".out"}, if_error}
 
+// The same of a subsystem that receives first.
+#define FIRST_PLACES(b)                                                                          \
+  {b ".in", begins(b)}, {b ".rcv.in"}, {b ".rcv.out"}, {b ".2", calls(b)}, {b ".snd.in"},         \
+  {b ".snd.out", decides(b)}, {b ".out", routes(b)}
+#define FIRST_TRANSITIONS(b)                                                                      \
+  {b ".t1", {b ".in"}, {b ".rcv.in"}}, {b ".t2", {b ".rcv.out"}, {b ".2"}},                       \
+  {b ".t3", {b ".2"}, {b ".snd.in"}}, {b ".t4", {b ".snd.out"}, {b ".in"}, if_go_on},             \
+  {b ".t5", {b ".snd.out"}, {b ".out"}, if_terminal}, {b ".t6", {b ".snd.out"}, {b ".out"}, if_error}
+
 #define NO_SEND(b) {b ".snd.t1", {b ".snd.in"}, {b ".snd.out"}}
 #define NO_RECEIVE(b) {b ".rcv.t1", {b ".rcv.in"}, {b ".rcv.out"}}
 

@@ -155,6 +155,26 @@ const Transition queue_receive[] = {
     {"run.rcv.x.end_1", {"run.rcv.x.first"}, {"run.rcv.out", "x/empty_1", "x/get_2"}},
     {"run.rcv.x.begin_2", {"run.rcv.in", "x/get_2", "x/full_2"}, {"run.rcv.x.second"}},
     {"run.rcv.x.end_2", {"run.rcv.x.second"}, {"run.rcv.out", "x/empty_2", "x/get_1"}}};
+constexpr Place first_receiver_places[] = {{"in"}, {"out"}, FIRST_PLACES("run"), RECEIVE_PLACES("run", "x")};
+#define FIRST_RECEIVER ENTER("run"), FIRST_TRANSITIONS("run"), NO_SEND("run"), NEXT_END("run", 0)
+const Transition first_async_receive[] = {FIRST_RECEIVER, B2(ASYNC_RECEIVE, RCV)};
+const Transition first_b_receive[] = {FIRST_RECEIVER, B2(B_RECEIVE, RCV)};
+const Transition first_b_receive_timed[] = {FIRST_RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_TIMEOUT, RCV)};
+constexpr Place first_relay_places[] = {
+    {"in"}, {"out"}, FIRST_PLACES("run"), SEND_PLACES("run", "out"), RECEIVE_PLACES("run", "in")};
+const Transition first_relay_transitions[] = {ENTER("run"), FIRST_TRANSITIONS("run"), NEXT("run", 0, "run"),
+                                              ASYNC_SEND("run", "out", "run.snd.in", "run.snd.out"),
+                                              ASYNC_RECEIVE("run", "in", "run.rcv.in", "run.rcv.out")};
+constexpr Place first_two_places[] = {{"in"}, {"out"}, FIRST_PLACES("first"), FIRST_PLACES("second")};
+const Transition first_two_transitions[] = {ENTER("first"),
+                                            FIRST_TRANSITIONS("first"),
+                                            NO_SEND("first"),
+                                            NO_RECEIVE("first"),
+                                            FIRST_TRANSITIONS("second"),
+                                            NO_SEND("second"),
+                                            NO_RECEIVE("second"),
+                                            NEXT("first", 0, "second"),
+                                            NEXT("second", 0, "first")};
 const Transition impatient_receive[] = {
     RECEIVER,
     B_RECEIVE("run", "x", "run.rcv.in", "run.rcv.out"),
@@ -187,6 +207,11 @@ const std::span<const FusedPlace> two_slots{store};
 const SubsystemNet queue_sender{run_only, sends_x, queue_send_places, queue_send};
 const SubsystemNet queue_receiver{run_only, receives_x, queue_receive_places, queue_receive};
 const std::span<const FusedPlace> queue{queue_places};
+const SubsystemNet first_async_receiver{run_only, receives_x, first_receiver_places, first_async_receive};
+const SubsystemNet first_b_receiver{run_only, receives_x, first_receiver_places, first_b_receive};
+const SubsystemNet first_b_receiver_timed{run_only, receives_x, first_receiver_places, first_b_receive_timed};
+const SubsystemNet first_relay{run_only, relay_ports, first_relay_places, first_relay_transitions};
+const SubsystemNet first_two_behaviours{first_second, {}, first_two_places, first_two_transitions};
 const SubsystemNet impatient_receiver{run_only, receives_x, receiver_places, impatient_receive};
 
 }  // namespace tessera::testing::nets

@@ -25,6 +25,10 @@ extern const std::span<const FusedPlace> two_slots;
 /// A queue of two slots, as in the third example: fused places of `queue`.
 extern const SubsystemNet queue_sender, queue_receiver;
 extern const std::span<const FusedPlace> queue;
+/// Subsystems that receive first: a receiver of each mode, a relay that goes on after every end, and two
+/// behaviours, each of which leads to the other and receives nothing.
+extern const SubsystemNet first_async_receiver, first_b_receiver, first_b_receiver_timed, first_relay,
+    first_two_behaviours;
 /// One slot; the receiver gives up by a transition that touches no fused place.
 extern const SubsystemNet impatient_receiver;
 

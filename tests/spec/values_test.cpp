@@ -48,6 +48,14 @@ TEST(Parameters, KnowTypeAndRange) {
   EXPECT_EQ(parameter.maximum, 9.0);
 }
 
+TEST(Subsystems, ReceiveLastUnlessTheySayFirst) {
+  const Reading reading(golden("valid/convoy.yaml"));
+  ASSERT_TRUE(reading.model) << reading.report();
+  const auto& subsystems = reading.model->definitions[0].subsystems;
+  EXPECT_TRUE(subsystems[0].receive_first);
+  EXPECT_FALSE(subsystems[1].receive_first);
+}
+
 TEST(Memory, StructuresAndArraysBecomeInitialisers) {
   const Reading reading(golden("valid/convoy.yaml"));
   ASSERT_TRUE(reading.model) << reading.report();

@@ -59,9 +59,9 @@ TEST(Communication, ReceivesComeFirstWhereTheSubsystemReceivesFirst) {
   system.receive_first(a);
   system.receive_first(b);
   EXPECT_EQ(in_text(judge(system.result()).structure),
-            "a0.s0.b0: receive 2, send 0, send 1, repeats -> a0.s0.b1\n"
-            "a0.s0.b1: receive 2, repeats -> end\n"
-            "a1.s1.b0: [receive 1 | receive 0], send 2, repeats\n");
+            "a0.s0.b0: receive 0, send 1, send 2, repeats -> a0.s0.b1\n"
+            "a0.s0.b1: receive 0, repeats\n"
+            "a1.s1.b0: [receive 2 | receive 1], send 0, repeats\n");
 }
 
 TEST(Communication, ConstantConditionsDecideWhatMayFollow) {

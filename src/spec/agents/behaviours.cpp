@@ -136,6 +136,12 @@ class BehaviourReader {
                                                     const std::vector<Field>& others,
                                                     const std::string& what) {
     if (entry == nullptr) return std::nullopt;
+    if (entry->key == "receive" && entry->value->is_scalar() &&
+        (entry->value->text == "first" || entry->value->text == "last")) {
+      out_.error("E110", entry->value->span, "'receive: " + entry->value->text + "' belongs to a subsystem",
+                 "write it beside 'rate'; 'receive' of a behaviour lists its inputs");
+      return std::nullopt;
+    }
     std::vector<BufferId> listed;
     for (const Node* item : items_of(*entry->value, entry->span, in_quotes(entry->key), out_)) {
       const Node* text = text_of(*item, entry->span, "an " + what, out_);

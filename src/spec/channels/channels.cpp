@@ -104,7 +104,9 @@ class ChannelReader {
     if (text->text != "blocking") {
       out_.error("E104", text->span,
                  in_quotes(entry->key) + " must be blocking or non_blocking, not " + in_quotes(text->text),
-                 did_you_mean(text->text, {"blocking", "non_blocking"}));
+                 text->text == "first" || text->text == "last"
+                     ? "'receive: " + text->text + "' belongs to a subsystem, beside 'rate'"
+                     : did_you_mean(text->text, {"blocking", "non_blocking"}));
     }
     return Mode::blocking;
   }

@@ -62,6 +62,7 @@ export interface PageTransition {
     | "begin_sending"
     | "end_sending"
     | "begin_receiving"
+    | "end_receiving"
     | "overwrite"
     | "skip"
     | "deliver"

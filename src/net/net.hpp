@@ -108,9 +108,9 @@ enum class PlaceRole : std::uint8_t {
 /// The role of a transition in the five layers, besides its condition.
 enum class TransitionRole : std::uint8_t {
   none,
-  start,            ///< enters the page: starts its agents, its subsystems, or its first behaviour
-  end,              ///< leaves the page
-  leave,            ///< of a subsystem: an entry of `next` of the behaviour it takes from is taken
+  start,  ///< enters the page: starts its agents, its subsystems, or its first behaviour
+  end,    ///< leaves the page
+  leave,  ///< of a subsystem: an entry of `next` of the behaviour it takes from is taken
   // Of a behaviour. Its other transitions have conditions of their own kinds.
   begin_sending,    ///< the transition function has been calculated: t1, or t3 with `receive: first`
   end_sending,      ///< t2; with `receive: first` one of t4, t5 and t6 ends the sending

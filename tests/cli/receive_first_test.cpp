@@ -29,7 +29,8 @@ TEST_F(ReceiveFirst, AFunctionComputesWithTheNewestValueAndElseWithOneThatIsAPer
   ASSERT_TRUE(fs::exists(given)) << given;
   fs::copy(given, folder_ / "old", fs::copy_options::recursive);
   const std::string last = run("old", "500ms");
-  EXPECT_NE(last.find("0.400 s  robot.control  computes with the value of 0.19 s"), std::string::npos) << last;
+  EXPECT_NE(last.find("0.400 s  robot.control  computes with the value of 0.19 s"), std::string::npos)
+      << last;
   replace(folder_ / "old/spec.yaml", "rate: 5 Hz", "rate: 5 Hz\n      receive: first");
   const std::string first = run("old", "500ms");
   EXPECT_NE(first.find("0.400 s  robot.control  computes with the value of 0.39 s"), std::string::npos)

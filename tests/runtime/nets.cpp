@@ -166,15 +166,10 @@ const Transition first_relay_transitions[] = {ENTER("run"), FIRST_TRANSITIONS("r
                                               ASYNC_SEND("run", "out", "run.snd.in", "run.snd.out"),
                                               ASYNC_RECEIVE("run", "in", "run.rcv.in", "run.rcv.out")};
 constexpr Place first_two_places[] = {{"in"}, {"out"}, FIRST_PLACES("first"), FIRST_PLACES("second")};
-const Transition first_two_transitions[] = {ENTER("first"),
-                                            FIRST_TRANSITIONS("first"),
-                                            NO_SEND("first"),
-                                            NO_RECEIVE("first"),
-                                            FIRST_TRANSITIONS("second"),
-                                            NO_SEND("second"),
-                                            NO_RECEIVE("second"),
-                                            NEXT("first", 0, "second"),
-                                            NEXT("second", 0, "first")};
+const Transition first_two_transitions[] = {
+    ENTER("first"),       FIRST_TRANSITIONS("first"),  NO_SEND("first"),
+    NO_RECEIVE("first"),  FIRST_TRANSITIONS("second"), NO_SEND("second"),
+    NO_RECEIVE("second"), NEXT("first", 0, "second"),  NEXT("second", 0, "first")};
 const Transition impatient_receive[] = {
     RECEIVER,
     B_RECEIVE("run", "x", "run.rcv.in", "run.rcv.out"),

@@ -67,7 +67,7 @@ struct Plan {
   std::vector<std::uint32_t> first_leaving;  ///< into leaving; one more than places
   std::vector<TransitionEntry> departures;   ///< as leaving, the transitions themselves
   std::uint32_t in = 0, out = 0;
-  bool receive_first = false;  ///< iterations begin at places of their own (Does::Kind::begin), not with a call
+  bool receive_first = false;  ///< iterations begin at their own places (Does::Kind::begin), not with a call
 
   [[nodiscard]] std::span<const std::uint32_t> inputs(const TransitionEntry& t) const {
     return std::span(arcs).subspan(t.inputs, t.outputs - t.inputs);

@@ -124,7 +124,7 @@ class Operations final : public ContextServices {
   std::uint16_t behaviour_ = 0;            // the behaviour called last
   std::atomic<std::uint32_t> reading_{0};  // 1 + number of the real input that is being read; 0: none
   bool failed_ = false;                    // the last transition function has failed
-  bool receives_first_ = false;
+  bool receives_first_ = false;            // iterations begin with begin_iteration
   bool erroneous_ = false;                 // the last outcome was error
 };
 

@@ -27,8 +27,7 @@ class SubsystemReader {
     if (!start || !behaviour_at(*start)) return fail("does not start with a behaviour", entry);
     for (std::size_t index = 0; index < entries_.size(); ++index) {
       flow_.behaviours.emplace_back();
-      flow_.behaviours[index].name =
-          net_.parts().behaviour_path(flow_.id, net_[entries_[index]].behaviour);
+      flow_.behaviours[index].name = net_.parts().behaviour_path(flow_.id, net_[entries_[index]].behaviour);
       if (!read_behaviour(static_cast<std::uint32_t>(index))) return std::nullopt;
     }
     return std::move(flow_);

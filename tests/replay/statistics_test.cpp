@@ -58,6 +58,29 @@ TEST(Statistics, TransitionFunctionsTakeFromTheirCallToT1) {
   EXPECT_NEAR(all[0].call.most, 0.5, 1e-9);
 }
 
+TEST(Statistics, TheTimeOfCommunicationHasNoPartOfAFunctionBetweenReceivingAndSending) {
+  Constructed run({"robot.control"});
+  run.fire(0, 0, "t_in");
+  for (const double at_s : {1.0, 2.0})
+    run.fire(at_s, 0, "go.t1")
+        .fire(at_s + 0.1, 0, "go.t2")
+        .fire(at_s + 0.4, 0, "go.t3")
+        .fire(at_s + 0.45, 0, "go.t4");
+  for (auto& transition : run.recording.transitions) {
+    tessera::Step& step = transition.role.step;
+    step = step == tessera::Step::begin_sending     ? tessera::Step::begin_receiving
+           : step == tessera::Step::end_sending     ? tessera::Step::end_receiving
+           : step == tessera::Step::begin_receiving ? tessera::Step::begin_sending
+                                                    : step;
+  }
+  const auto all = statistics_of(run.recording);
+  EXPECT_EQ(all[0].iterations, 2U);
+  EXPECT_NEAR(all[0].period.most, 1, 1e-9);
+  EXPECT_EQ(all[0].iteration.count, 2U);
+  EXPECT_NEAR(all[0].iteration.least, 0.15, 1e-9);
+  EXPECT_NEAR(all[0].iteration.most, 0.15, 1e-9);
+}
+
 TEST(Perfetto, IsJsonWithARowPerSubsystemAndASlicePerIteration) {
   Constructed run = three_iterations();
   run.recording.system = "a \"quoted\" system";

@@ -1,6 +1,8 @@
 #include <algorithm>
+#include <optional>
 #include <utility>
 
+#include "explore/budget.hpp"
 #include "explore/explore.hpp"
 #include "explore/state_graph.hpp"
 #include "explore/stubborn.hpp"
@@ -34,12 +36,12 @@ class DeadlockSearch {
       net_.fire(transition, marking_);
       const auto inserted = graph.insert(marking_);
       if (!inserted) return End::outgrown;
-      if (!inserted->fresh) {
+      if (inserted->fresh) {
+        path_.push_back(TransitionId{transition});
+        if (open_frame()) return End::goal;
+      } else {
         unfire(transition);
-        continue;
       }
-      path_.push_back(TransitionId{transition});
-      if (open_frame()) return End::goal;
       if (!watch_.go_on(graph.size(), graph.bytes() + own_bytes())) return End::limit;
     }
     return End::complete;
@@ -98,13 +100,18 @@ std::vector<TransitionId> run_without(const PtNet& net, const std::vector<Transi
 }
 
 /// Leaves out firings, in ever smaller pieces, as long as the run still ends in an unwanted dead marking.
-std::vector<TransitionId> shortened(const PtNet& net, const Formula& goal, std::vector<TransitionId> run) {
-  std::size_t effort_left = 2'000'000;  // firings
+/// nullopt: the time is over.
+std::optional<std::vector<TransitionId>> shortened(const PtNet& net, const Formula& goal,
+                                                   std::vector<TransitionId> run, const Budget& budget) {
+  // Firings, and transitions that are looked at in the end: the same run on every machine.
+  std::size_t effort_left = 10'000'000;
   Marking marking;
   for (std::size_t piece = run.size() / 2; piece > 0; piece /= 2)
     for (std::size_t begin = 0; begin < run.size();) {
-      if (effort_left < run.size()) return run;
-      effort_left -= run.size();
+      const std::size_t effort = run.size() + net.transitions();
+      if (effort_left < effort) return run;
+      effort_left -= effort;
+      if (budget.spent()) return std::nullopt;
       std::vector<TransitionId> rest = run_without(net, run, begin, begin + piece, marking);
       if (holds(goal, net, marking))
         run = std::move(rest);
@@ -117,6 +124,7 @@ std::vector<TransitionId> shortened(const PtNet& net, const Formula& goal, std::
 }  // namespace
 
 Answer find_deadlock(const PtNet& net, const Formula& is_final, const Limits& limits) {
+  const Budget budget(limits);
   Watch watch(limits);
   Answer answer;
   GrowingGraph graph(net);
@@ -127,14 +135,18 @@ Answer find_deadlock(const PtNet& net, const Formula& is_final, const Limits& li
   if (end == End::goal) {
     const Formula unwanted = Formula::all({Formula::dead(), Formula::negation(is_final)});
     // A search near the initial marking costs little and often finds the shortest run.
-    Limits near = limits;
+    Limits near = budget.left();
     near.markings = 20'000;
     near.progress = nullptr;
     answer = find(net, unwanted, near);
     if (answer.kind != Answer::Kind::yes) {
       answer = {};
       answer.kind = Answer::Kind::yes;
-      answer.trace.firings = shortened(net, unwanted, search.take_path());
+      const std::vector<TransitionId> path = search.take_path();
+      const auto shorter =
+          budget.spent() ? std::nullopt : shortened(net, unwanted, path, budget);
+      answer.cut_short = !shorter;
+      answer.trace.firings = shorter.value_or(path);
       answer.trace.end = *replay(net, answer.trace.firings);
     }
   }

@@ -29,6 +29,8 @@ struct Answer {
   std::string why;        ///< reason of `unknown`, in one line
   Trace trace;            ///< if a run can show the answer (see each question)
   bool shortest = false;  ///< there is no shorter trace with this property
+  /// find_deadlock: the time ended, or it was told to stop, before the trace was shortened.
+  bool cut_short = false;
   /// leads_to: after so many firings of the trace, `p` holds.
   std::size_t turn = 0;
   Effort effort;
@@ -49,7 +51,7 @@ struct Count {
 [[nodiscard]] Answer find(const PtNet& net, const Formula& goal, const Limits& limits);
 
 /// Is a dead marking reachable in which `is_final` is not true? yes: with a run to one, which is shortened
-/// as far as a second search of limited cost allows.
+/// as far as a second search of limited cost allows. The cost is limited by steps.
 ///
 /// Explores only a stubborn set of the enabled transitions of each marking, depth first.
 /// Source: Valmari, stubborn sets for reduced state space generation (deadlock-preserving strong sets).

@@ -69,12 +69,15 @@ class PackedGraph final : public StateGraph {
     return most;
   }
 
-  [[nodiscard]] Bits where(const Formula& formula) const override {
+  [[nodiscard]] Bits where(const Formula& formula, Watch& watch) const override {
+    constexpr std::size_t between_checks = 4096;
     forward();
     const PackedFormula holds(formula, encoding_, *forward_);
     Bits bits(set_.size());
-    for (std::size_t index = 0; index < set_.size(); ++index)
+    for (std::size_t index = 0; index < set_.size(); ++index) {
+      if (index % between_checks == 0 && !watch.go_on(set_.size(), bytes() + bits.bytes())) break;
       if (holds(set_[static_cast<Index>(index)])) bits.set(index);
+    }
     return bits;
   }
 
@@ -138,7 +141,8 @@ class PackedGraph final : public StateGraph {
     return run;
   }
 
-  [[nodiscard]] Run run_into(Index from, const Bits& target, const Bits* within) const override {
+  [[nodiscard]] Run run_into(Index from, const Bits& target, const Bits* within,
+                             Watch& watch) const override {
     forward();
     struct Step {
       Index before;
@@ -149,6 +153,7 @@ class PackedGraph final : public StateGraph {
     std::optional<Index> end;
     if (target[from]) end = from;
     while (!end && !queue.empty()) {
+      if (!watch.go_on(set_.size(), bytes() + steps.size() * sizeof(Step) * 4)) break;
       const Index index = queue.front();
       queue.pop_front();
       static_cast<void>(

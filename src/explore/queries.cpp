@@ -29,7 +29,7 @@ Answer shown_by(const StateGraph& graph, Answer::Kind kind, Index index) {
 
 /// Whether `goal` can be reached from every marking of the graph.
 Answer reachable_from_all(const StateGraph& graph, const Formula& goal, Watch& watch) {
-  Bits reached = graph.where(goal);
+  Bits reached = graph.where(goal, watch);
   if (!graph.close_backward(reached, nullptr, watch)) return unknown(watch);
   const std::optional<Index> stranded = reached.complement().next(0);
   if (stranded) return shown_by(graph, Answer::Kind::no, *stranded);
@@ -39,20 +39,22 @@ Answer reachable_from_all(const StateGraph& graph, const Formula& goal, Watch& w
 }
 
 Answer leads_to(const StateGraph& graph, const Formula& p, const Formula& q, Watch& watch) {
-  Bits to_q = graph.where(q);
+  Bits to_q = graph.where(q, watch);
   const Bits without_q = to_q.complement();
   if (!graph.close_backward(to_q, nullptr, watch)) return unknown(watch);
   const Bits lost = to_q.complement();
   Bits may_be_lost = lost;
   if (!graph.close_backward(may_be_lost, &without_q, watch)) return unknown(watch);
-  const Bits starts = graph.where(p);
+  const Bits starts = graph.where(p, watch);
+  if (!watch.why().empty()) return unknown(watch);
   Answer answer;
   answer.kind = Answer::Kind::yes;
   for (auto at = may_be_lost.next(0); at; at = may_be_lost.next(std::size_t{*at} + 1)) {
     if (!starts[*at]) continue;
     answer = shown_by(graph, Answer::Kind::no, *at);
     answer.turn = answer.trace.firings.size();
-    const StateGraph::Run rest = graph.run_into(*at, lost, &without_q);
+    const StateGraph::Run rest = graph.run_into(*at, lost, &without_q, watch);
+    if (!watch.why().empty()) return unknown(watch);
     answer.trace.firings.insert(answer.trace.firings.end(), rest.firings.begin(), rest.firings.end());
     answer.trace.end = graph.marking(rest.end);
     answer.shortest = rest.firings.empty();
@@ -123,8 +125,9 @@ std::vector<Answer> can_always_fire(const PtNet& net, const std::vector<Obligati
   for (const Obligation& obligation : obligations) {
     std::vector<Formula> goal{obligation.unless};
     for (const TransitionId transition : obligation.any_of) goal.push_back(Formula::enabled(transition));
-    answers.push_back(complete ? reachable_from_all(graph.graph(), Formula::any(std::move(goal)), watch)
-                               : unknown(watch));
+    const bool goes_on = complete && watch.why().empty();
+    answers.push_back(goes_on ? reachable_from_all(graph.graph(), Formula::any(std::move(goal)), watch)
+                              : unknown(watch));
     answers.back().effort = watch.effort();
   }
   return answers;

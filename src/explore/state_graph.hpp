@@ -47,8 +47,8 @@ class StateGraph {
   [[nodiscard]] virtual Marking marking(Index index) const = 0;
   [[nodiscard]] virtual Tokens most_tokens() const = 0;
 
-  /// The markings in which the formula is true.
-  [[nodiscard]] virtual Bits where(const Formula& formula) const = 0;
+  /// The markings in which the formula is true; some are missing if the watch ends it.
+  [[nodiscard]] virtual Bits where(const Formula& formula, Watch& watch) const = 0;
   /// Adds to `reached` every marking of `within` (null: any) from which a firing leads into `reached`,
   /// until there is none left. false: the watch ended it. Precondition: explored completely.
   [[nodiscard]] virtual bool close_backward(Bits& reached, const Bits* within, Watch& watch) const = 0;
@@ -59,8 +59,9 @@ class StateGraph {
     Index end;
   };
   /// A shortest run from a marking into `target` whose markings before the last are within `within` (null:
-  /// any). Precondition: there is one.
-  [[nodiscard]] virtual Run run_into(Index from, const Bits& target, const Bits* within) const = 0;
+  /// any). Precondition: there is one. If the watch ends it, the run is empty.
+  [[nodiscard]] virtual Run run_into(Index from, const Bits& target, const Bits* within,
+                                     Watch& watch) const = 0;
 };
 
 /// nullptr: a marking of the net does not fit into the longest supported code (16,384 bits).

@@ -44,9 +44,10 @@ int Clauses::all_of(const std::vector<int>& literals) {
   return all;
 }
 
-Clauses::Answer Clauses::solve() {
+Clauses::Answer Clauses::solve(std::optional<int> most_conflicts) {
   constexpr int satisfiable = 10, unsatisfiable = 20;
   if (solver_->terminate()) return Answer::gave_up;
+  if (most_conflicts) solver_->solver.limit("conflicts", *most_conflicts);
   const int answer = solver_->solver.solve();
   if (answer == satisfiable) return Answer::satisfied;
   return answer == unsatisfiable ? Answer::contradiction : Answer::gave_up;

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "explore/watch.hpp"
@@ -29,7 +30,8 @@ class Clauses {
   [[nodiscard]] int all_of(const std::vector<int>& literals);
 
   enum class Answer : std::uint8_t { satisfied, contradiction, gave_up };
-  [[nodiscard]] Answer solve();
+  /// Gives up after so many conflicts (nullopt: never), or when the watch ends it.
+  [[nodiscard]] Answer solve(std::optional<int> most_conflicts = std::nullopt);
   /// Precondition: satisfied, and nothing was added since.
   [[nodiscard]] bool is_true(int literal) const;
 

@@ -1,6 +1,7 @@
 #include "siphons/exclusion.hpp"
 
 #include <map>
+#include <string>
 #include <utility>
 
 #include "explore/units.hpp"
@@ -104,7 +105,7 @@ std::vector<int> marks(const Statement& statement, const std::vector<std::uint32
 
 }  // namespace
 
-Exclusion exclude(const PtNet& net, const Formula& goal, const explore::Limits& limits) {
+Exclusion exclude(const PtNet& net, const Formula& goal, const explore::Limits& limits, const Steps& steps) {
   explore::Watch watch(limits);
   Clauses clauses(watch);
   Statement statement(net, clauses);
@@ -112,13 +113,17 @@ Exclusion exclude(const PtNet& net, const Formula& goal, const explore::Limits& 
   Exclusion result;
   result.units = statement.units();
   while (true) {
-    const Clauses::Answer answer = clauses.solve();
+    const Clauses::Answer answer = clauses.solve(steps.conflicts);
     if (answer == Clauses::Answer::contradiction) {
       result.kind = Exclusion::Kind::excluded;
       return result;
     }
     if (answer == Clauses::Answer::gave_up) {
-      result.why = watch.why();
+      result.why = watch.why().empty() ? "the solver met too many conflicts" : watch.why();
+      return result;
+    }
+    if (result.traps >= steps.traps.value_or(result.traps + 1)) {
+      result.why = "it takes more than " + std::to_string(result.traps) + " traps";
       return result;
     }
     PlaceSet empty(net.places(), 0);

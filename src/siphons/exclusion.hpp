@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,12 @@ struct Exclusion {
   std::size_t units = 0, traps = 0;  ///< number of those that were used
 };
 
+/// Limits that do not depend on the speed of the machine.
+struct Steps {
+  std::optional<int> conflicts{};      ///< of the solver, between two traps
+  std::optional<std::size_t> traps{};  ///< that are looked for
+};
+
 /// Can a reachable marking satisfy `goal`? Searches for a marking that satisfies the goal, has one token in
 /// every unit (explore/units.hpp), and one in every trap that is marked initially. The traps are found one
 /// by one, each against the last marking that satisfied everything else. If the goal is Formula::dead(),
@@ -28,10 +35,10 @@ struct Exclusion {
 /// The clauses only say whether places are marked. "Holds two tokens or more" only implies that the place
 /// is marked and in no unit. So weights are allowed, but add little information.
 ///
-/// Threads: pure. Time: that of a SAT solver, which exceeds limits.time by at most one step of the solver.
+/// Threads: pure. Time: that of a SAT solver. It ends at the limits and after the steps, whichever is first.
 /// Source: Hack 1972; Esparza & Melzer, *Verification of safety properties using integer programming:
 ///         beyond the state equation*, FMSD 16, 2000, which refines by traps in the same way.
 [[nodiscard]] Exclusion exclude(const explore::PtNet& net, const explore::Formula& goal,
-                                const explore::Limits& limits);
+                                const explore::Limits& limits, const Steps& steps = {});
 
 }  // namespace tessera::siphons

@@ -2,6 +2,7 @@
 #include <numeric>
 #include <utility>
 
+#include "explore/budget.hpp"
 #include "verify/communication/abstraction.hpp"
 #include "verify/counterexample/fitting_endings.hpp"
 #include "verify/counterexample/tidy_run.hpp"
@@ -88,6 +89,10 @@ class Answering {
            decider.finds_runs();
   }
   [[nodiscard]] bool only_run() const { return result_.verdict == Verdict::violated; }
+  [[nodiscard]] bool lacks_run() const { return only_run() && !result_.has_trace && has_runs(question_); }
+  void cut_off(std::string what) {
+    if (result_.cut_off.empty()) result_.cut_off = std::move(what);
+  }
   [[nodiscard]] const Question& question() const { return question_; }
   [[nodiscard]] PropertyResult result() && { return std::move(result_); }
 
@@ -119,16 +124,26 @@ class Answering {
     result_.has_trace = finding.has_trace;
     result_.trace = std::move(finding.trace);
     result_.waits = std::move(finding.waits);
+    result_.cut_off = std::move(finding.cut_off);
   }
 
   Question question_;
   PropertyResult result_;
 };
 
+/// Is the property violated by where a run ends, whatever came before?
+bool shown_by_end(const Subject& subject, const PropertyResult& result) {
+  const auto author = std::ranges::find(subject.properties, result.name, &net::Property::name);
+  return author == subject.properties.end() || author->kind != net::Property::Kind::leads_to;
+}
+
 class Prover {
  public:
   Prover(const Subject& subject, const ProveOptions& options)
-      : options_(options), start_(Clock::now()), facts_(subject, options.rules) {}
+      : options_(options),
+        start_(Clock::now()),
+        budget_({.time = options.time, .stop = options.stop}),
+        facts_(subject, options.rules) {}
 
   std::vector<PropertyResult> results() {
     std::vector<Property> wanted = defaults();
@@ -163,6 +178,7 @@ class Prover {
                    : answer(question(property, kind), property.name);
       states += result.states;
       if (result.verdict != Verdict::holds) break;
+      if (kind == Question::Kind::deadlock_free) facts_.exclude_dead_ends(property.assume);
     }
     result.name = property.name;
     if (property.author != nullptr) result.asks = property.author->text;
@@ -171,6 +187,7 @@ class Prover {
     result.partition = property.assume == Assume::partition;
     result.warning = result.exceptions || result.partition;
     result.meaning = meaning_of(result.verdict, property.sort);
+    make_readable(result);
     return result;
   }
 
@@ -256,23 +273,73 @@ class Prover {
     for (const auto& decider : portfolio()) {
       const bool allowed = options_.method.empty() || options_.method == decider->name();
       if (!allowed || !answering.wants(*decider)) continue;
-      // A cut link is simple to imagine: the run that shows it is not worth much time.
-      const double time = answering.question().assume == Assume::partition ? 0.02 : 0.15;
-      const explore::Limits limits = answering.only_run() ? limits_for(name, time, 0.25) : limits_for(name);
-      if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
-        answering.hear(std::move(*finding), *decider);
+      if (budget_.stopped() || (decider->searches() && budget_.spent())) {
+        give_up(answering, *decider);
+        continue;
+      }
+      const explore::Limits limits = answering.only_run() ? limits_for_run(name, answering.question().assume)
+                                                          : limits_for(name);
+      const explore::Budget budget(limits);
+      Finding gave_up;
+      try {
+        if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
+          answering.hear(std::move(*finding), *decider);
+      } catch (const explore::CutOff& cut) {
+        gave_up.why = cut.what();
+        gave_up.subjects = answering.question().subjects;
+        answering.hear(std::move(gave_up), *decider);
+      }
+      if (answering.lacks_run() && decider->finds_runs() && budget.spent())
+        answering.cut_off(reason() + ": no run is shown");
     }
     if (to_blame != nullptr) *to_blame = answering.question().subjects;
     return std::move(answering).result();
   }
 
+  /// Of the end of the work as a whole.
+  [[nodiscard]] std::string reason() const {
+    return budget_.stopped() ? "it was interrupted" : "the time limit is reached";
+  }
+
+  /// The decider is not asked any more.
+  void give_up(Answering& answering, const Decider& decider) const {
+    if (answering.lacks_run()) return answering.cut_off(reason() + ": no run is shown");
+    if (answering.only_run()) return;
+    Finding finding;
+    finding.why = reason();
+    finding.subjects = answering.question().subjects;
+    answering.hear(std::move(finding), decider);
+  }
+
+  /// A run that is easy to follow.
+  void make_readable(PropertyResult& result) {
+    const Subject& subject = facts_.subject();
+    if (!result.has_trace || subject.pages == nullptr) return;
+    const net::Net& net = facts_.under(assumed_by(result)).abstract;
+    try {
+      if (shown_by_end(subject, result)) result.trace = tidy(net, result.trace, budget_);
+    } catch (const explore::CutOff& cut) {
+      if (result.cut_off.empty()) result.cut_off = std::string(cut.what()) + ": the run is not shortened";
+    }
+    result.trace = with_fitting_endings(net, std::move(result.trace));
+  }
+
+  /// For a violation that is decided: the effort for its run is limited by steps, so that it does not depend on
+  /// the machine. A cut link is simple to imagine: the run that shows it is not worth much.
+  [[nodiscard]] explore::Limits limits_for_run(const std::string& name, Assume assume) const {
+    constexpr std::uint64_t markings = 300'000, markings_of_cut = 30'000;
+    explore::Limits limits = limits_for(name);
+    limits.markings = assume == Assume::partition ? markings_of_cut : markings;
+    limits.bytes /= 4;
+    return limits;
+  }
+
   /// The time that is left is shared among the properties that are left.
-  [[nodiscard]] explore::Limits limits_for(const std::string& name, double time = 1,
-                                           double memory = 1) const {
+  [[nodiscard]] explore::Limits limits_for(const std::string& name) const {
     explore::Limits limits;
     const Seconds left = options_.time - Seconds(Clock::now() - start_);
-    limits.time = std::max(Seconds(0), left * time / static_cast<double>(std::max<std::size_t>(left_, 1)));
-    limits.bytes = static_cast<std::uint64_t>(static_cast<double>(options_.bytes) * memory);
+    limits.time = std::max(Seconds(0), left / static_cast<double>(std::max<std::size_t>(left_, 1)));
+    limits.bytes = options_.bytes;
     limits.stop = options_.stop;
     if (options_.progress)
       limits.progress = [this, &name](const explore::Progress& progress) {
@@ -283,22 +350,10 @@ class Prover {
 
   const ProveOptions& options_;
   Clock::time_point start_;
+  explore::Budget budget_;  // for all of it
   Facts facts_;
   std::size_t left_ = 1;  // properties that are not decided yet
 };
-
-/// Is the property violated by where a run ends, whatever came before?
-bool shown_by_end(const Subject& subject, const PropertyResult& result) {
-  const auto author = std::ranges::find(subject.properties, result.name, &net::Property::name);
-  return author == subject.properties.end() || author->kind != net::Property::Kind::leads_to;
-}
-
-void make_readable(const Subject& subject, PropertyResult& result) {
-  if (!result.has_trace || subject.pages == nullptr) return;
-  const net::Net net = abstract_net(subject.net, assumed_by(result));
-  if (shown_by_end(subject, result)) result.trace = tidy(net, std::move(result.trace));
-  result.trace = with_fitting_endings(net, std::move(result.trace));
-}
 
 }  // namespace
 
@@ -337,8 +392,7 @@ Report prove(const Subject& subject, const ProveOptions& options) {
   report.properties = Prover(subject, options).results();
   report.net_hash = hash_of(subject.net);
   std::vector<std::string> names;
-  for (PropertyResult& property : report.properties) {
-    make_readable(subject, property);
+  for (const PropertyResult& property : report.properties) {
     if (property.asks.empty()) names.push_back(property.name);
   }
   report.verification_hash = verification_hash(subject, names);

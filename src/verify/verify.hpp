@@ -52,6 +52,10 @@ struct PropertyResult {
   bool exceptions = false;   ///< verdict and trace are about the net under Assume::exceptions
   bool partition = false;    ///< the same under Assume::partition
   std::string hint = {};     ///< violated: what would help; may be empty
+  /// violated: what is not shown, or not as well as it could be, because a limit of time was reached or the
+  /// search was stopped: "the time limit is reached: the run is not shortened". Empty: nothing. What is shown
+  /// is limited by steps else, and so the same on every machine.
+  std::string cut_off = {};
 };
 
 struct Report {
@@ -102,11 +106,12 @@ class VerifiedNet {
 
 struct ProveOptions {
   std::chrono::duration<double> time{60};  ///< for all properties together, divided fairly
-  std::uint64_t bytes = std::uint64_t{2} << 30U;
+  std::uint64_t bytes = std::uint64_t{2} << 30U;  ///< for the markings of one search
   std::string method = {};   ///< use only this one of method_names(); empty: the first that has an answer
   reduce::Rules rules = {};  ///< reductions that may be used
   std::vector<std::string> only;            ///< names of properties; empty: all
-  const std::atomic<bool>* stop = nullptr;  ///< true: give up the properties that are still open
+  /// true: give up the properties that are still open. It ends within a fraction of a second.
+  const std::atomic<bool>* stop = nullptr;
   std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;
 };
 

@@ -7,6 +7,7 @@
 
 #include "verify/circuits/event_graph.hpp"
 #include "verify/circuits/folding.hpp"
+#include "verify/circuits/recurring_uses.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -106,7 +107,8 @@ class Judgement {
       : structure_(structure),
         group_of_(groups_of(structure)),
         folded_(fold_all()),
-        drawing_(structure, folded_) {}
+        drawing_(structure, folded_),
+        uses_(structure) {}
 
   CircuitReport result() {
     const std::uint32_t groups =
@@ -274,7 +276,7 @@ class Judgement {
   [[nodiscard]] Answer comes_back(SubsystemFlowId subsystem, ChannelFlowId channel, Side side) const {
     if (!group_of(subsystem).applies() || folded_[subsystem.value].can_end) return Answer::unknown;
     if (stuck_[subsystem.value]) return Answer::no;
-    return always_uses_again(structure_[subsystem], channel, side) ? Answer::yes : Answer::no;
+    return uses_.always(channel, side) ? Answer::yes : Answer::no;
   }
 
   [[nodiscard]] Answer flows(ChannelFlowId id) const {
@@ -314,6 +316,7 @@ class Judgement {
   std::vector<std::uint32_t> group_of_;  // per subsystem
   std::vector<Folded> folded_;           // per subsystem; refused if any of its group is
   Drawing drawing_;
+  RecurringUses uses_;
   std::vector<std::uint32_t> sources_;  // events that may never happen again
   std::vector<bool> stuck_;             // per subsystem
   CircuitReport report_;

@@ -141,22 +141,4 @@ Folded fold(const SubsystemFlow& subsystem, const CommunicationStructure& struct
   return Folding(subsystem, structure).result();
 }
 
-bool always_uses_again(const SubsystemFlow& subsystem, ChannelFlowId channel, Side side) {
-  const auto uses = [&](const BehaviourFlow& behaviour) {
-    return std::ranges::any_of(behaviour.stages, [&](const Stage& stage) {
-      return std::ranges::any_of(stage, [&](const Communication& communication) {
-        return communication.flow == channel && communication.side == side;
-      });
-    });
-  };
-  for (std::uint32_t start = 0; start < subsystem.behaviours.size(); ++start) {
-    const Flags reached = followers(subsystem, start);
-    bool again = false;
-    for (std::uint32_t index = 0; index < reached.size(); ++index)
-      again = again || (reached[index] && uses(subsystem.behaviours[index]));
-    if (!again) return false;
-  }
-  return true;
-}
-
 }  // namespace tessera::verify

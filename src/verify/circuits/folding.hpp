@@ -31,7 +31,4 @@ struct Folded {
 /// Linear in the subsystem for a given number of behaviours.
 [[nodiscard]] Folded fold(const SubsystemFlow& subsystem, const CommunicationStructure& structure);
 
-/// From each behaviour, may one follow (it itself again included) that uses this side of the channel?
-[[nodiscard]] bool always_uses_again(const SubsystemFlow& subsystem, ChannelFlowId channel, Side side);
-
 }  // namespace tessera::verify

@@ -49,11 +49,12 @@ net::Marking unpacked(const std::string& bytes) {
 }  // namespace
 
 std::optional<Aftermath> Aftermath::of(const net::Net& net, const Run& run,
-                                       const std::set<net::SubsystemId>& subsystems, std::size_t most) {
+                                       const std::set<net::SubsystemId>& subsystems, std::size_t most,
+                                       const explore::Budget& budget) {
   Aftermath all(net);
   all.choose(that_exchange(net, subsystems));
   all.begin_after(run);
-  if (!all.explored(most)) return std::nullopt;
+  if (!all.explored(most, budget)) return std::nullopt;
   return all;
 }
 
@@ -109,11 +110,13 @@ Aftermath::Number Aftermath::number(const std::string& marking) {
   return entry->second;
 }
 
-bool Aftermath::explored(std::size_t most) {
+bool Aftermath::explored(std::size_t most, const explore::Budget& budget) {
   constexpr std::size_t most_work = 10'000'000;  // of a large fleet each marking is much work
+  std::size_t bytes_left = std::size_t{1} << 28U;
   most = std::min(most, most_work / std::max<std::size_t>(transitions_.size(), 1));
   for (Number at = 0; at < markings_.size(); ++at) {
     if (markings_.size() > most) return false;
+    budget.check();
     const net::Marking marking = unpacked(markings_[at]);
     for (std::uint32_t index = 0; index < transitions_.size(); ++index) {
       if (!net::enabled(part_, {index}, marking)) continue;
@@ -121,7 +124,11 @@ bool Aftermath::explored(std::size_t most) {
       net::fire(part_, {index}, next);
       // A net that is not safe could grow for ever.
       if (std::ranges::any_of(next, [](std::uint32_t tokens) { return tokens > 100; })) return false;
+      const std::size_t bytes = 2 * next.size();  // it is kept twice
+      if (bytes > bytes_left) return false;
+      const std::size_t known = markings_.size();
       const Number to = number(packed(next));
+      if (to == known) bytes_left -= bytes;
       edges_[at].push_back({transitions_[index], to});
     }
   }

@@ -8,6 +8,7 @@
 #include <unordered_map>
 #include <vector>
 
+#include "explore/budget.hpp"
 #include "net/net.hpp"
 #include "net/token_game.hpp"
 
@@ -23,11 +24,12 @@ class Aftermath {
   static constexpr Number start = 0;
   using Markings = std::vector<bool>;  ///< per marking
 
-  /// nullopt: there are more markings than `most`.
+  /// nullopt: there are more markings than `most`, or to see them takes too many steps. Throws
+  /// explore::CutOff if the budget is spent before that.
   /// Precondition: the run is one of the net.
   [[nodiscard]] static std::optional<Aftermath> of(const net::Net& net, const Run& run,
                                                    const std::set<net::SubsystemId>& subsystems,
-                                                   std::size_t most);
+                                                   std::size_t most, const explore::Budget& budget);
 
   /// The markings from which one of the transitions can be fired, at once or later.
   [[nodiscard]] Markings can_fire(const std::vector<net::TransitionId>& any_of) const;
@@ -55,7 +57,7 @@ class Aftermath {
   void choose(const std::set<net::SubsystemId>& subsystems);
   [[nodiscard]] std::vector<net::Arc> in_part(std::span<const net::Arc> arcs);
   void begin_after(const Run& run);
-  [[nodiscard]] bool explored(std::size_t most);
+  [[nodiscard]] bool explored(std::size_t most, const explore::Budget& budget);
   Number number(const std::string& marking);
 
   const net::Net* net_;

@@ -166,13 +166,15 @@ std::vector<TransitionId> awaited(const net::Net& net, const Run& run,
 
 }  // namespace
 
-Run causes_of_standstill(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+Run causes_of_standstill(const net::Net& net, Run run, const std::vector<TransitionId>& stuck,
+                         const explore::Budget& budget) {
   const History history(net, run);
   if (!history.is_run()) return run;
   Concern concern(net);
   for (const TransitionId id : stuck) concern.add(id);
   for (const TransitionId id : awaited(net, run, stuck)) concern.add(id);
   while (true) {
+    budget.check();
     const std::vector<bool> needed = history.behind(concern.places());
     Run kept;
     for (std::size_t firing = 0; firing < run.size(); ++firing)
@@ -187,6 +189,13 @@ Run causes_of_standstill(const net::Net& net, Run run, const std::vector<Transit
     if (excluded) return kept;
     if (!more) return run;
   }
+}
+
+std::vector<bool> possible_after(const net::Net& net, const Run& run) {
+  const Prospect prospect(net, run);
+  std::vector<bool> possible(net.transitions().size());
+  for (std::uint32_t index = 0; index < possible.size(); ++index) possible[index] = prospect.possible({index});
+  return possible;
 }
 
 bool never_again(const net::Net& net, const Run& run, const std::vector<TransitionId>& transitions) {
@@ -216,7 +225,7 @@ class Continuation {
   }
 
   /// False: not everybody came to rest.
-  bool bring_to_rest(const std::vector<TransitionId>& stuck) {
+  bool bring_to_rest(const std::vector<TransitionId>& stuck, const explore::Budget& budget) {
     std::vector<net::SubsystemId> concerned;
     for (const TransitionId id : stuck)
       if (net_[id].subsystem.value < of_subsystem_.size()) concern(net_[id].subsystem, concerned);
@@ -224,6 +233,7 @@ class Continuation {
     for (bool moved = true; moved;) {
       moved = false;
       for (std::size_t next = 0; next < concerned.size(); ++next) {
+        budget.check();
         while (fire_one_of(concerned[next])) {
           moved = true;
           if (++firings > most_firings_each * concerned.size()) return false;
@@ -285,9 +295,10 @@ class Continuation {
 
 }  // namespace
 
-Run until_all_concerned_wait(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+Run until_all_concerned_wait(const net::Net& net, Run run, const std::vector<TransitionId>& stuck,
+                             const explore::Budget& budget) {
   Continuation further(net, run);
-  return further.bring_to_rest(stuck) ? std::move(further).run() : run;
+  return further.bring_to_rest(stuck, budget) ? std::move(further).run() : run;
 }
 
 }  // namespace tessera::verify

@@ -36,8 +36,9 @@ void add_new(std::vector<SubsystemAtEnd>& to, std::vector<SubsystemAtEnd> more) 
 /// Follows the waits, with all that can happen at hand.
 class Explainer {
  public:
-  Explainer(const net::Net& net, const Aftermath& after, Run run, std::vector<TransitionId> stuck)
-      : net_(net), after_(after), run_(std::move(run)), stuck_(std::move(stuck)) {}
+  Explainer(const net::Net& net, const Aftermath& after, Run run, std::vector<TransitionId> stuck,
+            const explore::Budget& budget)
+      : net_(net), after_(after), run_(std::move(run)), stuck_(std::move(stuck)), budget_(budget) {}
 
   /// false: the transitions do not get stuck.
   bool find_end() {
@@ -109,6 +110,7 @@ class Explainer {
 
   /// Brings a subsystem that cannot go on for ever to its stop, and adds the subsystems that it waits for.
   void follow(net::SubsystemId subsystem) {
+    budget_.check();
     const std::vector<TransitionId> transitions = here().transitions(subsystem);
     const Aftermath::Markings stops = opposite(after_.can_fire(transitions));
     if (!stops[at_]) {
@@ -128,14 +130,18 @@ class Explainer {
     if (subsystem != concerned_.front()) return {};
     std::set<std::uint32_t> places;
     const Aftermath::Markings later = after_.reachable_from(at_);
-    for (Number marking = 0; marking < after_.size(); ++marking)
-      if (later[marking]) places.merge(lacking(net_, after_.tokens(marking), stuck_));
+    for (Number marking = 0; marking < after_.size(); ++marking) {
+      if (!later[marking]) continue;
+      budget_.check();
+      places.merge(lacking(net_, after_.tokens(marking), stuck_));
+    }
     return places;
   }
 
   /// lacks: of each that is concerned.
   [[nodiscard]] std::vector<SubsystemAtEnd> at_end(const Waits& waits, net::SubsystemId subsystem,
                                                    const std::vector<std::set<std::uint32_t>>& lacks) const {
+    budget_.check();
     if (waits.has_ended(subsystem)) return {waits.ended(subsystem)};
     if (stuck_for_ever(waits, subsystem)) return waits.waits_of(subsystem);
     std::vector<SubsystemAtEnd> all;
@@ -162,6 +168,7 @@ class Explainer {
   const Aftermath& after_;
   Run run_;
   std::vector<TransitionId> stuck_;
+  const explore::Budget& budget_;
   Number at_ = Aftermath::start;
   std::vector<net::SubsystemId> concerned_;
 };
@@ -182,7 +189,8 @@ net::Net starting_after(const net::Net& net, const Run& run) {
 }
 
 /// Gone on with until none of the transitions can be fired any more, by reductions and search.
-Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& stuck,
+               const explore::Budget& budget) {
   if (never_again(net, run, stuck)) return run;
   std::vector<explore::Formula> enabled;
   for (const TransitionId id : stuck) {
@@ -190,69 +198,92 @@ Run to_the_end(const net::Net& net, Run run, const std::vector<TransitionId>& st
     for (const net::Arc& arc : net.preset(id)) marked.push_back(explore::Formula::marked(arc.place));
     enabled.push_back(explore::Formula::all(std::move(marked)));
   }
-  explore::Limits limits;
+  explore::Limits limits = budget.left();
   limits.markings = 5 * most_markings;
+  limits.progress = nullptr;
   const Goal goal{explore::Formula::any(std::move(enabled))};
   const std::vector<Found> found = ask(starting_after(net, run), Ask::always_reachable, {goal},
                                        Found::Kind::no, {.safe = true, .rules = {}}, limits);
+  if (found.front().kind == Found::Kind::unknown) budget.check();
   if (found.front().kind == Found::Kind::no)
     run.insert(run.end(), found.front().trace.begin(), found.front().trace.end());
   return run;
 }
 
+/// The transitions that can be shown never to fire again after a run.
+class StuckForEver {
+ public:
+  StuckForEver(const net::Net& net, const Run& run) : possible_(possible_after(net, run)) {}
+  [[nodiscard]] bool all(const std::vector<TransitionId>& transitions) const {
+    return std::ranges::none_of(transitions, [&](TransitionId id) { return possible_[id.value]; });
+  }
+
+ private:
+  std::vector<bool> possible_;  // per transition
+};
+
 /// The waits of subsystems that can be shown to be stuck, found by following the waits from the first one.
 std::vector<SubsystemAtEnd> proved_waits(const net::Net& net, const Run& run,
-                                         std::vector<net::SubsystemId> concerned) {
+                                         std::vector<net::SubsystemId> concerned,
+                                         const explore::Budget& budget) {
   const Waits waits(net, net::marking_after(net, run));
+  const StuckForEver stuck(net, run);
   std::vector<SubsystemAtEnd> all;
+  std::set<net::SubsystemId> known(concerned.begin(), concerned.end());
   for (std::size_t next = 0; next < concerned.size(); ++next) {
+    budget.check();
     const net::SubsystemId subsystem = concerned[next];
     if (waits.has_ended(subsystem)) {
       add_new(all, {waits.ended(subsystem)});
       continue;
     }
-    if (waits.moves(subsystem) || !never_again(net, run, waits.transitions(subsystem))) continue;
+    if (waits.moves(subsystem) || !stuck.all(waits.transitions(subsystem))) continue;
     add_new(all, waits.waits_of(subsystem));
     for (const std::uint32_t place : waits.lacking(subsystem))
       for (const net::SubsystemId giver : waits.givers(place, subsystem))
-        if (std::ranges::count(concerned, giver) == 0) concerned.push_back(giver);
+        if (known.insert(giver).second) concerned.push_back(giver);
   }
   return all;
 }
 
-Explanation roughly_explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
-  run = to_the_end(net, std::move(run), stuck);
-  Run further = until_all_concerned_wait(net, run, stuck);
+Explanation roughly_explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck,
+                              const explore::Budget& budget) {
+  run = to_the_end(net, std::move(run), stuck, budget);
+  Run further = until_all_concerned_wait(net, run, stuck, budget);
   if (never_again(net, further, stuck)) run = std::move(further);
-  std::vector<SubsystemAtEnd> waits = proved_waits(net, run, {net[stuck.front()].subsystem});
+  std::vector<SubsystemAtEnd> waits = proved_waits(net, run, {net[stuck.front()].subsystem}, budget);
   return {std::move(run), std::move(waits)};
 }
 
 }  // namespace
 
-Explanation explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck) {
+Explanation explained(const net::Net& net, Run run, const std::vector<TransitionId>& stuck,
+                      const explore::Budget& budget) {
   if (stuck.empty()) return {std::move(run), {}};
-  const auto after = Aftermath::of(net, run, {net[stuck.front()].subsystem}, most_markings);
-  if (!after) return roughly_explained(net, std::move(run), stuck);
-  Explainer explainer(net, *after, run, stuck);
+  const auto after = Aftermath::of(net, run, {net[stuck.front()].subsystem}, most_markings, budget);
+  if (!after) return roughly_explained(net, std::move(run), stuck, budget);
+  Explainer explainer(net, *after, run, stuck, budget);
   if (!explainer.find_end()) return {std::move(run), {}};
   return std::move(explainer).result();
 }
 
-Explanation explained(const net::Net& net, Run run) {
+Explanation explained(const net::Net& net, Run run, const explore::Budget& budget) {
   const Waits waits(net, net::marking_after(net, run));
   std::set<net::SubsystemId> stopped;
   for (std::uint32_t index = 0; index < waits.subsystems(); ++index)
     if (!waits.has_ended({index}) && !waits.moves({index})) stopped.insert({index});
   if (stopped.empty()) return {std::move(run), {}};
-  if (const auto after = Aftermath::of(net, run, stopped, most_markings)) {
-    Explainer explainer(net, *after, std::move(run), {});
+  if (const auto after = Aftermath::of(net, run, stopped, most_markings, budget)) {
+    Explainer explainer(net, *after, std::move(run), {}, budget);
     explainer.settle(stopped);
     return std::move(explainer).result();
   }
+  const StuckForEver stuck(net, run);
   std::vector<SubsystemAtEnd> all;
-  for (const net::SubsystemId subsystem : stopped)
-    if (never_again(net, run, waits.transitions(subsystem))) add_new(all, waits.waits_of(subsystem));
+  for (const net::SubsystemId subsystem : stopped) {
+    budget.check();
+    if (stuck.all(waits.transitions(subsystem))) add_new(all, waits.waits_of(subsystem));
+  }
   return {std::move(run), std::move(all)};
 }
 

@@ -4,7 +4,9 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <span>
 #include <tuple>
+#include <unordered_map>
 #include <utility>
 
 #include "explore/explore.hpp"
@@ -40,28 +42,35 @@ std::optional<explore::Marking> end_of(const explore::PtNet& net, const Run& run
 // ---------------------------------------------------------------------------------------------- shorter
 
 /// The shortest run to the same end of the net with only the transitions of the run.
-Run searched_again(const net::Net& net, const explore::Marking& end, const Run& run) {
+Run searched_again(const net::Net& net, const explore::Marking& end, const Run& run,
+                   const explore::Budget& budget) {
   std::set<net::SubsystemId> subsystems;
   for (const TransitionId id : run) subsystems.insert(net[id].subsystem);
   if (subsystems.size() > most_searched) return run;
-  net::Net used(net.shared_parts());
-  for (const net::Place& place : net.places()) used.add(place);
   const std::set<TransitionId> occurring(run.begin(), run.end());
   const Run back(occurring.begin(), occurring.end());
-  std::set<std::uint32_t> touched;
-  for (const TransitionId id : back) {
-    used.add(net[id], net.preset(id), net.postset(id));
+  net::Net used(net.shared_parts());
+  std::map<std::uint32_t, net::PlaceId> local;  // of the places that they touch
+  for (const TransitionId id : back)
     for (const auto arcs : {net.preset(id), net.postset(id)})
-      for (const Arc& arc : arcs) touched.insert(arc.place.value);
-  }
+      for (const Arc& arc : arcs) local[arc.place.value];
   std::vector<Formula> same;
-  for (const std::uint32_t place : touched) {
-    const Formula marked = Formula::marked({place});
+  for (auto& [place, there] : local) {
+    there = used.add(net.places()[place]);
+    const Formula marked = Formula::marked(there);
     same.push_back(end[place] > 0 ? marked : Formula::negation(marked));
   }
-  explore::Limits limits;
+  const auto moved = [&](std::span<const Arc> arcs) {
+    std::vector<Arc> there;
+    for (const Arc& arc : arcs) there.push_back({local[arc.place.value], arc.weight});
+    return there;
+  };
+  for (const TransitionId id : back) used.add(net[id], moved(net.preset(id)), moved(net.postset(id)));
+  explore::Limits limits = budget.left();
   limits.markings = 100'000;  // rather than time: the same run on every machine
+  limits.progress = nullptr;
   const explore::Answer answer = explore::find(explore::PtNet(used), Formula::all(std::move(same)), limits);
+  if (answer.kind == explore::Answer::Kind::unknown) budget.check();
   if (answer.kind != explore::Answer::Kind::yes || answer.trace.firings.size() >= run.size()) return run;
   Run shorter;
   for (const TransitionId id : answer.trace.firings) shorter.push_back(back[id.value]);
@@ -72,16 +81,19 @@ Run searched_again(const net::Net& net, const explore::Marking& end, const Run& 
 /// round gives back to the channels what it takes, else with the next round of each subsystem it deals with.
 class RoundRemoval {
  public:
-  RoundRemoval(const net::Net& net, const explore::PtNet& compiled, const explore::Marking& end)
-      : net_(net), compiled_(compiled), end_(end) {}
+  RoundRemoval(const net::Net& net, const explore::PtNet& compiled, const explore::Marking& end,
+               const explore::Budget& budget)
+      : net_(net), compiled_(compiled), end_(end), budget_(budget) {}
 
   Run shortened(Run run) {
-    for (std::size_t tries = 0; tries < most_tries;) {
+    for (std::size_t tries = 0; tries < most_tries && steps_left_ > 0;) {
       const std::vector<Round> rounds = rounds_of(run);
       bool removed = false;
-      for (std::size_t index = 0; index < rounds.size() && tries < most_tries && !removed; ++index) {
-        ++tries;
+      for (std::size_t index = 0; index < rounds.size() && !removed; ++index) {
+        if (++tries > most_tries || steps_left_ == 0) break;
+        budget_.check();
         Run left = without(run, closed(rounds, index));
+        take_steps(run.size());
         if (left.size() == run.size() || end_of(compiled_, left) != end_) continue;
         run = std::move(left);
         removed = true;
@@ -99,29 +111,44 @@ class RoundRemoval {
     std::map<std::uint32_t, int> effect;  // on fused places
   };
 
+  void take_steps(std::size_t steps) { steps_left_ -= std::min(steps, steps_left_); }
+
+  /// Of a set of places: the sums of two sets are equal if the sets are, and hardly ever else. Whether a round
+  /// may be left out is checked afterwards.
+  static std::uint64_t code(std::uint32_t place) {
+    std::uint64_t mixed = (std::uint64_t{place} + 1) * 0x9e3779b97f4a7c15ULL;
+    mixed ^= mixed >> 29U;
+    mixed *= 0xbf58476d1ce4e5b9ULL;
+    return mixed ^ (mixed >> 32U);
+  }
+
   /// The shortest rounds that end with each firing.
-  [[nodiscard]] std::vector<Round> rounds_of(const Run& run) const {
+  std::vector<Round> rounds_of(const Run& run) {
     std::map<net::SubsystemId, std::vector<std::size_t>> own;
     for (std::size_t at = 0; at < run.size(); ++at)
       if (net_[run[at]].subsystem.valid()) own[net_[run[at]].subsystem].push_back(at);
     std::vector<Round> rounds;
     for (const auto& [subsystem, firings] : own) {
       std::set<std::uint32_t> marked;
-      std::map<std::set<std::uint32_t>, std::size_t> seen;
+      std::uint64_t sum = 0;  // of its codes
+      std::unordered_map<std::uint64_t, std::size_t> seen;
       for (std::size_t at = 0; at < firings.size(); ++at) {
-        seen[marked] = at;
-        for (const Arc& arc : net_.preset(run[firings[at]])) marked.erase(arc.place.value);
+        seen[sum] = at;
+        for (const Arc& arc : net_.preset(run[firings[at]]))
+          if (marked.erase(arc.place.value) > 0) sum -= code(arc.place.value);
         for (const Arc& arc : net_.postset(run[firings[at]]))
-          if (!net_[arc.place].fused()) marked.insert(arc.place.value);
-        const auto before = seen.find(marked);
+          if (!net_[arc.place].fused() && marked.insert(arc.place.value).second) sum += code(arc.place.value);
+        const auto before = seen.find(sum);
         if (before == seen.end()) continue;
         Round& round = rounds.emplace_back();
         round.subsystem = subsystem;
         round.firings.assign(firings.begin() + static_cast<std::ptrdiff_t>(before->second),
                              firings.begin() + static_cast<std::ptrdiff_t>(at) + 1);
         for (const std::size_t firing : round.firings) add_effect(run[firing], round.effect);
+        take_steps(round.firings.size());
       }
     }
+    take_steps(run.size());
     std::ranges::stable_sort(rounds, {}, [](const Round& round) { return round.firings.front(); });
     return rounds;
   }
@@ -134,16 +161,18 @@ class RoundRemoval {
   }
 
   /// The firings of a round and of those that undo its effect on channels.
-  [[nodiscard]] static std::set<std::size_t> closed(const std::vector<Round>& rounds, std::size_t first) {
+  [[nodiscard]] std::set<std::size_t> closed(const std::vector<Round>& rounds, std::size_t first) {
     std::set<std::size_t> firings(rounds[first].firings.begin(), rounds[first].firings.end());
     std::set<net::SubsystemId> members{rounds[first].subsystem};
     std::map<std::uint32_t, int> open = rounds[first].effect;
-    for (bool grew = true; grew;) {
+    for (bool grew = true; grew && steps_left_ > 0;) {
+      budget_.check();
       grew = false;
       std::erase_if(open, [](const auto& entry) { return entry.second == 0; });
       if (open.empty()) break;
       for (std::size_t index = 0; index < rounds.size() && !grew; ++index) {
         const Round& round = rounds[index];
+        take_steps(round.effect.size());
         const bool undoes = std::ranges::any_of(round.effect, [&](const auto& entry) {
           const auto found = open.find(entry.first);
           return found != open.end() && found->second * entry.second < 0;
@@ -167,6 +196,8 @@ class RoundRemoval {
   const net::Net& net_;
   const explore::PtNet& compiled_;
   const explore::Marking& end_;
+  const explore::Budget& budget_;
+  std::size_t steps_left_ = 4'000'000;  // firings and effects that are looked at: the same run on every machine
 };
 
 // ---------------------------------------------------------------------------------------------- grouped
@@ -225,12 +256,14 @@ Run grouped(const net::Net& net, const Run& run) {
 
 }  // namespace
 
-std::vector<TransitionId> tidy(const net::Net& net, std::vector<TransitionId> run) {
+std::vector<TransitionId> tidy(const net::Net& net, std::vector<TransitionId> run,
+                               const explore::Budget& budget) {
+  budget.check();
   const explore::PtNet compiled(net);
   const std::optional<explore::Marking> end = end_of(compiled, run);
   if (!end) return run;
-  run = RoundRemoval(net, compiled, *end).shortened(std::move(run));
-  run = searched_again(net, *end, run);
+  run = RoundRemoval(net, compiled, *end, budget).shortened(std::move(run));
+  run = searched_again(net, *end, run, budget);
   return grouped(net, run);
 }
 

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "explore/budget.hpp"
 #include "net/net.hpp"
 
 namespace tessera::verify {
@@ -11,7 +12,11 @@ namespace tessera::verify {
 /// something by the marking they end in.
 ///
 /// net: every place holds at most one token. A run that puts two into one place is returned unchanged.
+/// The cost is limited by steps: the same run on every machine. Throws explore::CutOff if the budget is
+/// spent before.
 /// Threads: pure. Deterministic.
-[[nodiscard]] std::vector<net::TransitionId> tidy(const net::Net& net, std::vector<net::TransitionId> run);
+[[nodiscard]] std::vector<net::TransitionId> tidy(
+    const net::Net& net, std::vector<net::TransitionId> run,
+    const explore::Budget& budget = explore::Budget(explore::Limits{}));
 
 }  // namespace tessera::verify

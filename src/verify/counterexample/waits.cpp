@@ -50,30 +50,41 @@ Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
     if (net::is_networked(place.role)) networked_[place.channel.value] = true;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::Transition& transition = net.transitions()[index];
-    if (transition.subsystem.value < transitions_.size() &&
-        transition.condition.truth != net::Condition::Truth::never)
-      transitions_[transition.subsystem.value].push_back({index});
+    if (transition.subsystem.value >= transitions_.size() ||
+        transition.condition.truth == net::Condition::Truth::never)
+      continue;
+    transitions_[transition.subsystem.value].push_back({index});
+    for (const net::Arc& arc : net.postset({index})) {
+      if (!net[arc.place].fused()) continue;
+      std::vector<TransitionId>& giving = giving_[net[arc.place].channel];
+      if (giving.empty() || giving.back() != TransitionId{index}) giving.push_back({index});
+    }
   }
+  note_tokens();
+}
+
+void Waits::note_tokens() {
+  acts_.assign(transitions_.size(), false);
+  std::set<net::AgentId> not_begun;
+  bool system_not_begun = false;
+  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
+    if (tokens_[place] == 0) continue;
+    const net::Place& given = net_.places()[place];
+    if (given.subsystem.value < acts_.size() && !given.fused() &&
+        !given.is(net::Layer::subsystem, net::PlaceRole::output))
+      acts_[given.subsystem.value] = true;
+    // It has not ended if it has never begun: its agent is still to start it.
+    system_not_begun = system_not_begun || given.is(net::Layer::system, net::PlaceRole::input);
+    if (given.is(net::Layer::agent, net::PlaceRole::input)) not_begun.insert(given.agent);
+  }
+  for (std::uint32_t index = 0; index < acts_.size(); ++index)
+    if (system_not_begun || not_begun.contains(net_.parts()[net::SubsystemId{index}].agent))
+      acts_[index] = true;
 }
 
 bool Waits::moves(net::SubsystemId subsystem) const {
   return std::ranges::any_of(transitions_[subsystem.value],
                              [&](TransitionId id) { return net::enabled(net_, id, tokens_); });
-}
-
-bool Waits::has_ended(net::SubsystemId subsystem) const {
-  const net::AgentId agent = net_.parts()[subsystem].agent;
-  for (std::uint32_t place = 0; place < tokens_.size(); ++place) {
-    if (tokens_[place] == 0) continue;
-    const net::Place& given = net_.places()[place];
-    if (given.subsystem == subsystem && !given.fused() &&
-        !given.is(net::Layer::subsystem, net::PlaceRole::output))
-      return false;
-    // It has not ended if it has never begun: its agent is still to start it.
-    if (given.is(net::Layer::system, net::PlaceRole::input)) return false;
-    if (given.is(net::Layer::agent, net::PlaceRole::input) && given.agent == agent) return false;
-  }
-  return true;
 }
 
 std::set<std::uint32_t> Waits::lacking(net::SubsystemId subsystem) const {
@@ -134,19 +145,23 @@ SubsystemAtEnd Waits::wait_at(net::SubsystemId subsystem, std::uint32_t missing)
 
 std::set<net::SubsystemId> Waits::givers(std::uint32_t place, net::SubsystemId waiting) const {
   std::set<net::SubsystemId> all;
-  for (std::uint32_t index = 0; index < transitions_.size(); ++index)
-    if (!giving({index}, place).empty()) all.insert({index});
+  if (const auto found = giving_.find(net_.places()[place].channel); found != giving_.end())
+    for (const TransitionId id : found->second)
+      if (gives(id, place)) all.insert(net_[id].subsystem);
   if (all.size() > 1) all.erase(waiting);
   return all;
 }
 
 std::vector<TransitionId> Waits::giving(net::SubsystemId subsystem, std::uint32_t place) const {
-  const auto here = [&](const net::Arc& arc) { return is_given(place, arc); };
   std::vector<TransitionId> all;
   for (const TransitionId id : transitions_[subsystem.value])
-    if (std::ranges::any_of(net_.postset(id), here) && std::ranges::none_of(net_.preset(id), here))
-      all.push_back(id);
+    if (gives(id, place)) all.push_back(id);
   return all;
+}
+
+bool Waits::gives(TransitionId id, std::uint32_t place) const {
+  const auto here = [&](const net::Arc& arc) { return is_given(place, arc); };
+  return std::ranges::any_of(net_.postset(id), here) && std::ranges::none_of(net_.preset(id), here);
 }
 
 bool Waits::is_own_memory(net::SubsystemId subsystem, std::uint32_t place) const {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,7 +20,7 @@ class Waits {
   /// Can the subsystem fire something at once?
   [[nodiscard]] bool moves(net::SubsystemId subsystem) const;
   /// Has the subsystem started and ended?
-  [[nodiscard]] bool has_ended(net::SubsystemId subsystem) const;
+  [[nodiscard]] bool has_ended(net::SubsystemId subsystem) const { return !acts_[subsystem.value]; }
   /// The waits of a subsystem without an enabled transition: "a.control waits for a value of
   /// b.control.y->a.control.x from b.control", or that none of its initial conditions held.
   [[nodiscard]] std::vector<SubsystemAtEnd> waits_of(net::SubsystemId subsystem) const;
@@ -28,8 +29,8 @@ class Waits {
 
   /// The channel places without a token that keep its transitions from firing, if nothing else does.
   [[nodiscard]] std::set<std::uint32_t> lacking(net::SubsystemId subsystem) const;
-  /// The subsystems that can put a token into the place. The waiting one is left out unless it is
-  /// the only one.
+  /// The subsystems that can put a token into the place, one of a channel. The waiting one is left out unless
+  /// it is the only one.
   [[nodiscard]] std::set<net::SubsystemId> givers(std::uint32_t place, net::SubsystemId waiting) const;
   /// The transitions of a subsystem that put a token there and take none from there.
   [[nodiscard]] std::vector<net::TransitionId> giving(net::SubsystemId subsystem, std::uint32_t place) const;
@@ -57,6 +58,8 @@ class Waits {
   [[nodiscard]] Good good_of(const net::Place& place) const;
   [[nodiscard]] bool crosses(const net::Place& place) const { return networked_[place.channel.value]; }
   [[nodiscard]] bool is_given(std::uint32_t place, const net::Arc& arc) const;
+  [[nodiscard]] bool gives(net::TransitionId id, std::uint32_t place) const;
+  void note_tokens();
   /// ", and the network is cut" at the link of a place's channel that the waiting subsystem needs.
   [[nodiscard]] std::string cut_at(const net::Place& place) const;
 
@@ -73,6 +76,8 @@ class Waits {
   std::vector<std::uint32_t> tokens_;
   std::vector<std::vector<net::TransitionId>> transitions_;  // per subsystem
   std::vector<bool> networked_;                              // per channel
+  std::map<net::ChannelId, std::vector<net::TransitionId>> giving_;  // per channel: that put a token there
+  std::vector<bool> acts_;                                   // per subsystem: it has not ended
 };
 
 /// The channel places without a token that keep the transitions from firing, if nothing else does. tokens:

@@ -168,6 +168,7 @@ class ByCircuits final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "circuits"; }
   [[nodiscard]] const char* title() const override { return "circuits"; }
+  [[nodiscard]] bool searches() const override { return false; }
 
   [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
                                               const explore::Limits& /*limits*/) const override {

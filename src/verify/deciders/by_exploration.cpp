@@ -1,5 +1,10 @@
 #include <algorithm>
+#include <optional>
+#include <string>
 
+#include "explore/budget.hpp"
+#include "explore/walks.hpp"
+#include "net/token_game.hpp"
 #include "verify/counterexample/causes.hpp"
 #include "verify/counterexample/explanation.hpp"
 #include "verify/counterexample/waits.hpp"
@@ -29,28 +34,34 @@ Finding judged(const Found& found, Found::Kind good) {
   return finding;
 }
 
-/// Reductions do not keep safety, so the net itself is explored.
+/// A search that is not worth more ends after so many markings: rather than time, so that the same run is
+/// shown on every machine. In a large net each marking is more work.
+std::uint64_t few_markings(const net::Net& net) {
+  constexpr std::uint64_t most = 300'000, fewest = 2'000, work = 1'000'000'000;
+  return std::clamp(work / std::max<std::size_t>(net.transitions().size(), 1), fewest, most);
+}
+
+explore::Limits with_few_markings(const net::Net& net, explore::Limits limits) {
+  limits.markings = std::min(limits.markings, few_markings(net));
+  return limits;
+}
+
+/// Reductions do not keep safety, so the net itself is explored, up to the first second token.
 Finding safe(const NetUnderAssumption& given, const explore::Limits& limits) {
   std::vector<TransitionId> original;
   const net::Net possible = possible_part(given.abstract, &original);
   const explore::PtNet net(possible);
-  explore::Limits most = limits;
-  most.time *= 0.8;
-  const explore::Count count = explore::count(net, most);
-  Finding finding;
-  finding.method = "explicit search";
-  finding.why = count.why;
-  finding.states = count.markings;
-  finding.explanation =
-      std::to_string(count.markings) + " markings, " + std::to_string(count.edges) + " edges";
-  if (count.complete && count.most_tokens <= 1) finding.kind = Finding::Kind::holds;
-  if (count.most_tokens <= 1) return finding;
   std::vector<Formula> two;
   for (std::uint32_t place = 0; place < net.places(); ++place) two.push_back(Formula::at_least({place}, 2));
   const explore::Answer answer = explore::find(net, Formula::any(std::move(two)), limits);
-  finding.kind = Finding::Kind::violated;
-  finding.why = "a place holds two tokens";
+  Finding finding;
+  finding.method = "explicit search";
+  finding.why = answer.why;
+  finding.states = answer.effort.markings;
+  finding.explanation = std::to_string(answer.effort.markings) + " markings";
+  if (answer.kind == explore::Answer::Kind::no) finding.kind = Finding::Kind::holds;
   if (answer.kind != explore::Answer::Kind::yes) return finding;
+  finding.kind = Finding::Kind::violated;
   finding.has_trace = true;
   for (const TransitionId id : answer.trace.firings) finding.trace.push_back(original[id.value]);
   for (std::uint32_t place = 0; place < net.places(); ++place)
@@ -61,18 +72,36 @@ Finding safe(const NetUnderAssumption& given, const explore::Limits& limits) {
 }
 
 /// Extends the run, whose violation is final, and adds the waits at its end.
-void explain(Finding& finding, const net::Net& net) {
-  Explanation explanation = explained(net, std::move(finding.trace));
-  finding.trace = std::move(explanation.run);
-  finding.waits = std::move(explanation.waits);
+void explain(Finding& finding, const net::Net& net, const explore::Budget& budget) {
+  try {
+    Explanation explanation = explained(net, finding.trace, budget);
+    finding.trace = std::move(explanation.run);
+    finding.waits = std::move(explanation.waits);
+  } catch (const explore::CutOff& cut) {
+    finding.cut_off = std::string(cut.what()) + ": the waits are not named";
+  }
 }
 
-Finding deadlock_free(const NetUnderAssumption& given, Facts& facts, const explore::Limits& limits) {
-  const PlaceId end = facts.subject().pages == nullptr ? PlaceId{} : final_place(given.abstract);
-  Finding finding = judged(find_dead(given.abstract, end, facts.reducing(), limits), Found::Kind::no);
+Finding deadlock_free(const NetUnderAssumption& given, const Question& question, Facts& facts,
+                      const explore::Limits& limits) {
+  const explore::Budget budget(limits);
+  const Found* found = &facts.dead_end(question.assume, with_few_markings(given.abstract, limits));
+  Finding finding = judged(*found, Found::Kind::no);
+  if (found->kind == Found::Kind::unknown) {
+    if (const auto known = facts.known_dead_ends(question.assume); !known.empty()) {
+      finding.kind = Finding::Kind::violated;
+      finding.trace = known.front();
+      finding.has_trace = true;
+    } else {
+      found = &facts.dead_end(question.assume, limits);
+      finding = judged(*found, Found::Kind::no);
+    }
+  }
   if (finding.kind != Finding::Kind::violated) return finding;
-  finding.why = end.valid() ? "a dead marking is reachable that is not final" : "a dead marking is reachable";
-  explain(finding, given.abstract);
+  finding.why = facts.subject().pages != nullptr ? "a dead marking is reachable that is not final"
+                                                 : "a dead marking is reachable";
+  if (found->cut_short) finding.cut_off = "the time limit is reached: the run is not shortened";
+  explain(finding, given.abstract, budget);
   return finding;
 }
 
@@ -85,10 +114,58 @@ std::size_t worst_of(const std::vector<Found>& all) {
   return at(Found::Kind::unknown) < all.size() ? at(Found::Kind::unknown) : 0;
 }
 
+/// The first of the sets none of whose transitions is enabled after the run.
+std::optional<std::size_t> stuck_after(const net::Net& net, const std::vector<TransitionId>& run,
+                                       const std::vector<std::vector<TransitionId>>& sets) {
+  const net::Marking end = net::marking_after(net, run);
+  for (std::size_t set = 0; set < sets.size(); ++set)
+    if (std::ranges::none_of(sets[set], [&](TransitionId id) { return net::enabled(net, id, end); }))
+      return set;
+  return std::nullopt;
+}
+
+/// A set of transitions that gets stuck, of several.
+struct Standstill {
+  Finding finding;
+  std::size_t set = 0;
+};
+
+/// A run to a dead marking refutes that something is always possible again. The shortest run, which a search
+/// through all markings gives, is preferred if that takes few of them.
+Standstill standstill(const NetUnderAssumption& given, const std::vector<std::vector<TransitionId>>& sets,
+                      Assume assume, Facts& facts, const explore::Limits& limits,
+                      const explore::Budget& budget) {
+  const explore::Limits few = with_few_markings(given.abstract, limits);
+  const auto searched = [&](const explore::Limits& within) {
+    const std::vector<Found> found = find_stuck(given.probed.net, sets, facts.reducing(), within);
+    const std::size_t worst = worst_of(found);
+    return Standstill{judged(found[worst], Found::Kind::yes), worst};
+  };
+  Standstill found = searched(few);
+  if (found.finding.kind != Finding::Kind::unknown) return found;
+  explore::Limits left = budget.left();
+  left.markings = few.markings;
+  if (!facts.dead_ends_are_excluded(assume)) static_cast<void>(facts.dead_end(assume, left));
+  for (const std::vector<TransitionId>& run : facts.known_dead_ends(assume)) {
+    const std::optional<std::size_t> set = stuck_after(given.probed.net, run, sets);
+    if (!set) continue;
+    found.set = *set;
+    found.finding.kind = Finding::Kind::violated;
+    found.finding.trace = run;
+    found.finding.has_trace = true;
+    if (budget.spent()) found.finding.cut_off = "the time limit is reached: there may be a shorter run";
+    return found;
+  }
+  left = budget.left();
+  left.markings = limits.markings;
+  return left.markings > few.markings && !budget.spent() ? searched(left) : found;
+}
+
 /// Sets of transitions one of which has to be possible again and again.
 template <class Id>
 Finding always_possible(const NetUnderAssumption& given, const std::vector<ProbedNet::Set<Id>>& all,
-                        const Question& question, const Reducing& how, const explore::Limits& limits) {
+                        const Question& question, Facts& facts, const explore::Limits& limits) {
+  const explore::Budget budget(limits);
   std::vector<const ProbedNet::Set<Id>*> sets;
   std::vector<std::vector<TransitionId>> transitions;
   for (const ProbedNet::Set<Id>& set : all) {
@@ -97,34 +174,42 @@ Finding always_possible(const NetUnderAssumption& given, const std::vector<Probe
     transitions.push_back(set.any_of);
   }
   if (sets.empty()) return {.kind = Finding::Kind::holds};
-  const std::vector<Found> found = find_stuck(given.probed.net, transitions, how, limits);
-  const std::size_t worst = worst_of(found);
-  Finding finding = judged(found[worst], Found::Kind::yes);
-  finding.subjects = {sets[worst]->id.value};
+  Standstill found = standstill(given, transitions, question.assume, facts, limits, budget);
+  Finding finding = std::move(found.finding);
+  finding.subjects = {sets[found.set]->id.value};
   if (finding.kind != Finding::Kind::violated) return finding;
-  std::vector<TransitionId> stuck = sets[worst]->any_of;
-  finding.trace = causes_of_standstill(given.probed.net, std::move(finding.trace), stuck);
+  std::vector<TransitionId> stuck = sets[found.set]->any_of;
+  try {
+    finding.trace = causes_of_standstill(given.probed.net, finding.trace, stuck, budget);
+  } catch (const explore::CutOff& cut) {
+    finding.cut_off = std::string(cut.what()) + ": the run is not shortened";
+  }
   // Probes change nothing, and the net that is shown has none.
   for (std::vector<TransitionId>* ids : {&finding.trace, &stuck})
     std::erase_if(*ids, [&](TransitionId id) { return id.value >= given.probed.transitions; });
-  Explanation explanation = explained(given.abstract, std::move(finding.trace), stuck);
-  finding.trace = std::move(explanation.run);
-  finding.waits = std::move(explanation.waits);
+  if (!finding.cut_off.empty() || stuck.empty()) return finding;
+  try {
+    Explanation explanation = explained(given.abstract, finding.trace, stuck, budget);
+    finding.trace = std::move(explanation.run);
+    finding.waits = std::move(explanation.waits);
+  } catch (const explore::CutOff& cut) {
+    finding.cut_off = std::string(cut.what()) + ": the waits are not named";
+  }
   return finding;
 }
 
-Finding goes_on(const NetUnderAssumption& given, const Question& question, const Reducing& how,
+Finding goes_on(const NetUnderAssumption& given, const Question& question, Facts& facts,
                 const explore::Limits& limits) {
-  Finding finding = always_possible(given, given.probed.subsystems, question, how, limits);
+  Finding finding = always_possible(given, given.probed.subsystems, question, facts, limits);
   if (finding.kind == Finding::Kind::violated)
     finding.why =
         given.abstract.parts()[net::SubsystemId{finding.subjects.front()}].path + " can get stuck for ever";
   return finding;
 }
 
-Finding channels_flow(const NetUnderAssumption& given, const Question& question, const Reducing& how,
+Finding channels_flow(const NetUnderAssumption& given, const Question& question, Facts& facts,
                       const explore::Limits& limits) {
-  Finding finding = always_possible(given, given.probed.channels, question, how, limits);
+  Finding finding = always_possible(given, given.probed.channels, question, facts, limits);
   if (finding.kind == Finding::Kind::violated)
     finding.why = given.abstract.parts()[net::ChannelId{finding.subjects.front()}] + " can run dry for ever";
   return finding;
@@ -195,8 +280,26 @@ Finding sound_pages(const NetUnderAssumption& given, const Question& question, F
   return finding;
 }
 
-Finding live_behaviours(const NetUnderAssumption& given, const Question& question, const Reducing& how,
-                        const explore::Limits& limits) {
+/// The places that walks do not find marked. The walks are the same on every machine.
+std::vector<std::uint32_t> not_met(const NetUnderAssumption& given, const std::vector<std::uint32_t>& places,
+                                   const explore::Budget& budget) {
+  constexpr std::size_t firings = 100'000;
+  const net::Net possible = possible_part(given.abstract);
+  const std::vector<bool> met =
+      explore::marked_on_walks(explore::PtNet(possible), places, firings, budget);
+  std::vector<std::uint32_t> others;
+  for (std::size_t index = 0; index < places.size(); ++index)
+    if (!met[index]) others.push_back(places[index]);
+  return others;
+}
+
+Finding live_behaviours(const NetUnderAssumption& given, Question question, const Reducing& how,
+                        const explore::Limits& given_limits) {
+  const explore::Budget budget(given_limits);
+  question.subjects = not_met(given, question.subjects, budget);
+  if (question.subjects.empty())
+    return {.kind = Finding::Kind::holds, .explanation = "walks through the net meet every behaviour"};
+  const explore::Limits limits = budget.left();
   std::vector<Goal> goals;
   for (const std::uint32_t place : question.subjects) goals.push_back({Formula::marked({place})});
   const std::vector<Found> found = ask(given.abstract, Ask::reachable, goals, std::nullopt, how, limits);
@@ -213,9 +316,49 @@ Finding live_behaviours(const NetUnderAssumption& given, const Question& questio
   return finding;
 }
 
-Finding claims(const NetUnderAssumption& given, const Question& question, const Reducing& how,
+/// Does the run, to a dead marking, refute the claim: where it ends, the wanted marking is out of reach?
+bool refutes(const explore::PtNet& net, const std::vector<TransitionId>& run, Ask what, const Goal& goal) {
+  explore::Marking marking = net.initial();
+  bool waits = explore::holds(goal.what, net, marking) && !explore::holds(goal.then, net, marking);
+  for (const TransitionId id : run) {
+    net.fire(id.value, marking);
+    if (what == Ask::leads_to)
+      waits = (waits || explore::holds(goal.what, net, marking)) && !explore::holds(goal.then, net, marking);
+  }
+  return what == Ask::leads_to ? waits : !explore::holds(goal.what, net, marking);
+}
+
+/// The answers of a search of few markings, then of known dead ends, then of a longer search.
+Finding always_or_led_to(const NetUnderAssumption& given, Ask what, const std::vector<Goal>& goals,
+                         const Question& question, Facts& facts, const explore::Limits& limits,
+                         const explore::Budget& budget) {
+  const auto searched = [&](const explore::Limits& within) {
+    return judged_together(ask(given.abstract, what, goals, Found::Kind::no, facts.reducing(), within),
+                           Found::Kind::no);
+  };
+  const explore::Limits few = with_few_markings(given.abstract, limits);
+  Finding finding = searched(few);
+  if (finding.kind != Finding::Kind::unknown) return finding;
+  explore::Limits left = budget.left();
+  left.markings = few.markings;
+  if (!facts.dead_ends_are_excluded(question.assume))
+    static_cast<void>(facts.dead_end(question.assume, left));
+  const explore::PtNet net(given.abstract);
+  for (const std::vector<TransitionId>& run : facts.known_dead_ends(question.assume))
+    for (std::uint32_t goal = 0; goal < goals.size(); ++goal) {
+      if (!refutes(net, run, what, goals[goal])) continue;
+      finding.kind = Finding::Kind::violated;
+      finding.subjects = {goal};
+      finding.trace = run;
+      return finding;
+    }
+  return budget.spent() ? finding : searched(budget.left());
+}
+
+Finding claims(const NetUnderAssumption& given, const Question& question, Facts& facts,
                const explore::Limits& limits) {
   using Claims = net::Property::Kind;
+  const explore::Budget budget(limits);
   const Claims kind = question.property->kind;
   Ask what = Ask::reachable;
   if (kind == Claims::always_reachable) what = Ask::always_reachable;
@@ -227,12 +370,15 @@ Finding claims(const NetUnderAssumption& given, const Question& question, const 
     const net::Claim& claim = question.property->claims[number];
     goals.push_back({what_of(kind, claim), formula_of(claim.then)});
   }
-  Finding finding = judged_together(ask(given.abstract, what, goals, bad, how, limits), bad);
+  Finding finding =
+      what == Ask::reachable
+          ? judged_together(ask(given.abstract, what, goals, bad, facts.reducing(), limits), bad)
+          : always_or_led_to(given, what, goals, question, facts, limits, budget);
   name_subjects(finding, question);
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = complaint(kind, question.property->claims[finding.subjects.front()]);
   finding.has_trace = kind != Claims::reachable;
-  if (what != Ask::reachable) explain(finding, given.abstract);
+  if (what != Ask::reachable) explain(finding, given.abstract, budget);
   return finding;
 }
 
@@ -250,15 +396,15 @@ class ByExploration final : public Decider {
       case Question::Kind::safe:
         return safe(given, limits);
       case Question::Kind::deadlock_free:
-        return deadlock_free(given, facts, limits);
+        return deadlock_free(given, question, facts, limits);
       case Question::Kind::goes_on:
-        return goes_on(given, question, facts.reducing(), limits);
+        return goes_on(given, question, facts, limits);
       case Question::Kind::channels_flow:
-        return channels_flow(given, question, facts.reducing(), limits);
+        return channels_flow(given, question, facts, limits);
       case Question::Kind::live_behaviours:
         return live_behaviours(given, question, facts.reducing(), limits);
       case Question::Kind::claims:
-        return claims(given, question, facts.reducing(), limits);
+        return claims(given, question, facts, limits);
       case Question::Kind::exclusive_channels:
         return exclusive_channels(given, question, facts.reducing(), limits);
       case Question::Kind::sound_pages:

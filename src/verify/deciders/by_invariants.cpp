@@ -39,6 +39,7 @@ class ByInvariants final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "invariants"; }
   [[nodiscard]] const char* title() const override { return "place invariants"; }
+  [[nodiscard]] bool searches() const override { return false; }
 
   [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
                                               const explore::Limits& /*limits*/) const override {

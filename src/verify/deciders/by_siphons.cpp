@@ -27,10 +27,11 @@ class BySiphons final : public Decider {
     std::vector<Formula> unwanted{Formula::dead()};
     if (end.valid()) unwanted.push_back(Formula::negation(Formula::marked(*reduced.find(end))));
     explore::Limits share = limits;
-    share.time *= 0.3;
+    share.time *= 0.5;
     share.progress = nullptr;
     const siphons::Exclusion found =
-        siphons::exclude(explore::PtNet(reduced.net), Formula::all(std::move(unwanted)), share);
+        siphons::exclude(explore::PtNet(reduced.net), Formula::all(std::move(unwanted)), share,
+                         {.conflicts = 20'000, .traps = 2'000});
     Finding finding;
     finding.explanation = std::to_string(reduced.net.places().size()) + " places after reductions, " +
                           std::to_string(found.units) + " invariants and " + std::to_string(found.traps) +

@@ -32,6 +32,8 @@ class Decider {
   /// why, and may name fewer subjects than the question: for the others the property is proved.
   [[nodiscard]] virtual std::optional<Finding> decide(const Question& question, Facts& facts,
                                                       const explore::Limits& limits) const = 0;
+  /// May it take long? Such a method is not asked any more once the time is over.
+  [[nodiscard]] virtual bool searches() const { return true; }
   /// Does the method give runs? When one that does not has found a violation, those that do are asked too.
   [[nodiscard]] virtual bool finds_runs() const { return false; }
 };

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "explore/units.hpp"
+#include "net/token_game.hpp"
 #include "verify/invariants/forbidden.hpp"
 #include "verify/invariants/place_invariants.hpp"
 
@@ -47,8 +48,9 @@ const NetUnderAssumption& Facts::under(Assume assume) {
 }
 
 const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits) {
-  WaitingReport& report = waiting_[assume];
-  if (report.complete) return report;
+  Searched<WaitingReport>& searched = waiting_[assume];
+  WaitingReport& report = searched.result;
+  if (searched.suffices(limits)) return report;
   const NetUnderAssumption& given = under(assume);
   std::vector<const CircuitGroup*> refused;
   for (const CircuitGroup& group : given.circuits->groups)
@@ -58,7 +60,73 @@ const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits
     if (group.applies())
       for (const SubsystemFlowId subsystem : group.subsystems)
         report.goes_on[subsystem.value] = std::ranges::count(group.stuck, subsystem) == 0;
+  searched.note(limits, report.complete);
   return report;
+}
+
+const Found& Facts::dead_end(Assume assume, const explore::Limits& limits) {
+  Searched<Found>& searched = dead_ends_[assume];
+  if (searched.suffices(limits)) return searched.result;
+  const NetUnderAssumption& given = under(assume);
+  const net::PlaceId end = subject_.pages == nullptr ? net::PlaceId{} : final_place(given.abstract);
+  searched.result = find_dead(given.abstract, end, reducing(), limits);
+  searched.note(limits, searched.result.kind != Found::Kind::unknown);
+  return searched.result;
+}
+
+namespace {
+
+using Run = std::vector<net::TransitionId>;
+
+/// The run, of an abstract net under another assumption, as one of this net. What abstract nets add to the
+/// subject, of so many transitions, is the same if it has the same name.
+std::optional<Run> translated(const Run& run, const net::Net& from, const net::Net& to, std::size_t common) {
+  std::map<std::string, net::TransitionId> added;
+  for (auto index = static_cast<std::uint32_t>(common); index < to.transitions().size(); ++index)
+    added.emplace(to.transitions()[index].name, net::TransitionId{index});
+  Run there;
+  for (const net::TransitionId id : run) {
+    if (id.value < common) {
+      there.push_back(id);
+      continue;
+    }
+    const auto found = added.find(from[id].name);
+    if (found == added.end()) return std::nullopt;
+    there.push_back(found->second);
+  }
+  return there;
+}
+
+/// Does the run lead to a marking, not the final one, in which nothing possible is enabled?
+bool is_dead_end(const net::Net& net, const Run& run, net::PlaceId final_place) {
+  net::Marking marking = net::initial_marking(net);
+  for (const net::TransitionId id : run) {
+    if (!possible(net, id) || !net::enabled(net, id, marking)) return false;
+    net::fire(net, id, marking);
+  }
+  if (final_place.valid() && marking[final_place.value] > 0) return false;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    if (possible(net, {index}) && net::enabled(net, {index}, marking)) return false;
+  return true;
+}
+
+}  // namespace
+
+std::vector<std::vector<net::TransitionId>> Facts::known_dead_ends(Assume assume) {
+  std::vector<Run> all;
+  const net::Net& net = under(assume).abstract;
+  const net::PlaceId end = subject_.pages == nullptr ? net::PlaceId{} : final_place(net);
+  for (const auto& [of, searched] : dead_ends_) {
+    if (searched.result.kind != Found::Kind::yes) continue;
+    if (of == assume) {
+      all.insert(all.begin(), searched.result.trace);
+      continue;
+    }
+    const std::optional<Run> run =
+        translated(searched.result.trace, under(of).abstract, net, subject_.net.transitions().size());
+    if (run && is_dead_end(net, *run, end)) all.push_back(*run);
+  }
+  return all;
 }
 
 std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {

@@ -1,7 +1,10 @@
 #pragma once
 
+#include <chrono>
+#include <cstdint>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -49,8 +52,17 @@ class Facts {
   [[nodiscard]] const UnitInvariants& units();
   [[nodiscard]] const NetUnderAssumption& under(Assume assume);
   /// The subsystems that go on for ever, by circuits (docs/circuits.md) or else by waiting (docs/waiting.md).
-  /// Precondition: there is a communication structure.
+  /// Precondition: there is a communication structure. If there was not enough time for it before, it is tried
+  /// again only if there is twice as much now.
   [[nodiscard]] const WaitingReport& waiting(Assume assume, const explore::Limits& limits);
+  /// Is a dead marking reachable that is not final? yes: with a run of the abstract net. Searched for once, as
+  /// `waiting` is.
+  [[nodiscard]] const Found& dead_end(Assume assume, const explore::Limits& limits);
+  /// Another method has proved that there is none.
+  void exclude_dead_ends(Assume assume) { excluded_.insert(assume); }
+  [[nodiscard]] bool dead_ends_are_excluded(Assume assume) const { return excluded_.contains(assume); }
+  /// Runs to dead markings that were found before, under whatever assumption, and are such runs under this one.
+  [[nodiscard]] std::vector<std::vector<net::TransitionId>> known_dead_ends(Assume assume);
   /// All subjects of a kind of question.
   [[nodiscard]] std::vector<std::uint32_t> subjects(Question::Kind kind, Assume assume);
 
@@ -60,8 +72,29 @@ class Facts {
   std::vector<std::string> wrong_;
   std::optional<bool> safe_;
   std::optional<UnitInvariants> units_;
+  /// What a search found, and what it was allowed.
+  template <class Result>
+  struct Searched {
+    Result result{};
+    bool decided = false;
+    std::chrono::duration<double> time{};
+    std::uint64_t markings = 0;
+
+    /// Would it be no use to search again?
+    [[nodiscard]] bool suffices(const explore::Limits& limits) const {
+      return decided || (limits.time < 2 * time && limits.markings <= markings);
+    }
+    void note(const explore::Limits& limits, bool is_decided) {
+      decided = is_decided;
+      time = limits.time;
+      markings = limits.markings;
+    }
+  };
+
   std::map<Assume, NetUnderAssumption> under_;
-  std::map<Assume, WaitingReport> waiting_;
+  std::map<Assume, Searched<WaitingReport>> waiting_;
+  std::map<Assume, Searched<Found>> dead_ends_;
+  std::set<Assume> excluded_;
 };
 
 /// The place that is marked once the whole system has ended; a net drawn elsewhere has none.

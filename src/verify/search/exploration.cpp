@@ -6,7 +6,7 @@
 
 #include "reduce/components.hpp"
 #include "reduce/reduce.hpp"
-#include "verify/search/budget.hpp"
+#include "explore/budget.hpp"
 #include "verify/search/parts.hpp"
 
 namespace tessera::verify {
@@ -52,7 +52,7 @@ bool has_free_transition(const net::Net& net) {
 
 Found find_dead(const net::Net& net, PlaceId final_place, const Reducing& how,
                 const explore::Limits& limits) {
-  const Budget budget(limits);
+  const explore::Budget budget(limits);
   reduce::Preserve what;
   what.safe = how.safe;
   if (final_place.valid()) what.observed.push_back(final_place);
@@ -73,6 +73,7 @@ Found find_dead(const net::Net& net, PlaceId final_place, const Reducing& how,
     const explore::Answer answer =
         explore::find_deadlock(explore::PtNet(part.net()), is_final, budget.left());
     found.states += answer.effort.markings;
+    found.cut_short = found.cut_short || answer.cut_short;
     if (answer.kind == explore::Answer::Kind::no) found.kind = Found::Kind::no;
     if (answer.kind == explore::Answer::Kind::unknown) {
       found.kind = Found::Kind::unknown;
@@ -171,7 +172,7 @@ class StuckSearch {
     return found;
   }
 
-  Budget budget_;
+  explore::Budget budget_;
   reduce::Reduced reduced_;
   reduce::Components components_;
   std::vector<Parts> members_;                                          // per set

@@ -19,6 +19,7 @@ struct Found {
   std::vector<net::TransitionId> trace;  ///< for the answer that a run can show; in the given net
   std::uint64_t states = 0;
   std::string explanation;  ///< sizes before and after
+  bool cut_short = false;   ///< the time ended before the trace was shortened
 };
 
 /// How a net may be reduced.

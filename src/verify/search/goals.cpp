@@ -10,7 +10,7 @@
 
 #include "reduce/components.hpp"
 #include "reduce/reduce.hpp"
-#include "verify/search/budget.hpp"
+#include "explore/budget.hpp"
 #include "verify/search/parts.hpp"
 
 namespace tessera::verify {
@@ -97,7 +97,7 @@ class Search {
     return false;
   }
 
-  Found answer(std::size_t goal, Ask question, const Budget& budget) {
+  Found answer(std::size_t goal, Ask question, const explore::Budget& budget) {
     const std::uint64_t before = states_;
     Outcome outcome = solve(goals_[goal], question, budget);
     Found found;
@@ -116,7 +116,7 @@ class Search {
 
   /// Components do not know of each other: what each can reach on its own, they can reach together; what is
   /// out of reach in one stays so whatever the others do.
-  Outcome solve(const Goal& goal, Ask question, const Budget& budget) {
+  Outcome solve(const Goal& goal, Ask question, const explore::Budget& budget) {
     const bool is_list = goal.what.kind == Formula::Kind::all || goal.what.kind == Formula::Kind::any;
     if (question == Ask::leads_to || !is_list) return look_up(goal, question, budget);
     const std::vector<Goal> independent = independent_parts(goal.what);
@@ -169,7 +169,7 @@ class Search {
     return goals;
   }
 
-  Outcome look_up(const Goal& goal, Ask question, const Budget& budget) {
+  Outcome look_up(const Goal& goal, Ask question, const explore::Budget& budget) {
     const std::vector<std::uint32_t> components = parts_of(goal);
     std::vector<const reduce::Component*> chosen;
     for (const std::uint32_t component : components) chosen.push_back(&components_.all[component]);
@@ -257,7 +257,7 @@ std::vector<std::vector<std::size_t>> alike(const net::Net& net, const std::vect
 std::vector<Found> ask(const net::Net& net, Ask question, const std::vector<Goal>& goals,
                        std::optional<Found::Kind> stop_at, const Reducing& how,
                        const explore::Limits& limits) {
-  const Budget budget(limits);
+  const explore::Budget budget(limits);
   std::vector<Found> found(goals.size());
   for (Found& one : found) one.why = "the time is over";
   // false: it is settled, or there is no time for more.

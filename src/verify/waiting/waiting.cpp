@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "verify/circuits/folding.hpp"
+#include "verify/circuits/recurring_uses.hpp"
 #include "verify/waiting/waiting_cycles.hpp"
 
 namespace tessera::verify {
@@ -79,8 +80,9 @@ WaitingReport judge_waiting(const CommunicationStructure& structure,
 
 std::vector<bool> flowing_channels(const CommunicationStructure& structure,
                                    const std::vector<bool>& goes_on) {
+  const RecurringUses uses(structure);
   const auto uses_for_ever = [&](SubsystemFlowId subsystem, ChannelFlowId channel, Side side) {
-    return subsystem.valid() && goes_on[subsystem.value] && comes_back(structure, subsystem, channel, side);
+    return subsystem.valid() && goes_on[subsystem.value] && uses.comes_back(channel, side);
   };
   std::vector<bool> flows;
   for (std::uint32_t index = 0; index < structure.channels.size(); ++index) {

@@ -3,19 +3,11 @@
 #include <algorithm>
 #include <utility>
 
-#include "verify/circuits/folding.hpp"
+#include "verify/circuits/recurring_uses.hpp"
 
 namespace tessera::verify {
 
 using siphons::PlaceSet;
-
-bool comes_back(const CommunicationStructure& structure, SubsystemFlowId subsystem, ChannelFlowId channel,
-                Side side) {
-  const SubsystemFlow& flow = structure[subsystem];
-  return std::ranges::none_of(flow.behaviours, &BehaviourFlow::ends) &&
-         std::ranges::all_of(flow.behaviours, &BehaviourFlow::complete) &&
-         always_uses_again(flow, channel, side);
-}
 
 WaitingCycleSearch::WaitingCycleSearch(const CommunicationStructure& structure,
                                        std::span<const SubsystemFlowId> subsystems, explore::Watch& watch)
@@ -35,13 +27,14 @@ WaitingCycleSearch::WaitingCycleSearch(const CommunicationStructure& structure,
 }
 
 void WaitingCycleSearch::find_partners() {
+  const RecurringUses uses(structure_);
   for (const Stop& stop : all()) {
     const ChannelFlow& channel = structure_[stop.channel];
     const bool sends = stop.side == Side::send;
     const SubsystemFlowId partner = sends ? channel.receiver : channel.sender;
     partner_.push_back(partner);
     deserts_.push_back(!partner.valid() ||
-                       !comes_back(structure_, partner, stop.channel, sends ? Side::receive : Side::send));
+                       !uses.comes_back(stop.channel, sends ? Side::receive : Side::send));
   }
 }
 
@@ -71,13 +64,34 @@ void WaitingCycleSearch::state_exclusions() {
   std::map<ChannelFlowId, Stops> senders, receivers;
   for (std::uint32_t stop = 0; stop < all().size(); ++stop) {
     const Stop& one = all()[stop];
-    for (const std::uint32_t other : stops_of_[one.subsystem.value])
-      if (other < stop && all()[other].stage != one.stage) clauses_.add({-at_[stop], -at_[other]});
     (one.side == Side::send ? senders : receivers)[one.channel].push_back(stop);
   }
+  for (const Stops& own : stops_of_) state_one_stage(own);
   for (const auto& [channel, sending] : senders)
     for (const std::uint32_t sender : sending)
       for (const std::uint32_t receiver : receivers[channel]) clauses_.add({-at_[sender], -at_[receiver]});
+}
+
+/// The stops of a subsystem, in the order of their stages: a chain of "at one of the first n stages", since
+/// a hub has thousands of stages.
+void WaitingCycleSearch::state_one_stage(const Stops& stops) {
+  int before = 0;
+  for (auto first = stops.begin(); first != stops.end();) {
+    const auto last = std::find_if(
+        first, stops.end(), [&](std::uint32_t stop) { return all()[stop].stage != all()[*first].stage; });
+    int here = at_[*first];
+    if (last - first > 1) {
+      here = clauses_.variable();
+      for (auto stop = first; stop != last; ++stop) clauses_.add({-at_[*stop], here});
+    }
+    first = last;
+    if (before != 0) clauses_.add({-before, -here});
+    if (first == stops.end()) return;
+    const int now = clauses_.variable();
+    clauses_.add({-here, now});
+    if (before != 0) clauses_.add({-before, now});
+    before = now;
+  }
 }
 
 void WaitingCycleSearch::give_up_on(std::span<const SubsystemFlowId> subsystems) {

@@ -48,6 +48,7 @@ class WaitingCycleSearch {
   void find_partners();
   void state_waits(std::span<const SubsystemFlowId> subsystems);
   void state_exclusions();
+  void state_one_stage(const Stops& stops);
 
   [[nodiscard]] bool occupied(std::uint32_t stop) const { return clauses_.is_true(at_[stop]); }
   [[nodiscard]] Stops all_occupied() const;
@@ -71,9 +72,5 @@ class WaitingCycleSearch {
   bool deserted_ = false;
   std::size_t traps_ = 0;
 };
-
-/// Can the subsystem, as long as it goes on, come back to that side of the channel from wherever it is?
-[[nodiscard]] bool comes_back(const CommunicationStructure& structure, SubsystemFlowId subsystem,
-                              ChannelFlowId channel, Side side);
 
 }  // namespace tessera::verify

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <csignal>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -12,6 +13,7 @@
 #include "explore/explore.hpp"
 #include "layers/layers.hpp"
 #include "net/pnml_reader.hpp"
+#include "project/files/run_folder.hpp"
 #include "project/verification/pipeline.hpp"
 #include "project/verification/run_files.hpp"
 #include "project/verification/verdicts.hpp"
@@ -29,7 +31,7 @@ namespace {
 using nlohmann::json;
 
 struct VerifyOptions {
-  std::string spec = ".", json, trace, scenario, timeout = "60s", method = "any";
+  std::string spec = ".", json, trace, scenario, timeout = "60s", memory = "2GB", method = "any";
   std::vector<std::string> properties, without;
   bool states = false, explain = false;
 };
@@ -93,9 +95,29 @@ std::string shown(const explore::Progress& progress) {
                      progress.markings_per_second / 1e6, progress.bytes >> 20U);
 }
 
-verify::Report judge(const Judged& judged, const VerifyOptions& options, project::Step& step) {
+/// The limits of the whole command: reading the file counts too.
+class Allowance {
+ public:
+  explicit Allowance(const VerifyOptions& options)
+      : seconds_(parse_seconds(options.timeout, "--timeout")), bytes_(parse_size(options.memory, "--memory")) {}
+
+  [[nodiscard]] std::chrono::duration<double> time_left() const {
+    const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;
+    return std::max(std::chrono::duration<double>(0), std::chrono::duration<double>(seconds_) - spent);
+  }
+  [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+
+ private:
+  double seconds_;
+  std::uint64_t bytes_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+verify::Report judge(const Judged& judged, const VerifyOptions& options, const Allowance& allowance,
+                     project::Step& step) {
   verify::ProveOptions how;
-  how.time = std::chrono::duration<double>(parse_seconds(options.timeout, "--timeout"));
+  how.time = allowance.time_left();
+  how.bytes = allowance.bytes();
   if (options.method != "any") how.method = options.method;
   how.only = options.properties;
   for (const std::string& rule : options.without) static_cast<void>(reduce::switch_off(how.rules, rule));
@@ -138,9 +160,12 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Ver
   return ok;
 }
 
-json count_states(const Judged& judged, const VerifyOptions& options, project::Step& step) {
+/// It has as much time again: whoever wants the number wants it besides the verdicts.
+json count_states(const Judged& judged, const VerifyOptions& options, const Allowance& allowance,
+                  project::Step& step) {
   explore::Limits limits;
   limits.time = std::chrono::duration<double>(parse_seconds(options.timeout, "--timeout"));
+  limits.bytes = allowance.bytes();
   limits.stop = &searches_stopped;
   limits.progress = [&](const explore::Progress& progress) { step.progress("states: " + shown(progress)); };
   const net::Net net = verify::possible_part(verify::abstract_net(judged.net()));
@@ -173,19 +198,23 @@ int exit_code_of(const verify::Report& report) {
 }
 
 int verify_command(const VerifyOptions& options) {
+  const Allowance allowance(options);
   const std::optional<Judged> judged = load(options.spec);
   if (!judged) return exit_code_without_net();
   if (!known(options.properties, judged->properties())) return usage;
   const Interruptible interruptible;
-  json result;
+  json space;
   verify::Report report;
   {
     project::Step step(terminal(), "verifying");
-    report = judge(*judged, options, step);
-    result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
-    if (options.states) result["state_space"] = count_states(*judged, options, step);
+    report = judge(*judged, options, allowance, step);
+    if (options.states) space = count_states(*judged, options, allowance, step);
   }
-  if (!options.json.empty()) write_output(options.json, result.dump(2) + "\n");
+  if (!options.json.empty()) {
+    json result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
+    if (options.states) result["state_space"] = space;
+    write_output(options.json, result.dump(2) + "\n");
+  }
   if (!options.trace.empty())
     write_output(options.trace, traces_json(judged->file, judged->net(),
                                             judged->nets ? &judged->nets->pages : nullptr, report)
@@ -196,7 +225,6 @@ int verify_command(const VerifyOptions& options) {
   for (const verify::PropertyResult& property : report.properties)
     print_result(*judged, property, options.explain);
   if (options.states) {
-    const json& space = result["state_space"];
     fmt::print("states: {} markings, {} edges{}\n", space["markings"].get<std::uint64_t>(),
                space["edges"].get<std::uint64_t>(), space["complete"].get<bool>() ? "" : " and more");
   }
@@ -213,6 +241,8 @@ void add_verify(CommandLine& app, int& exit_code) {
       .shows_default();
   command.option("--property", options->properties, "Only this property; may be given several times");
   command.option("--timeout", options->timeout, "For all properties together, such as 60s or 2min")
+      .shows_default();
+  command.option("--memory", options->memory, "For the markings of a search, such as 500MB or 4GB")
       .shows_default();
   std::vector<std::string> methods = verify::method_names();
   methods.insert(methods.begin(), "any");

@@ -41,6 +41,7 @@ class UnitSearch {
  private:
   enum class State : std::uint8_t { open, in, out, never };
   static constexpr int guesses_per_place = 256;
+  static constexpr std::size_t most_steps = 20'000'000;  // rather than time: the same units on every machine
 
   /// Whether the place may still be added: with the token of the unit in it, no other
   /// place with a token may be.
@@ -70,6 +71,7 @@ class UnitSearch {
   /// Draws the consequences of all decisions that are not settled yet. false: they contradict each other.
   bool settle() {
     while (settled_ < trail_.size()) {
+      if (steps_left_ == 0) return false;
       const std::uint32_t place = trail_[settled_++];
       const bool in = state_[place] == State::in;
       for (const Touch& touch : net_.of_place(place)) {
@@ -96,8 +98,10 @@ class UnitSearch {
   [[nodiscard]] bool uneven(const Sides& sides) const {
     return losses_ == Losses::allowed ? sides.gives && !sides.takes : sides.takes != sides.gives;
   }
-  [[nodiscard]] Sides sides(std::uint32_t transition) const {
+  [[nodiscard]] Sides sides(std::uint32_t transition) {
     Sides sides;
+    const std::size_t steps = net_.of_transition(transition).size();
+    steps_left_ -= std::min(steps, steps_left_);
     for (const Touch& touch : net_.of_transition(transition)) {
       const State state = state_[touch.node];
       sides.takes |= state == State::in && touch.consumes > 0;
@@ -136,7 +140,7 @@ class UnitSearch {
         guesses.push_back(std::move(*next));
       }
       while (!guesses.empty() && guesses.back().candidates.empty()) guesses.pop_back();
-      if (guesses.empty() || (!consistent && --guesses_left_ < 0)) return false;
+      if (guesses.empty() || steps_left_ == 0 || (!consistent && --guesses_left_ < 0)) return false;
       Guess& guess = guesses.back();
       take_back(guess.trail);
       even = guess.even;
@@ -176,6 +180,7 @@ class UnitSearch {
   std::size_t settled_ = 0;
   Losses losses_ = Losses::forbidden;
   int guesses_left_ = 0;
+  std::size_t steps_left_ = most_steps;  // arcs that are looked at, for all places together
 };
 
 }  // namespace

@@ -59,7 +59,13 @@ std::uint32_t marked_place(const PtNet& net, const PlaceSet& set) {
 std::vector<std::uint32_t> small_marked_trap(const PtNet& net, PlaceSet within) {
   constexpr std::size_t most_attempts = 200;
   shrink_to_trap(net, within);
-  if (marked_place(net, within) == net.places()) return {};
+  std::vector<std::uint32_t> marked;  // initially, in the trap
+  for (const std::uint32_t place : members(within))
+    if (net.initial()[place] > 0) marked.push_back(place);
+  const auto keeps_token = [&](const PlaceSet& set) {
+    return std::ranges::any_of(marked, [&](std::uint32_t place) { return set[place] != 0; });
+  };
+  if (marked.empty()) return {};
   std::size_t attempts = 0;
   for (const std::uint32_t place : members(within)) {
     if (within[place] == 0 || ++attempts > most_attempts) continue;
@@ -67,7 +73,7 @@ std::vector<std::uint32_t> small_marked_trap(const PtNet& net, PlaceSet within) 
     std::vector<std::uint32_t> suspects;
     take_out(net, smaller, place, suspects);
     shrink_to_trap(net, smaller, std::move(suspects));
-    if (marked_place(net, smaller) != net.places()) within = std::move(smaller);
+    if (keeps_token(smaller)) within = std::move(smaller);
   }
   return members(within);
 }

@@ -88,6 +88,16 @@ TEST_F(Verify, WhatCannotBeDecidedIsUnknown) {
   EXPECT_NE(done.text.find("goes_on: unknown"), std::string::npos) << done.text;
 }
 
+TEST_F(Verify, MemoryIsLimited) {
+  write(folder_ / "stuck.yaml", stuck_system);
+  const project::Exit done = tessera("verify stuck.yaml --memory 1kB --method explicit --property goes_on");
+  EXPECT_EQ(done.code, 3) << done.text;
+  EXPECT_NE(done.text.find("the memory limit of "), std::string::npos) << done.text;
+  const project::Exit wrong = tessera("verify stuck.yaml --memory lots");
+  EXPECT_NE(wrong.code, 0);
+  EXPECT_NE(wrong.text.find("--memory: 'lots' is no size"), std::string::npos) << wrong.text;
+}
+
 TEST_F(Verify, WrongNamesAreDiagnosed) {
   write(folder_ / "stuck.yaml", stuck_system);
   const project::Exit done = tessera("verify stuck.yaml --property goes_onn");

@@ -29,10 +29,10 @@ Built built(const std::string& text) {
 
 }  // namespace
 
-Proved proved(const std::string& text) {
+Proved proved(const std::string& text, std::chrono::seconds time) {
   Built all = built(text);
   ProveOptions options;
-  options.time = std::chrono::seconds(20);
+  options.time = time;
   const std::vector<net::Invariant> invariants = layers::invariants(all.model, all.pages, all.net);
   Report report = prove({all.net, &all.pages, invariants, all.properties}, options);
   return {std::move(all.net), std::move(report)};

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <chrono>
 #include <string>
 #include <vector>
 
@@ -19,7 +20,7 @@ struct Proved {
   }
 };
 /// Throws std::runtime_error, with the diagnostics, of a text that is no specification.
-[[nodiscard]] Proved proved(const std::string& text);
+[[nodiscard]] Proved proved(const std::string& text, std::chrono::seconds time = std::chrono::seconds(20));
 /// Its waits in words.
 [[nodiscard]] std::vector<std::string> texts_of(const PropertyResult& property);
 [[nodiscard]] net::Net flattened(const std::string& text);

@@ -111,6 +111,7 @@ json report_json(const net::Net& net, const net::HierarchicalNet* pages, const v
              {"behaviours", behaviours_json(property)},
              {"trace", nullptr}};
     if (!property.hint.empty()) one["hint"] = property.hint;
+    if (!property.cut_off.empty()) one["cut_off"] = property.cut_off;
     if (property.has_trace) one["trace"] = firings_json(net_of_run(net, property), pages, property.trace);
     properties.push_back(std::move(one));
   }

@@ -43,7 +43,8 @@ json to_json(const verify::PropertyResult& property) {
           {"warning", property.warning},
           {"exceptions", property.exceptions},
           {"partition", property.partition},
-          {"hint", property.hint}};
+          {"hint", property.hint},
+          {"cut_off", property.cut_off}};
 }
 
 verify::PropertyResult property_from(const json& kept) {
@@ -68,6 +69,7 @@ verify::PropertyResult property_from(const json& kept) {
   kept.at("exceptions").get_to(property.exceptions);
   property.partition = kept.value("partition", false);
   property.hint = kept.value("hint", std::string());
+  property.cut_off = kept.value("cut_off", std::string());
   return property;
 }
 
@@ -79,7 +81,7 @@ class Kept {
     if (const std::optional<fs::path> folder = user_folder()) file_ = *folder / "verdicts" / (hash + ".json");
   }
 
-  /// nullopt: there are none, or more time might decide what they leave unknown.
+  /// nullopt: there are none, or more time might decide what they leave unknown, or show more.
   [[nodiscard]] std::optional<verify::Report> read(double seconds) const try {
     if (!is_kept_by_user(file_)) return std::nullopt;
     const json kept = json::parse(content_of(file_));
@@ -89,7 +91,7 @@ class Kept {
     for (const json& property : kept.at("properties")) report.properties.push_back(property_from(property));
     if (report.verification_hash != hash_ || report.properties.empty()) return std::nullopt;
     const bool undecided = std::ranges::any_of(report.properties, [](const verify::PropertyResult& property) {
-      return property.verdict == verify::Verdict::unknown;
+      return property.verdict == verify::Verdict::unknown || !property.cut_off.empty();
     });
     if (undecided && kept.at("seconds").get<double>() < seconds) return std::nullopt;
     return report;

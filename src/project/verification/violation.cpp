@@ -118,6 +118,7 @@ std::string text_of(const net::Net& judged, const verify::PropertyResult& proper
   std::string text = headline(property);
   for (const verify::SubsystemAtEnd& wait : property.waits) text += "  " + wait.text + "\n";
   if (property.has_trace && !property.warning) text += run_text(judged, property);
+  if (!property.cut_off.empty()) text += "  cut off: " + property.cut_off + "\n";
   if (!property.hint.empty()) text += "  hint: " + property.hint + "\n";
   return text;
 }

@@ -328,6 +328,10 @@ CircuitReport judge_circuits(const CommunicationStructure& structure) {
   return Judgement(structure).result();
 }
 
+std::string with_absence(std::string text, const ChannelFlow& channel) {
+  return channel.absence.empty() ? text : text + ", and " + channel.absence;
+}
+
 std::string in_words(const CommunicationStructure& structure, const CircuitGroup& group) {
   std::string text;
   for (const SubsystemAtEnd& wait : at_end(structure, group)) text += (text.empty() ? "" : "; ") + wait.text;
@@ -342,10 +346,15 @@ std::vector<SubsystemAtEnd> at_end(const CommunicationStructure& structure, cons
     one.awaited = wait.side == Side::send ? Awaited::acknowledgement : Awaited::value;
     one.path = structure[wait.subsystem].name;
     one.channel = structure[wait.channel].name;
-    if (wait.waiting_for.valid()) one.from = {structure[wait.waiting_for].name};
+    const ChannelFlow& channel = structure[wait.channel];
+    if (wait.waiting_for.valid())
+      one.from = {structure[wait.waiting_for].name};
+    else if (!channel.absent.empty())
+      one.from = {channel.absent};
     one.text = one.path +
                (wait.side == Side::send ? " waits for the acknowledgement of " : " waits for a value of ") +
                one.channel + " from " + (one.from.empty() ? "nobody" : one.from.front());
+    one.text = with_absence(std::move(one.text), channel);
   }
   return all;
 }

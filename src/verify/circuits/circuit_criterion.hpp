@@ -56,6 +56,8 @@ struct CircuitReport {
 /// every side blocks.
 [[nodiscard]] CircuitReport judge_circuits(const CommunicationStructure& structure);
 
+/// The text about a wait at the channel, with the reason if nobody ever does what is waited for.
+[[nodiscard]] std::string with_absence(std::string text, const ChannelFlow& channel);
 /// "robot.control waits to receive from a.y->b.x for robot.motor; ...": a circuit in words.
 [[nodiscard]] std::string in_words(const CommunicationStructure& structure, const CircuitGroup& group);
 /// The same, one by one.

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <functional>
+#include <set>
 #include <tuple>
+#include <utility>
 
 namespace tessera::verify {
 namespace {
@@ -63,6 +65,7 @@ class Folding {
       return refuse("'" + name + "' has a communication model of its own");
     std::uint32_t at = 0;
     while (!same_from(at)) {
+      if (unroll(at)) return folded_;
       if (!peel(at)) return refuse("its behaviours use different channels, or in different orders");
     }
     if (!goes_round(at)) return refuse("it cannot go on for ever");
@@ -107,6 +110,31 @@ class Folding {
       }
     rest_[at] = false;
     at = next;
+    return true;
+  }
+
+  /// Behaviours that follow each other in one fixed cycle, each for one round, are one longer round. Each side
+  /// of a channel has one event in it.
+  bool unroll(std::uint32_t start) {
+    std::vector<Stage> cycle;
+    std::set<std::pair<ChannelFlowId, Side>> used;
+    std::size_t passed = 0;
+    std::uint32_t at = start;
+    do {
+      const BehaviourFlow& behaviour = subsystem_.behaviours[at];
+      if (behaviour.repeats || behaviour.ends || behaviour.next.empty()) return false;
+      const std::uint32_t next = behaviour.next.front();
+      if (!std::ranges::all_of(behaviour.next, [&](std::uint32_t other) { return other == next; }))
+        return false;
+      for (const Stage& stage : stages_[at]) {
+        for (const Communication& communication : stage)
+          if (!used.emplace(communication.flow, communication.side).second) return false;
+        cycle.push_back(stage);
+      }
+      at = next;
+    } while (++passed <= rest_.size() && at != start);
+    if (at != start || passed != static_cast<std::size_t>(std::ranges::count(rest_, true))) return false;
+    folded_.cycle = std::move(cycle);
     return true;
   }
 

@@ -24,7 +24,8 @@ struct Folded {
   bool can_end = false;
 };
 
-/// Folds the behaviours of a subsystem: behaviours that use the same channels in the same order become one. A
+/// Folds the behaviours of a subsystem: behaviours that use the same channels in the same order become one, and
+/// behaviours that follow each other in one fixed cycle become one longer round. A
 /// start-up consists of behaviours that run once, in a fixed order, before the rest; it may differ if it does
 /// not wait for another subsystem.
 ///

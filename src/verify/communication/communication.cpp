@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "net/token_game.hpp"
+#include "verify/communication/absences.hpp"
 #include "verify/communication/blocks.hpp"
 
 namespace tessera::verify {
@@ -321,6 +322,7 @@ CommunicationResult communication_structure(const net::Net& net, Assume assume) 
     structure.subsystems.push_back(std::move(*flow));
   }
   structure.channels = std::move(channels.all);
+  name_absences(structure, net);
   result.structure = std::move(structure);
   return result;
 }

@@ -191,6 +191,18 @@ Run causes_of_standstill(const net::Net& net, Run run, const std::vector<Transit
   }
 }
 
+Run causes_of_tokens(const net::Net& net, Run run, const std::vector<PlaceId>& places) {
+  const History history(net, run);
+  if (!history.is_run()) return run;
+  std::set<std::uint32_t> wanted;
+  for (const PlaceId place : places) wanted.insert(place.value);
+  const std::vector<bool> needed = history.behind(wanted);
+  Run kept;
+  for (std::size_t firing = 0; firing < run.size(); ++firing)
+    if (needed[firing]) kept.push_back(run[firing]);
+  return kept;
+}
+
 std::vector<bool> possible_after(const net::Net& net, const Run& run) {
   const Prospect prospect(net, run);
   std::vector<bool> possible(net.transitions().size());

@@ -18,6 +18,12 @@ namespace tessera::verify {
     const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck,
     const explore::Budget& budget);
 
+/// The firings of the run behind the tokens that these places hold in the end. They are a run by themselves,
+/// after which the places hold the same tokens; others may hold fewer. Linear.
+[[nodiscard]] std::vector<net::TransitionId> causes_of_tokens(const net::Net& net,
+                                                              std::vector<net::TransitionId> run,
+                                                              const std::vector<net::PlaceId>& places);
+
 /// The transitions that could fire at some time after the run if firing consumed no tokens. The others can
 /// never be fired again. Linear.
 [[nodiscard]] std::vector<bool> possible_after(const net::Net& net,

@@ -90,7 +90,8 @@ Finding channels_flow(const NetUnderAssumption& given, std::vector<std::uint32_t
   const CommunicationStructure& structure = *given.communication.structure;
   if (!given.circuits->dry.empty()) {  // the run has to be of the channel that is named
     const ChannelFlow& dry = structure[given.circuits->dry.front()];
-    return violated(dry.name + " can run dry for ever", {dry.id.value});
+    return violated(dry.name + " can run dry for ever" + (dry.absence.empty() ? "" : ": " + dry.absence),
+                    {dry.id.value});
   }
   std::set<std::uint32_t> clear;
   for (const ChannelFlow& channel : structure.channels) clear.insert(channel.id.value);

@@ -1,5 +1,7 @@
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <set>
 #include <string>
 
 #include "explore/budget.hpp"
@@ -13,6 +15,8 @@
 #include "verify/search/claims.hpp"
 #include "verify/search/exploration.hpp"
 #include "verify/search/goals.hpp"
+#include "verify/search/parts.hpp"
+#include "verify/search/surroundings.hpp"
 
 namespace tessera::verify {
 namespace {
@@ -37,7 +41,7 @@ Finding judged(const Found& found, Found::Kind good) {
 /// A search that is not worth more ends after so many markings: rather than time, so that the same run is
 /// shown on every machine. In a large net each marking is more work.
 std::uint64_t few_markings(const net::Net& net) {
-  constexpr std::uint64_t most = 300'000, fewest = 2'000, work = 1'000'000'000;
+  constexpr std::uint64_t most = 50'000, fewest = 1'000, work = 100'000'000;
   return std::clamp(work / std::max<std::size_t>(net.transitions().size(), 1), fewest, most);
 }
 
@@ -71,12 +75,35 @@ Finding safe(const NetUnderAssumption& given, const explore::Limits& limits) {
   return finding;
 }
 
+/// Where nobody ever does what is waited for, the reason is a behaviour that is never entered.
+void name_absences(std::vector<SubsystemAtEnd>& waits, const NetUnderAssumption& given) {
+  if (!given.communication.structure) return;
+  std::map<std::string, const ChannelFlow*> absences;
+  for (const ChannelFlow& channel : given.communication.structure->channels)
+    if (!channel.absence.empty()) absences[channel.name] = &channel;
+  std::erase_if(waits, [&](const SubsystemAtEnd& one) {
+    const auto found = absences.find(one.channel);
+    return one.state == SubsystemAtEnd::State::gives_no_more && found != absences.end() &&
+           one.path == found->second->absent;
+  });
+  for (SubsystemAtEnd& one : waits) {
+    const auto found = absences.find(one.channel);
+    if (found == absences.end()) continue;
+    const ChannelFlow& channel = *found->second;
+    if (one.state == SubsystemAtEnd::State::waits && std::ranges::count(one.from, channel.absent) > 0)
+      one.text = with_absence(std::move(one.text), channel);
+    if (one.state == SubsystemAtEnd::State::takes_no_more && one.path == channel.absent)
+      one.text += ": " + channel.absence;
+  }
+}
+
 /// Extends the run, whose violation is final, and adds the waits at its end.
-void explain(Finding& finding, const net::Net& net, const explore::Budget& budget) {
+void explain(Finding& finding, const NetUnderAssumption& given, const explore::Budget& budget) {
   try {
-    Explanation explanation = explained(net, finding.trace, budget);
+    Explanation explanation = explained(given.abstract, finding.trace, budget);
     finding.trace = std::move(explanation.run);
     finding.waits = std::move(explanation.waits);
+    name_absences(finding.waits, given);
   } catch (const explore::CutOff& cut) {
     finding.cut_off = std::string(cut.what()) + ": the waits are not named";
   }
@@ -101,7 +128,7 @@ Finding deadlock_free(const NetUnderAssumption& given, const Question& question,
   finding.why = facts.subject().pages != nullptr ? "a dead marking is reachable that is not final"
                                                  : "a dead marking is reachable";
   if (found->cut_short) finding.cut_off = "the time limit is reached: the run is not shortened";
-  explain(finding, given.abstract, budget);
+  explain(finding, given, budget);
   return finding;
 }
 
@@ -192,6 +219,7 @@ Finding always_possible(const NetUnderAssumption& given, const std::vector<Probe
     Explanation explanation = explained(given.abstract, finding.trace, stuck, budget);
     finding.trace = std::move(explanation.run);
     finding.waits = std::move(explanation.waits);
+    name_absences(finding.waits, given);
   } catch (const explore::CutOff& cut) {
     finding.cut_off = std::string(cut.what()) + ": the waits are not named";
   }
@@ -238,6 +266,43 @@ Finding judged_together(const std::vector<Found>& all, Found::Kind bad) {
   return finding;
 }
 
+std::optional<bool> holds_after(const net::Net& net, const std::vector<TransitionId>& run,
+                                const Formula& formula) {
+  const explore::PtNet compiled(net);
+  const std::optional<explore::Marking> end = explore::replay(compiled, run);
+  return end ? std::optional(explore::holds(formula, compiled, *end)) : std::nullopt;
+}
+
+/// Leaves out the subsystems that have no influence on a marking in which the goal is true.
+void keep_causes(std::vector<TransitionId>& run, const net::Net& net, const Formula& goal) {
+  std::vector<PlaceId> places;
+  places_of(goal, places);
+  std::vector<TransitionId> kept = causes_of_tokens(net, run, places);
+  if (holds_after(net, kept, goal) == true) run = std::move(kept);
+}
+
+/// The same for a run after which the goal is out of reach: it is a marked place, or one of several.
+void keep_causes_of_loss(std::vector<TransitionId>& run, const net::Net& net, const Formula& goal,
+                         const explore::Budget& budget) {
+  const auto is_marked = [](const Formula& one) {
+    return one.kind == Formula::Kind::at_least && one.tokens == 1;
+  };
+  const bool simple =
+      is_marked(goal) || (goal.kind == Formula::Kind::any && std::ranges::all_of(goal.parts, is_marked));
+  if (!simple) return;
+  std::vector<PlaceId> places;
+  places_of(goal, places);
+  const std::set<PlaceId> wanted(places.begin(), places.end());
+  std::vector<TransitionId> fills;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
+    if (possible(net, {index}) && std::ranges::any_of(net.postset({index}), [&](const net::Arc& arc) {
+          return wanted.contains(arc.place);
+        }))
+      fills.push_back({index});
+  std::vector<TransitionId> kept = causes_of_standstill(net, run, fills, budget);
+  if (holds_after(net, kept, goal) == false && never_again(net, kept, fills)) run = std::move(kept);
+}
+
 /// The goals were those of the question's subjects, one by one.
 void name_subjects(Finding& finding, const Question& question) {
   for (std::uint32_t& subject : finding.subjects) subject = question.subjects[subject];
@@ -248,8 +313,9 @@ Finding none_reached(const NetUnderAssumption& given, const Question& question,
                      const std::vector<Goal>& markings, const Reducing& how, const explore::Limits& limits) {
   Finding finding = judged_together(
       ask(given.abstract, Ask::reachable, markings, Found::Kind::yes, how, limits), Found::Kind::yes);
-  name_subjects(finding, question);
   finding.has_trace = finding.kind == Finding::Kind::violated;
+  if (finding.has_trace) keep_causes(finding.trace, given.abstract, markings[finding.subjects.front()].what);
+  name_subjects(finding, question);
   return finding;
 }
 
@@ -293,12 +359,45 @@ std::vector<std::uint32_t> not_met(const NetUnderAssumption& given, const std::v
   return others;
 }
 
+/// The places that stay empty even if a subsystem and its peers get whatever they want from all others.
+std::vector<std::uint32_t> never_met(const NetUnderAssumption& given, const std::vector<std::uint32_t>& places,
+                                     const Reducing& how, const explore::Budget& budget) {
+  std::map<net::SubsystemId, std::vector<std::uint32_t>> by_owner;
+  for (const std::uint32_t place : places) by_owner[given.abstract.places()[place].subsystem].push_back(place);
+  std::vector<std::uint32_t> never;
+  const Surroundings surroundings(given.abstract);
+  for (const auto& [owner, own] : by_owner) {
+    budget.check();
+    const Surroundings::Part part = surroundings.around(owner);
+    std::vector<Goal> goals;
+    std::vector<std::uint32_t> asked;
+    for (const std::uint32_t place : own)
+      if (const auto there = part.place_of.find({place}); there != part.place_of.end()) {
+        goals.push_back({Formula::marked(there->second)});
+        asked.push_back(place);
+      }
+    const std::vector<Found> found =
+        ask(part.net, Ask::reachable, goals, std::nullopt, how, with_few_markings(part.net, budget.left()));
+    for (std::size_t goal = 0; goal < asked.size(); ++goal)
+      if (found[goal].kind == Found::Kind::no) never.push_back(asked[goal]);
+  }
+  return never;
+}
+
 Finding live_behaviours(const NetUnderAssumption& given, Question question, const Reducing& how,
                         const explore::Limits& given_limits) {
   const explore::Budget budget(given_limits);
   question.subjects = not_met(given, question.subjects, budget);
   if (question.subjects.empty())
     return {.kind = Finding::Kind::holds, .explanation = "walks through the net meet every behaviour"};
+  if (std::vector<std::uint32_t> never = never_met(given, question.subjects, how, budget); !never.empty()) {
+    Finding finding;
+    finding.kind = Finding::Kind::violated;
+    finding.why = behaviour_of(given.abstract, {never.front()}) + " can never run";
+    finding.explanation = "not even if all but its own subsystem and its peers gave them whatever they want";
+    finding.subjects = std::move(never);
+    return finding;
+  }
   const explore::Limits limits = budget.left();
   std::vector<Goal> goals;
   for (const std::uint32_t place : question.subjects) goals.push_back({Formula::marked({place})});
@@ -374,11 +473,20 @@ Finding claims(const NetUnderAssumption& given, const Question& question, Facts&
       what == Ask::reachable
           ? judged_together(ask(given.abstract, what, goals, bad, facts.reducing(), limits), bad)
           : always_or_led_to(given, what, goals, question, facts, limits, budget);
+  if (finding.kind == Finding::Kind::violated) {
+    const Formula& goal = goals[finding.subjects.front()].what;
+    try {
+      if (forbidden) keep_causes(finding.trace, given.abstract, goal);
+      if (what == Ask::always_reachable) keep_causes_of_loss(finding.trace, given.abstract, goal, budget);
+    } catch (const explore::CutOff& cut) {
+      finding.cut_off = std::string(cut.what()) + ": the run is not shortened";
+    }
+  }
   name_subjects(finding, question);
   if (finding.kind != Finding::Kind::violated) return finding;
   finding.why = complaint(kind, question.property->claims[finding.subjects.front()]);
   finding.has_trace = kind != Claims::reachable;
-  if (what != Ask::reachable) explain(finding, given.abstract, budget);
+  if (what != Ask::reachable) explain(finding, given, budget);
   return finding;
 }
 

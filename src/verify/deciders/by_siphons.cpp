@@ -17,6 +17,7 @@ class BySiphons final : public Decider {
   [[nodiscard]] std::optional<Finding> decide(const Question& question, Facts& facts,
                                               const explore::Limits& limits) const override {
     if (question.kind != Question::Kind::deadlock_free) return std::nullopt;
+    if (!facts.known_dead_ends(question.assume).empty()) return std::nullopt;
     const net::Net& net = facts.under(question.assume).abstract;
     const PlaceId end = facts.subject().pages == nullptr ? PlaceId{} : final_place(net);
     reduce::Preserve what;

@@ -29,7 +29,7 @@ std::string suspicion(const CommunicationStructure& structure, const WaitingCycl
   const Wait& wait = search.suspected().front();
   const std::string who = structure[wait.subsystem].name;
   const std::string where = "'" + who + "' waits at " + structure[wait.channel].name;
-  if (search.deserted() && !wait.waiting_for.valid()) return where + ", which nobody else uses";
+  if (search.deserted() && !wait.waiting_for.valid()) return with_absence(where, structure[wait.channel]);
   if (search.deserted())
     return where + " for " + structure[wait.waiting_for].name + ", which need not come back to it";
   CircuitGroup cycle;

@@ -414,6 +414,8 @@ export interface Verdict {
   trace: TracedFiring[] | null;
   /** Violated: what would help. */
   hint?: string;
+  /** What is not shown because a limit of time was reached. */
+  cut_off?: string;
   /** The same as waits, as data. */
   at_end: SubsystemAtEnd[];
   /** Transitions of the run; one beyond the net's says that no initial condition holds. */

@@ -58,6 +58,7 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
         </ul>
       )}
       {first!.hint && <p className="faint">{sentence(first!.hint)}</p>}
+      {first!.cut_off && <p className="faint">Cut off: {first!.cut_off}.</p>}
       <div className="buttons">
         {cause.atEnd.length > 0 && (
           <button

@@ -327,9 +327,11 @@ class Prover {
   /// For a violation that is decided: the effort for its run is limited by steps, so that it does not depend on
   /// the machine. A cut link is simple to imagine: the run that shows it is not worth much.
   [[nodiscard]] explore::Limits limits_for_run(const std::string& name, Assume assume) const {
-    constexpr std::uint64_t markings = 300'000, markings_of_cut = 30'000;
+    constexpr std::uint64_t most = 300'000, fewest = 2'000, work = 600'000'000, most_of_cut = 30'000;
     explore::Limits limits = limits_for(name);
-    limits.markings = assume == Assume::partition ? markings_of_cut : markings;
+    // In a large net each marking is more work.
+    const std::size_t transitions = std::max<std::size_t>(facts_.subject().net.transitions().size(), 1);
+    limits.markings = std::clamp(work / transitions, fewest, assume == Assume::partition ? most_of_cut : most);
     limits.bytes /= 4;
     return limits;
   }

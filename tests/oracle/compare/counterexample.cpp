@@ -139,8 +139,10 @@ class Checker {
       if (!judge_.has_ended(end(), subsystem)) complain("waits: not so: " + text);
       return;
     }
-    if (rest.starts_with("goes on and ") && rest.ends_with(" no more")) {
-      if (!goes_on_without(subsystem, rest)) complain("waits: not so: " + text);
+    // A reason may follow: ": b.control never leaves look ...".
+    const std::string what = rest.substr(0, rest.find(": "));
+    if (what.starts_with("goes on and ") && what.ends_with(" no more")) {
+      if (!goes_on_without(subsystem, what)) complain("waits: not so: " + text);
       return;
     }
     for (const auto& channel : net_.channels) {

@@ -19,20 +19,24 @@ namespace {
 /// So much that no machine is too slow.
 constexpr std::chrono::seconds enough(200);
 
-TEST(Limits, FamiliesOfEightAreDecided) {
-  struct Family {
-    const char* name;
-    std::string text;
-  };
-  for (const Family& family : {Family{"election", election(8)}, Family{"philosophers", philosophers(8)},
-                               Family{"docks", docks(8)}, Family{"gossip", gossip(8)},
-                               Family{"auction", auction(8)}}) {
-    SCOPED_TRACE(family.name);
-    const Proved all = proved(family.text, enough);
-    for (const PropertyResult& property : all.report.properties)
-      EXPECT_NE(property.verdict, Verdict::unknown) << property.name << ": " << property.why;
-  }
+struct Family {
+  const char* name;
+  std::string (*text)(unsigned robots);
+};
+
+class Families : public testing::TestWithParam<Family> {};
+
+TEST_P(Families, OfEightAreDecided) {
+  const Proved all = proved(GetParam().text(8), enough);
+  for (const PropertyResult& property : all.report.properties)
+    EXPECT_NE(property.verdict, Verdict::unknown) << property.name << ": " << property.why;
 }
+
+INSTANTIATE_TEST_SUITE_P(AllBlocking, Families,
+                         testing::Values(Family{"election", election}, Family{"philosophers", philosophers},
+                                         Family{"docks", docks}, Family{"gossip", gossip},
+                                         Family{"auction", auction}),
+                         [](const auto& family) { return std::string(family.param.name); });
 
 TEST(Limits, ADeadMarkingRefutesWhateverItShutsOut) {
   const Proved all = proved(philosophers(8) +

@@ -99,7 +99,8 @@ std::string shown(const explore::Progress& progress) {
 class Allowance {
  public:
   explicit Allowance(const VerifyOptions& options)
-      : seconds_(parse_seconds(options.timeout, "--timeout")), bytes_(parse_size(options.memory, "--memory")) {}
+      : seconds_(parse_seconds(options.timeout, "--timeout")),
+        bytes_(parse_size(options.memory, "--memory")) {}
 
   [[nodiscard]] std::chrono::duration<double> time_left() const {
     const std::chrono::duration<double> spent = std::chrono::steady_clock::now() - start_;

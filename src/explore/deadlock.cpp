@@ -143,8 +143,7 @@ Answer find_deadlock(const PtNet& net, const Formula& is_final, const Limits& li
       answer = {};
       answer.kind = Answer::Kind::yes;
       const std::vector<TransitionId> path = search.take_path();
-      const auto shorter =
-          budget.spent() ? std::nullopt : shortened(net, unwanted, path, budget);
+      const auto shorter = budget.spent() ? std::nullopt : shortened(net, unwanted, path, budget);
       answer.cut_short = !shorter;
       answer.trace.firings = shorter.value_or(path);
       answer.trace.end = *replay(net, answer.trace.firings);

@@ -277,8 +277,8 @@ class Prover {
         give_up(answering, *decider);
         continue;
       }
-      const explore::Limits limits = answering.only_run() ? limits_for_run(name, answering.question().assume)
-                                                          : limits_for(name);
+      const explore::Limits limits =
+          answering.only_run() ? limits_for_run(name, answering.question().assume) : limits_for(name);
       const explore::Budget budget(limits);
       Finding gave_up;
       try {
@@ -331,7 +331,8 @@ class Prover {
     explore::Limits limits = limits_for(name);
     // In a large net each marking is more work.
     const std::size_t transitions = std::max<std::size_t>(facts_.subject().net.transitions().size(), 1);
-    limits.markings = std::clamp(work / transitions, fewest, assume == Assume::partition ? most_of_cut : most);
+    limits.markings =
+        std::clamp(work / transitions, fewest, assume == Assume::partition ? most_of_cut : most);
     limits.bytes /= 4;
     return limits;
   }

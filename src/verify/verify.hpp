@@ -105,11 +105,11 @@ class VerifiedNet {
 [[nodiscard]] const std::vector<std::string>& method_names();
 
 struct ProveOptions {
-  std::chrono::duration<double> time{60};  ///< for all properties together, divided fairly
+  std::chrono::duration<double> time{60};         ///< for all properties together, divided fairly
   std::uint64_t bytes = std::uint64_t{2} << 30U;  ///< for the markings of one search
   std::string method = {};   ///< use only this one of method_names(); empty: the first that has an answer
   reduce::Rules rules = {};  ///< reductions that may be used
-  std::vector<std::string> only;            ///< names of properties; empty: all
+  std::vector<std::string> only;  ///< names of properties; empty: all
   /// true: give up the properties that are still open. It ends within a fraction of a second.
   const std::atomic<bool>* stop = nullptr;
   std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;

@@ -64,11 +64,11 @@ std::string philosophers(unsigned robots) {
   Specification made;
   for (unsigned index = 0; index < robots; ++index) {
     const std::string philosopher = "p" + number(index);
-    made.agent(philosopher, {"get_l", "get_r"}, {"ask_l", "ask_r", "back_l", "back_r"},
-               {behaviour("think", {}, {}, "first", "memory.h > 0"),
-                behaviour("first", {"ask_l"}, {"get_l"}, "second"),
-                behaviour("second", {"ask_r"}, {"get_r"}, "eat"),
-                behaviour("eat", {"back_l", "back_r"}, {}, "think")});
+    made.agent(
+        philosopher, {"get_l", "get_r"}, {"ask_l", "ask_r", "back_l", "back_r"},
+        {behaviour("think", {}, {}, "first", "memory.h > 0"),
+         behaviour("first", {"ask_l"}, {"get_l"}, "second"), behaviour("second", {"ask_r"}, {"get_r"}, "eat"),
+         behaviour("eat", {"back_l", "back_r"}, {}, "think")});
     const std::string fork = "f" + number(index);
     Names behaviours{behaviour("rest", {}, {}, "[{ to: hear_a, when: memory.h > 0 }, hear_b]")};
     for (const char* side : {"a", "b"}) {
@@ -100,10 +100,10 @@ std::string docks(unsigned robots) {
     asked.push_back("ask" + n);
     left.push_back("leave" + n);
     given.push_back("grant_it" + n);
-    made.agent("r" + n, {"grant"}, {"ask", "leave"},
-               {behaviour("work", {}, {}, "ask_it", "memory.h > 0"),
-                behaviour("ask_it", {"ask"}, {"grant"}, "charge"),
-                behaviour("charge", {"leave"}, {}, "work")});
+    made.agent(
+        "r" + n, {"grant"}, {"ask", "leave"},
+        {behaviour("work", {}, {}, "ask_it", "memory.h > 0"),
+         behaviour("ask_it", {"ask"}, {"grant"}, "charge"), behaviour("charge", {"leave"}, {}, "work")});
     made.channel("r" + n, "dock", "ask", "ask" + n);
     made.channel("dock", "r" + n, "grant_it" + n, "grant");
     made.channel("r" + n, "dock", "leave", "leave" + n);
@@ -196,8 +196,7 @@ std::string credits(unsigned stages) {
     if (!last) in.push_back("credit_in"), out.push_back("data_out");
     if (!first) in.push_back("data"), out.push_back("credit");
     const std::string name = "s" + number(index), next = "s" + number(index + 1);
-    made.agent(name, in, out,
-               {"go: { send: [" + joined(out) + "], receive: [" + joined(in) + "] }"});
+    made.agent(name, in, out, {"go: { send: [" + joined(out) + "], receive: [" + joined(in) + "] }"});
     if (last) continue;
     made.channel(name, next, "data_out", "data");
     made.channel(next, name, "credit", "credit_in");

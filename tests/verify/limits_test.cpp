@@ -39,9 +39,9 @@ INSTANTIATE_TEST_SUITE_P(AllBlocking, Families,
                          [](const auto& family) { return std::string(family.param.name); });
 
 TEST(Limits, ADeadMarkingRefutesWhateverItShutsOut) {
-  const Proved all = proved(philosophers(8) +
-                            "properties:\n  - { name: one eats again, always_reachable: p0.control.eat }\n",
-                            enough);
+  const Proved all = proved(
+      philosophers(8) + "properties:\n  - { name: one eats again, always_reachable: p0.control.eat }\n",
+      enough);
   for (const char* name : {"deadlock_free", "goes_on", "channels_flow", "one eats again"}) {
     SCOPED_TRACE(name);
     const PropertyResult& property = all[name];
@@ -157,9 +157,9 @@ TEST(Stories, NameTheBehaviourThatKeepsAReaderFromBeingEntered) {
     if (net[id].subsystem.valid() && net[id].role != net::TransitionRole::start) {
       EXPECT_EQ(net.parts()[net[id].subsystem].path, "a.control");
     }
-  EXPECT_EQ(texts_of(all["channels_flow"]),
-            std::vector<std::string>{
-                "b.control goes on and receives a.control.y->b.control.x no more: " + cause});
+  EXPECT_EQ(
+      texts_of(all["channels_flow"]),
+      std::vector<std::string>{"b.control goes on and receives a.control.y->b.control.x no more: " + cause});
 }
 
 }  // namespace

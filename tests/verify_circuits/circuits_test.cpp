@@ -150,8 +150,9 @@ TEST(Circuits, WhoWaitsForAPeerThatMayEndOrIsAbsentIsStuck) {
   const Judged absent = judge(silent.system.result());
   EXPECT_EQ(absent.report.groups.front().cause, Cause::none);
   EXPECT_EQ(absent.report.groups.back().cause, Cause::peer_absent);
-  EXPECT_EQ(story(absent),
-            "a1.s1 waits for a value of a0.s0.y0->a1.s1.x0 from a0.s0, and no behaviour of a0.s0 sends on it");
+  EXPECT_EQ(
+      story(absent),
+      "a1.s1 waits for a value of a0.s0.y0->a1.s1.x0 from a0.s0, and no behaviour of a0.s0 sends on it");
 }
 
 TEST(Circuits, BehavioursWithDifferentChannelsAreLeftToOtherMethods) {

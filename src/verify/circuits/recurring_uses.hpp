@@ -24,7 +24,9 @@ class RecurringUses {
   }
 
  private:
-  [[nodiscard]] const std::vector<bool>& of(Side side) const { return side == Side::send ? sends_ : receives_; }
+  [[nodiscard]] const std::vector<bool>& of(Side side) const {
+    return side == Side::send ? sends_ : receives_;
+  }
   void judge(SubsystemFlowId subsystem);
 
   const CommunicationStructure& structure_;

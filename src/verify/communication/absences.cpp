@@ -17,7 +17,8 @@ class Absences {
     for (const net::Place& place : net.places())
       if (place.operation.kind == net::Operation::Kind::transition_function)
         lines_.emplace(BehaviourKey(place.subsystem, place.operation.behaviour), place.span.line);
-    for (const net::Parts::Block& block : net.parts().blocks) users_[{block.channel, block.sends}].push_back(&block);
+    for (const net::Parts::Block& block : net.parts().blocks)
+      users_[{block.channel, block.sends}].push_back(&block);
   }
 
   void name(ChannelFlow& channel, Side side, const CommunicationStructure& structure) const {
@@ -33,9 +34,9 @@ class Absences {
     channel.absent = net_.parts()[user.subsystem].path;
     const std::string entered = named({user.subsystem, user.behaviour}) + ", which " + does + ", ";
     const std::string stays = that_stays(user.subsystem, structure);
-    channel.absence = stays.empty()
-                          ? entered + "follows no behaviour of " + channel.absent + " that can run"
-                          : channel.absent + " never leaves " + stays + ", so " + entered + "is never entered";
+    channel.absence =
+        stays.empty() ? entered + "follows no behaviour of " + channel.absent + " that can run"
+                      : channel.absent + " never leaves " + stays + ", so " + entered + "is never entered";
   }
 
  private:

@@ -206,7 +206,8 @@ Run causes_of_tokens(const net::Net& net, Run run, const std::vector<PlaceId>& p
 std::vector<bool> possible_after(const net::Net& net, const Run& run) {
   const Prospect prospect(net, run);
   std::vector<bool> possible(net.transitions().size());
-  for (std::uint32_t index = 0; index < possible.size(); ++index) possible[index] = prospect.possible({index});
+  for (std::uint32_t index = 0; index < possible.size(); ++index)
+    possible[index] = prospect.possible({index});
   return possible;
 }
 

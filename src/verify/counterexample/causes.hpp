@@ -14,9 +14,10 @@ namespace tessera::verify {
 /// Firings of other subsystems are removed, unless the transitions wait for these subsystems.
 /// Linear in the net and the run, times the subsystems that have to do with it. Throws explore::CutOff if
 /// the budget is spent before. Threads: pure.
-[[nodiscard]] std::vector<net::TransitionId> causes_of_standstill(
-    const net::Net& net, std::vector<net::TransitionId> run, const std::vector<net::TransitionId>& stuck,
-    const explore::Budget& budget);
+[[nodiscard]] std::vector<net::TransitionId> causes_of_standstill(const net::Net& net,
+                                                                  std::vector<net::TransitionId> run,
+                                                                  const std::vector<net::TransitionId>& stuck,
+                                                                  const explore::Budget& budget);
 
 /// The firings of the run behind the tokens that these places hold in the end. They are a run by themselves,
 /// after which the places hold the same tokens; others may hold fewer. Linear.

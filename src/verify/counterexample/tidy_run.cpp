@@ -197,7 +197,8 @@ class RoundRemoval {
   const explore::PtNet& compiled_;
   const explore::Marking& end_;
   const explore::Budget& budget_;
-  std::size_t steps_left_ = 4'000'000;  // firings and effects that are looked at: the same run on every machine
+  std::size_t steps_left_ =
+      4'000'000;  // firings and effects that are looked at: the same run on every machine
 };
 
 // ---------------------------------------------------------------------------------------------- grouped

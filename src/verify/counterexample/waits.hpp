@@ -74,10 +74,10 @@ class Waits {
 
   const net::Net& net_;
   std::vector<std::uint32_t> tokens_;
-  std::vector<std::vector<net::TransitionId>> transitions_;  // per subsystem
-  std::vector<bool> networked_;                              // per channel
+  std::vector<std::vector<net::TransitionId>> transitions_;          // per subsystem
+  std::vector<bool> networked_;                                      // per channel
   std::map<net::ChannelId, std::vector<net::TransitionId>> giving_;  // per channel: that put a token there
-  std::vector<bool> acts_;                                   // per subsystem: it has not ended
+  std::vector<bool> acts_;                                           // per subsystem: it has not ended
 };
 
 /// The channel places without a token that keep the transitions from firing, if nothing else does. tokens:

@@ -351,8 +351,7 @@ std::vector<std::uint32_t> not_met(const NetUnderAssumption& given, const std::v
                                    const explore::Budget& budget) {
   constexpr std::size_t firings = 100'000;
   const net::Net possible = possible_part(given.abstract);
-  const std::vector<bool> met =
-      explore::marked_on_walks(explore::PtNet(possible), places, firings, budget);
+  const std::vector<bool> met = explore::marked_on_walks(explore::PtNet(possible), places, firings, budget);
   std::vector<std::uint32_t> others;
   for (std::size_t index = 0; index < places.size(); ++index)
     if (!met[index]) others.push_back(places[index]);
@@ -360,10 +359,12 @@ std::vector<std::uint32_t> not_met(const NetUnderAssumption& given, const std::v
 }
 
 /// The places that stay empty even if a subsystem and its peers get whatever they want from all others.
-std::vector<std::uint32_t> never_met(const NetUnderAssumption& given, const std::vector<std::uint32_t>& places,
-                                     const Reducing& how, const explore::Budget& budget) {
+std::vector<std::uint32_t> never_met(const NetUnderAssumption& given,
+                                     const std::vector<std::uint32_t>& places, const Reducing& how,
+                                     const explore::Budget& budget) {
   std::map<net::SubsystemId, std::vector<std::uint32_t>> by_owner;
-  for (const std::uint32_t place : places) by_owner[given.abstract.places()[place].subsystem].push_back(place);
+  for (const std::uint32_t place : places)
+    by_owner[given.abstract.places()[place].subsystem].push_back(place);
   std::vector<std::uint32_t> never;
   const Surroundings surroundings(given.abstract);
   for (const auto& [owner, own] : by_owner) {

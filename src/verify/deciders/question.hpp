@@ -50,7 +50,8 @@ struct Finding {
   std::vector<net::TransitionId> trace{};
   bool has_trace = false;
   std::vector<SubsystemAtEnd> waits{};
-  std::string cut_off{};  ///< violated: what is not shown because a limit was reached: PropertyResult::cut_off
+  std::string
+      cut_off{};  ///< violated: what is not shown because a limit was reached: PropertyResult::cut_off
   std::uint64_t states = 0;
 };
 

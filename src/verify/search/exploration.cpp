@@ -4,9 +4,9 @@
 #include <map>
 #include <utility>
 
+#include "explore/budget.hpp"
 #include "reduce/components.hpp"
 #include "reduce/reduce.hpp"
-#include "explore/budget.hpp"
 #include "verify/search/parts.hpp"
 
 namespace tessera::verify {

@@ -18,7 +18,8 @@ Surroundings::Surroundings(const net::Net& net)
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
     const net::SubsystemId subsystem = net[id].subsystem;
-    if (subsystem.value < transitions_.size() && possible(net, id)) transitions_[subsystem.value].push_back(id);
+    if (subsystem.value < transitions_.size() && possible(net, id))
+      transitions_[subsystem.value].push_back(id);
     for (const auto arcs : {net.preset(id), net.postset(id)})
       for (const Arc& arc : arcs) {
         if (!net[arc.place].fused()) continue;

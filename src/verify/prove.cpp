@@ -280,14 +280,11 @@ class Prover {
       const explore::Limits limits =
           answering.only_run() ? limits_for_run(name, answering.question().assume) : limits_for(name);
       const explore::Budget budget(limits);
-      Finding gave_up;
       try {
         if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
           answering.hear(std::move(*finding), *decider);
       } catch (const explore::CutOff& cut) {
-        gave_up.why = cut.what();
-        gave_up.subjects = answering.question().subjects;
-        answering.hear(std::move(gave_up), *decider);
+        answering.hear({.why = cut.what(), .subjects = answering.question().subjects}, *decider);
       }
       if (answering.lacks_run() && decider->finds_runs() && budget.spent())
         answering.cut_off(reason() + ": no run is shown");
@@ -305,10 +302,7 @@ class Prover {
   void give_up(Answering& answering, const Decider& decider) const {
     if (answering.lacks_run()) return answering.cut_off(reason() + ": no run is shown");
     if (answering.only_run()) return;
-    Finding finding;
-    finding.why = reason();
-    finding.subjects = answering.question().subjects;
-    answering.hear(std::move(finding), decider);
+    answering.hear({.why = reason(), .subjects = answering.question().subjects}, decider);
   }
 
   /// A run that is easy to follow.

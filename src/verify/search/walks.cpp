@@ -1,16 +1,16 @@
-#include "explore/walks.hpp"
+#include "verify/search/walks.hpp"
 
 #include <algorithm>
 #include <limits>
 #include <optional>
 
-namespace tessera::explore {
+namespace tessera::verify {
 namespace {
 
 /// A marking that changes, and the transitions that are enabled in it.
 class Walker {
  public:
-  explicit Walker(const PtNet& net) : net_(net), position_(net.transitions(), none) { begin(); }
+  explicit Walker(const explore::PtNet& net) : net_(net), position_(net.transitions(), none) { begin(); }
 
   void begin() {
     marking_ = net_.initial();
@@ -22,13 +22,13 @@ class Walker {
     if (enabled_.empty()) return std::nullopt;
     const std::uint32_t transition = enabled_[next_number() % enabled_.size()];
     net_.fire(transition, marking_);
-    for (const Touch& touch : net_.of_transition(transition))
+    for (const explore::Touch& touch : net_.of_transition(transition))
       if (touch.effect() != 0)
-        for (const Touch& other : net_.of_place(touch.node)) look_at(other.node);
+        for (const explore::Touch& other : net_.of_place(touch.node)) look_at(other.node);
     return transition;
   }
 
-  [[nodiscard]] const Marking& marking() const { return marking_; }
+  [[nodiscard]] const explore::Marking& marking() const { return marking_; }
 
  private:
   static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
@@ -56,8 +56,8 @@ class Walker {
     return random_ >> 16U;
   }
 
-  const PtNet& net_;
-  Marking marking_;
+  const explore::PtNet& net_;
+  explore::Marking marking_;
   std::vector<std::uint32_t> enabled_;
   std::vector<std::uint32_t> position_;  // per transition: in enabled_
   std::uint64_t random_ = 0x2545f4914f6cdd1dULL;
@@ -65,8 +65,8 @@ class Walker {
 
 }  // namespace
 
-std::vector<bool> marked_on_walks(const PtNet& net, const std::vector<std::uint32_t>& places,
-                                  std::size_t firings, const Budget& budget) {
+std::vector<bool> marked_on_walks(const explore::PtNet& net, const std::vector<std::uint32_t>& places,
+                                  std::size_t firings, const explore::Budget& budget) {
   constexpr std::size_t between_checks = 1024;
   std::vector<std::vector<std::uint32_t>> wanted(net.places());  // per place: where it is listed
   std::vector<bool> marked(places.size(), false);
@@ -91,10 +91,10 @@ std::vector<bool> marked_on_walks(const PtNet& net, const std::vector<std::uint3
       length = 0;
       continue;
     }
-    for (const Touch& touch : net.of_transition(*fired))
+    for (const explore::Touch& touch : net.of_transition(*fired))
       if (touch.produces > 0) note(touch.node);
   }
   return marked;
 }
 
-}  // namespace tessera::explore
+}  // namespace tessera::verify

@@ -17,6 +17,7 @@ export interface Judged {
   verdict: "holds" | "violated" | "unknown";
   why: string;
   hint?: string;
+  cut_off?: string;
   warning: boolean;
   waits: readonly string[];
   at_end: readonly SubsystemAtEnd[];

@@ -35,6 +35,7 @@ it("the shape of a value is that of the schema, and of the present value if ther
     "max",
     "per_second",
     "beyond",
+    "non_finite",
   ]);
   const process = (value: unknown) => {
     const all = shape("properties/deploy/properties/processes");

@@ -17,13 +17,13 @@ std::string idioms() {
   return page.substr(begin + fence.size(), page.find("```", begin + fence.size()) - begin - fence.size());
 }
 
-struct Run {
+struct IdiomRun {
   const char* fails;  ///< the behaviour in which an iteration fails; "": none
   int exit_code;
   std::vector<std::string> entered, never;  ///< transitions of robot.control that fire, and that do not
 };
 
-const std::vector<Run> runs{
+const std::vector<IdiomRun> runs{
     {"", 0, {"t_init_1", "t_seek_1", "t_ask_1", "t_grab_2"}, {"t_grab_1", "t_grab_3", "t_init_2"}},
     {"robot.control.init", 1, {"t_init_2"}, {"t_init_1", "t_seek_1"}},
     {"robot.control.seek", 1, {"t_init_1", "t_seek_2"}, {"t_seek_1", "t_ask_1"}},
@@ -50,7 +50,7 @@ TEST_F(Idioms, MeanWhatTheirPageSays) {
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("warning"), std::string::npos) << checked.text;
   ASSERT_EQ(tessera("generate p --stubs").code, 0);
-  for (const Run& run : runs) {
+  for (const IdiomRun& run : runs) {
     SCOPED_TRACE(run.fails);
     const std::string fault = *run.fails == '\0' ? "" : std::string(" --inject ") + run.fails + ":throw@0s";
     const project::Exit done = tessera("simulate p --for 4s --record run.tsr" + fault);

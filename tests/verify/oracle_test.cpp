@@ -249,7 +249,7 @@ class Comparison {
       EXPECT_TRUE(can_fire->empty()) << "the run ends in no dead marking";
     }
     if (property.name == "goes_on" || (property.exceptions && !can_fire->empty())) {
-      ASSERT_FALSE(property.waits.empty());
+      ASSERT_FALSE(property.waits.empty()) << property.name << " (" << property.method << "): " << property.why;
       if (property.name == "goes_on") {  // the one that is named, not another that gets stuck too
         EXPECT_FALSE(end.moves(property.why.substr(0, property.why.find(' ')))) << property.why;
       }
@@ -258,7 +258,9 @@ class Comparison {
     if (property.name == "channels_flow") {
       const std::string channel = property.why.substr(0, property.why.find(' '));
       EXPECT_FALSE(end.is_read(channel)) << "the run ends where " << channel << " can be read again";
-      EXPECT_FALSE(property.waits.empty());
+      // A reader that need not wait goes on although its sender never gives it another value.
+      const std::string to = channel.substr(channel.find("->") + 2);
+      EXPECT_TRUE(!property.waits.empty() || end.moves(to.substr(0, to.rfind('.')))) << property.why;
     }
   }
 

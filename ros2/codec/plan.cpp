@@ -31,7 +31,8 @@ class Finder {
 
   [[nodiscard]] const std::vector<Found>& blocks() const { return blocks_; }
   [[nodiscard]] const Found& names() const { return names_; }
-  [[nodiscard]] bool other_length() const { return other_length_; }
+  /// The first array of structures whose length does not fit, and the length that has come.
+  [[nodiscard]] const Found* misfit() const { return misfit_ ? &*misfit_ : nullptr; }
 
  private:
   void walk(const Plan::Step& step) {
@@ -49,7 +50,7 @@ class Finder {
       reader_.skip(step.type, count);
     } else if (step.per_element &&
                (step.length ? count > step.members.size() : count != step.members.size())) {
-      other_length_ = true;
+      if (!misfit_) misfit_ = Found{reader_.at(), count, &step};
       for (std::size_t index = 0; index < count && reader_.ok(); ++index) walk(step.members.front().members);
     } else {
       if (step.length) blocks_[*step.length] = {reader_.at(), count, &step};
@@ -61,12 +62,13 @@ class Finder {
   CdrReader& reader_;
   std::vector<Found> blocks_;
   Found names_;
-  bool other_length_ = false;
+  std::optional<Found> misfit_;
 };
 
 /// The index of each name in the message.
 std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const Finder::Found& found,
-                                                 const std::vector<std::string>& names) {
+                                                 const std::vector<std::string>& names,
+                                                 Plan::Misfit& misfit) {
   constexpr std::size_t nowhere = ~std::size_t{0};
   std::vector<std::size_t> order(names.size(), nowhere);
   reader.go_to(found.at);
@@ -74,10 +76,12 @@ std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const Finder
     const auto name = std::ranges::find(names, reader.text());
     if (name == names.end()) continue;
     std::size_t& place = order[static_cast<std::size_t>(name - names.begin())];
-    if (place != nowhere) return std::nullopt;
+    if (place != nowhere) return misfit = {.field = *name, .came = 2, .room = 1}, std::nullopt;
     place = index;
   }
-  if (std::ranges::find(order, nowhere) != order.end()) return std::nullopt;
+  if (const auto missing = std::ranges::find(order, nowhere); missing != order.end())
+    return misfit = {.field = names[static_cast<std::size_t>(missing - order.begin())], .room = 1},
+           std::nullopt;
   return order;
 }
 
@@ -85,13 +89,16 @@ std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const Finder
 class ValueWriter {
  public:
   using Outcome = Plan::Outcome;
-  explicit ValueWriter(CdrReader& reader) : reader_(reader) {}
+  ValueWriter(CdrReader& reader, Plan::Misfit& misfit) : reader_(reader), misfit_(misfit) {}
 
   Outcome add(const Finder::Found& found, const Plan::Block& block, const std::vector<std::size_t>& order,
               std::size_t names) {
     const bool by_name = found.step->by_name;
-    if (block.is_sequence ? found.count > block.count : found.count != (by_name ? names : block.count))
+    const std::size_t room = by_name ? names : block.count;
+    if (block.is_sequence ? found.count > block.count : found.count != room) {
+      misfit_ = {block.path, found.count, room};
       return Outcome::other_length;
+    }
     if (block.is_sequence) add_length(found.count);
     reader_.go_to(found.at);
     if (block.primitive == Primitive::string) return add_texts(found, block, by_name ? &order : nullptr);
@@ -128,7 +135,10 @@ class ValueWriter {
     const std::size_t count = block.is_sequence ? found.count : block.count;
     for (std::size_t index = 0; index < count; ++index) {
       const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
-      if (text.size() > block.capacity) return Outcome::other_length;
+      if (text.size() > block.capacity) {
+        misfit_ = {block.path, text.size(), block.capacity, /*is_text=*/true};
+        return Outcome::other_length;
+      }
       const auto length = static_cast<std::uint32_t>(text.size());
       put(&length, sizeof length);
       put(text.data(), text.size());
@@ -142,8 +152,18 @@ class ValueWriter {
   }
 
   CdrReader& reader_;
+  Plan::Misfit& misfit_;
   std::vector<std::byte> value_;
 };
+
+/// The array of the buffer whose elements these are; empty: it is not known.
+std::string array_of(const Plan::Step& step, const std::vector<Plan::Block>& blocks) {
+  if (step.length) return blocks[*step.length].path;
+  if (step.block) return blocks[*step.block].path.substr(0, blocks[*step.block].path.find('['));
+  for (const Plan::Step& member : step.members)
+    if (std::string path = array_of(member, blocks); !path.empty()) return path;
+  return "";
+}
 
 /// The number that begins a sequence of the buffer.
 std::uint32_t length_of(std::span<const std::byte> part) {
@@ -318,7 +338,9 @@ std::optional<std::uint64_t> Plan::own_value(std::size_t block, std::span<const 
 }
 
 Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::byte>& value,
-                           std::span<const std::uint64_t> own) const {
+                           std::span<const std::uint64_t> own, Misfit* misfit) const {
+  Misfit unasked;
+  Misfit& why = misfit == nullptr ? unasked : *misfit;
   // The data may be padded to four bytes. More extra bytes mean another definition of the message.
   constexpr std::size_t most_padding = 3;
   auto reader = CdrReader::open(message);
@@ -326,14 +348,17 @@ Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::
   Finder finder(*reader, blocks_.size());
   finder.walk(steps_);
   if (!reader->ok() || reader->left() > most_padding) return Outcome::malformed;
-  if (finder.other_length()) return Outcome::other_length;
+  if (const Finder::Found* const found = finder.misfit()) {
+    why = {array_of(*found->step, blocks_), found->count, found->step->members.size()};
+    return Outcome::other_length;
+  }
   std::vector<std::size_t> order;
   if (!names_.empty()) {
-    auto found = order_of(*reader, finder.names(), names_);
+    auto found = order_of(*reader, finder.names(), names_, why);
     if (!found) return Outcome::other_names;
     order = std::move(*found);
   }
-  ValueWriter writer(*reader);
+  ValueWriter writer(*reader, why);
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
     if (const auto number = own_value(block, own)) {
       put_number(*number, blocks_[block], writer.value());

@@ -75,11 +75,18 @@ class Plan {
     other_length,  ///< a sequence or string has another length than the buffer, or one too great for it
     other_names    ///< one of Mapping::names is missing, or is there twice
   };
+  /// The part of a message that does not fit.
+  struct Misfit {
+    std::string
+        field;  ///< of the buffer: "ranges"; empty: it is not known. other_names: a name that is missing
+    std::size_t came = 0, room = 0;  ///< elements of the message and of the buffer; of a text: bytes
+    bool is_text = false;
+  };
   /// The value is unchanged unless the outcome is good. Reads any bytes safely.
   ///
-  /// own: values of Mapping::own; missing ones are 0.
+  /// own: values of Mapping::own; missing ones are 0. misfit: gets the reason of other_length and other_names.
   [[nodiscard]] Outcome decode(std::span<const std::byte> message, std::vector<std::byte>& value,
-                               std::span<const std::uint64_t> own = {}) const;
+                               std::span<const std::uint64_t> own = {}, Misfit* misfit = nullptr) const;
   /// A value without a message: numbers are 0 and strings empty, except for its own fields.
   [[nodiscard]] std::vector<std::byte> empty_value(std::span<const std::uint64_t> own) const;
   /// The number in an own field of a value; 0: the buffer has no such field, or the value does not have its
@@ -95,6 +102,7 @@ class Plan {
   /// Numbers and texts of the buffer, in its order; an array of numbers is one block. A sequence of structures
   /// is a block for its length, then those of all elements that it can have.
   struct Block {
+    std::string path{};  ///< in the buffer; empty: it is the buffer
     Primitive primitive = Primitive::boolean;
     std::uint32_t count = 1, capacity = 0;
     bool is_sequence = false;               ///< its length comes first, and `count` is the largest

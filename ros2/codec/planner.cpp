@@ -132,6 +132,7 @@ class Planner {
   void add_block(const std::string& path, Plan::Block block) {
     block_of_.emplace(path, plan_.blocks_.size());
     paths_.push_back(path);
+    block.path = path.substr(0, path.find('#'));
     plan_.blocks_.push_back(std::move(block));
   }
   /// No field has such a name.

@@ -1,5 +1,6 @@
 #include "ros2/dds/drivers.hpp"
 
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <chrono>
@@ -43,6 +44,17 @@ class WatchedEndpoint {
   OtherSideWatch watch_;
 };
 
+/// "'ranges' has 360 elements, and the buffer takes 8"
+std::string reason(Plan::Outcome outcome, const Plan::Misfit& misfit) {
+  if (outcome == Plan::Outcome::other_names)
+    return misfit.came == 0 ? fmt::format("it has no '{}', which `names` lists", misfit.field)
+                            : fmt::format("it has the name '{}' twice", misfit.field);
+  if (outcome != Plan::Outcome::other_length) return "it is no message of that type";
+  const std::string field = misfit.field.empty() ? "it" : "'" + misfit.field + "'";
+  return fmt::format("{} has {} {}, and the buffer takes {}", field, misfit.came,
+                     misfit.is_text ? "bytes" : "elements", misfit.room);
+}
+
 class Subscriber final : public RealReceptor {
  public:
   explicit Subscriber(Prepared prepared) : prepared_(std::move(prepared)) {}
@@ -65,21 +77,19 @@ class Subscriber final : public RealReceptor {
 
  private:
   void note(std::span<const std::byte> message) {
-    const Plan::Outcome outcome = prepared_.plan.decode(message, newest_);
+    Plan::Misfit misfit;
+    const Plan::Outcome outcome = prepared_.plan.decode(message, newest_, {}, &misfit);
     if (outcome == Plan::Outcome::good)
       fresh_ = true;
     else if (is_told(++dropped_))
-      tell(outcome);
+      tell(outcome, misfit);
   }
 
-  void tell(Plan::Outcome outcome) const {
-    const char* const why =
-        outcome == Plan::Outcome::other_length  ? "an array or text has another length than the buffer"
-        : outcome == Plan::Outcome::other_names ? "the names are not those of the specification"
-                                                : "it is no message of that type";
+  void tell(Plan::Outcome outcome, const Plan::Misfit& misfit) const {
+    const std::string why = reason(outcome, misfit);
     std::fprintf(stderr, "warning: %s: a message of %s was dropped (%llu until now): %s\n",
                  prepared_.endpoint.path.c_str(), prepared_.endpoint.topic.c_str(),
-                 static_cast<unsigned long long>(dropped_), why);
+                 static_cast<unsigned long long>(dropped_), why.c_str());
   }
 
   Prepared prepared_;

@@ -96,6 +96,13 @@ TEST(Codec, WritesTheBytesOfOtherImplementations) {
   ASSERT_EQ(plan_of({"std_msgs/msg/String", "string(8)"}, Direction::receive).decode(message, value),
             Plan::Outcome::good);
   EXPECT_EQ(value, text);
+  Plan::Misfit misfit;
+  EXPECT_EQ(
+      plan_of({"std_msgs/msg/String", "string(1)"}, Direction::receive).decode(message, value, {}, &misfit),
+      Plan::Outcome::other_length);
+  EXPECT_TRUE(misfit.is_text);
+  EXPECT_EQ(misfit.came, 2);
+  EXPECT_EQ(misfit.room, 1);
 }
 
 /// An encoded value in the form of buffers: "2: 1.5 2.5".
@@ -127,7 +134,11 @@ TEST(Codec, SequencesOfNumbersHaveTheLengthThatTheyHave) {
   ASSERT_TRUE(
       plan_of({wanted.definition, "{before: int32, data: float64[<=4], behind: int8}"}, Direction::send)
           .encode(too_many, {}, message));
-  EXPECT_EQ(receives.decode(message, back), Plan::Outcome::other_length);
+  Plan::Misfit misfit;
+  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Plan::Outcome::other_length);
+  EXPECT_EQ(misfit.field, "data");
+  EXPECT_EQ(misfit.came, 4);
+  EXPECT_EQ(misfit.room, 3);
   EXPECT_EQ(back, Bytes{std::byte{9}}) << "a message that is dropped changes nothing";
 }
 
@@ -176,7 +187,11 @@ TEST(Codec, SequencesOfStructuresHaveZeroToTheirLargestLength) {
   const std::string longer =
       "{id: int32, poses: {name: string(8), y: float64, x: float64}[<=17], end: string(4)}";
   ASSERT_TRUE(plan_of({path_definition, longer, fields}, Direction::send).encode(value_of(17), {}, message));
-  EXPECT_EQ(receives.decode(message, back), Plan::Outcome::other_length);
+  Plan::Misfit misfit;
+  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Plan::Outcome::other_length);
+  EXPECT_EQ(misfit.field, "poses");
+  EXPECT_EQ(misfit.came, 17);
+  EXPECT_EQ(misfit.room, 16);
   EXPECT_EQ(hex(back), hex(value_of(16))) << "the last good one";
   EXPECT_EQ(receives.empty_value({}).size(), 4U + 4U + 4U);
 }
@@ -320,7 +335,10 @@ TEST(Codec, PutsJointsInTheOrderOfTheirNames) {
   ASSERT_EQ(plan_of(other, Direction::receive).decode(message, value), Plan::Outcome::good);
   EXPECT_EQ(value, bytes_of(2.0, 1.0, 4.0, 3.0));
   other.names = "left, middle";
-  EXPECT_EQ(plan_of(other, Direction::receive).decode(message, value), Plan::Outcome::other_names);
+  Plan::Misfit misfit;
+  EXPECT_EQ(plan_of(other, Direction::receive).decode(message, value, {}, &misfit),
+            Plan::Outcome::other_names);
+  EXPECT_EQ(misfit.field, "middle");
 }
 
 TEST(Codec, PutsTheHeaderOfServicesBeforeTheData) {

@@ -17,7 +17,7 @@ namespace {
 using diagnostics::in_quotes;
 
 constexpr std::uint32_t largest_fleet = 100'000;
-/// A net of so many agents takes a quarter of a gigabyte.
+/// A net of so many agents takes a third of a gigabyte.
 constexpr std::size_t usual_most_agents = 10'000;
 constexpr const char* most_agents_variable = "TESSERA_MOST_AGENTS";
 
@@ -99,7 +99,7 @@ class Builder {
                "the system has " + std::to_string(all) + " agents with these, and Tessera takes at most " +
                    std::to_string(most),
                std::string(most_agents_variable) + "=" + std::to_string(all) +
-                   " in the environment raises the limit; a net takes about 25 MB for 1000 agents");
+                   " in the environment raises the limit; a net takes about 35 MB for 1000 agents");
     const std::size_t left = most > model_.agents.size() ? most - model_.agents.size() : 1;
     count = static_cast<std::uint32_t>(std::max<std::size_t>(left, 1));
   }

@@ -21,7 +21,7 @@ class PlanarFields {
   void put(const PlanarPose& pose, std::span<double> numbers) const {
     for (std::size_t field = 0; field < order_.size(); ++field) numbers[field] = pose.at(order_[field]);
   }
-  /// Of each field of the buffer, as the world gives them.
+  /// The unit of each field of the buffer, as the world gives them.
   [[nodiscard]] std::vector<std::string> units() const {
     std::vector<std::string> all;
     for (const std::size_t part : order_) all.emplace_back(part < 2 ? "m" : "rad");
@@ -32,7 +32,7 @@ class PlanarFields {
   std::vector<std::size_t> order_;  // per field of the buffer: index into PlanarPose
 };
 
-/// Of a whole pose.
+/// The units of a whole pose.
 inline const std::array<std::string, 7> units_of_pose{"m", "m", "m", "", "", "", ""};
 
 /// Whether the buffer holds a whole pose: x, y, z and a quaternion w, x, y, z.

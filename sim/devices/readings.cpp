@@ -14,7 +14,7 @@ struct Run {
   int at = 0, count = 0;
 };
 
-/// Of each number of a joint's position or velocity; empty: a part of a quaternion.
+/// The unit of each number of a joint's position or velocity; empty: a part of a quaternion.
 std::vector<std::string> units_of_joint(const mjModel& model, int joint, bool velocity) {
   const std::string way = velocity ? "m/s" : "m", angle = velocity ? "rad/s" : "rad";
   switch (model.jnt_type[joint]) {

@@ -23,7 +23,7 @@ class Budget {
  public:
   explicit Budget(Limits limits) : limits_(std::move(limits)), start_(Clock::now()) {}
 
-  /// What is left for one exploration.
+  /// The rest for one exploration.
   [[nodiscard]] Limits left() const {
     Limits left = limits_;
     left.time = limits_.time - std::chrono::duration<double>(Clock::now() - start_);

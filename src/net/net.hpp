@@ -111,7 +111,7 @@ enum class TransitionRole : std::uint8_t {
   start,  ///< enters the page: starts its agents, its subsystems, or its first behaviour
   end,    ///< leaves the page
   leave,  ///< of a subsystem: an entry of `next` of the behaviour it takes from is taken
-  // Of a behaviour. Its other transitions have conditions of their own kinds.
+  // These belong to a behaviour. Its other transitions have conditions of their own kinds.
   begin_sending,    ///< the transition function has been calculated: t1, or t3 with `receive: first`
   end_sending,      ///< t2; with `receive: first` one of t4, t5 and t6 ends the sending
   begin_receiving,  ///< t3, or t1 with `receive: first`

@@ -293,7 +293,7 @@ class Prover {
     return std::move(answering).result();
   }
 
-  /// Of the end of the work as a whole.
+  /// The reason why the work as a whole has ended.
   [[nodiscard]] std::string reason() const {
     return budget_.stopped() ? "it was interrupted" : "the time limit is reached";
   }

@@ -53,8 +53,8 @@ struct PropertyResult {
   bool partition = false;    ///< the same under Assume::partition
   std::string hint = {};     ///< violated: what would help; may be empty
   /// violated: what is not shown, or not as well as it could be, because a limit of time was reached or the
-  /// search was stopped: "the time limit is reached: the run is not shortened". Empty: nothing. What is shown
-  /// is limited by steps else, and so the same on every machine.
+  /// search was stopped: "the time limit is reached: the run is not shortened". Empty: nothing. Else
+  /// the output is limited by steps, and so the same on every machine.
   std::string cut_off = {};
 };
 

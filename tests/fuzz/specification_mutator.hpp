@@ -23,7 +23,7 @@ class SpecificationMutator {
  private:
   using json = nlohmann::json;
 
-  /// Where a part of the text stands.
+  /// The position of a part of the text.
   struct Extent {
     std::size_t begin = 0, end = 0;
   };

@@ -124,7 +124,7 @@ const Part parts[] = {
     {"Immediate", "E429", "'timed'", transition("", "<timed><value>true</value></timed>")},
     {"InactiveTagged", "E429", "'tagged'", arc("", "<tagged><value>true</value></tagged>")},
     {"WrongWeight", "E425", "weight 'x'", arc("weight='x'")},
-    // What passes, with or without a word.
+    // These pass, with or without a word.
     {"Rate", "W421", "'rate' '0.3'", transition("", "<rate><value>0.3</value></rate>"), true},
     {"Player", "W421", "'player' '1'", transition("player='1'"), true},
     {"FinalMarkings", "W422", "final markings",

@@ -26,7 +26,7 @@ namespace {
   return script;
 }
 
-/// What a receiver computes with: when, and which value.
+/// The values with which a receiver computes, and when.
 struct SeenByReceiver {
   std::vector<double> at, value;
   [[nodiscard]] Script script() {

@@ -12,7 +12,7 @@
 #include "verify/counterexample/explanation.hpp"
 #include "verify/counterexample/tidy_run.hpp"
 
-// What is shown does not depend on the machine, and what is asked for ends when it should.
+// The output does not depend on the machine, and the work ends when it should.
 namespace tessera::verify {
 namespace {
 

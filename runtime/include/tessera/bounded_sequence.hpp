@@ -64,7 +64,7 @@ class BoundedSequence {
       throw std::length_error(std::to_string(size) + " elements for a sequence of at most " +
                               std::to_string(Most));
     if (size < size_) {
-      // What is no element any more is T{} again, as new elements are.
+      // A place without an element is T{} again, as new elements are.
       T* const all = elements_.data();
       for (std::size_t index = size; index < size_; ++index) all[index] = T{};
     }

@@ -179,7 +179,7 @@ struct Bindings {
     std::size_t elements = 0;  ///< number of elements if it is an array of `kind`; otherwise 0
     std::string_view unit{};   ///< of a number, as declared; empty: none
   };
-  /// What a given value of a parameter has to be.
+  /// The demands on a given value of a parameter.
   struct Accepted {
     double minimum = -std::numeric_limits<double>::infinity();
     double maximum = std::numeric_limits<double>::infinity();

@@ -59,7 +59,7 @@ struct ChannelFlow {
   bool networked = false;  ///< its ends are in different processes
   bool always_readable =
       false;  ///< both sides non-blocking: reading never depends on a value having been sent
-  /// Of an end that no reachable behaviour uses: its subsystem, "b.control", and the reason, "b.control never
+  /// If no reachable behaviour uses an end: its subsystem, "b.control", and the reason, "b.control never
   /// leaves look (line 9), so take (line 10), which receives it, is never entered".
   std::string absent{}, absence{};
 };

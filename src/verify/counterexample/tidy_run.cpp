@@ -113,7 +113,7 @@ class RoundRemoval {
 
   void take_steps(std::size_t steps) { steps_left_ -= std::min(steps, steps_left_); }
 
-  /// Of a set of places: the sums of two sets are equal if the sets are, and hardly ever else. Whether a round
+  /// Its sums over two sets of places are equal if the sets are, and hardly ever else. Whether a round
   /// may be left out is checked afterwards.
   static std::uint64_t code(std::uint32_t place) {
     std::uint64_t mixed = (std::uint64_t{place} + 1) * 0x9e3779b97f4a7c15ULL;

@@ -43,7 +43,7 @@ explore::Limits with_few_markings(const net::Net& net, explore::Limits limits) {
   return limits;
 }
 
-/// Where nobody ever does what is waited for, the reason is a behaviour that is never entered.
+/// Names a behaviour that is never entered as the reason of a wait for what nobody ever does.
 void name_absences(std::vector<SubsystemAtEnd>& waits, const NetUnderAssumption& given) {
   if (!given.communication.structure) return;
   std::map<std::string, const ChannelFlow*> absences;

@@ -24,7 +24,7 @@ void name_subjects(Finding& finding, const Question& question);
 /// every machine.
 [[nodiscard]] explore::Limits with_few_markings(const net::Net& net, explore::Limits limits);
 
-/// Where nobody ever does what is waited for, the reason is a behaviour that is never entered.
+/// Names a behaviour that is never entered as the reason of a wait for what nobody ever does.
 void name_absences(std::vector<SubsystemAtEnd>& waits, const NetUnderAssumption& given);
 /// Extends the run, whose violation is final, and adds the waits at its end.
 void explain(Finding& finding, const NetUnderAssumption& given, const explore::Budget& budget);

@@ -78,8 +78,8 @@ namespace {
 
 using Run = std::vector<net::TransitionId>;
 
-/// The run, of an abstract net under another assumption, as one of this net. What abstract nets add to the
-/// subject, of so many transitions, is the same if it has the same name.
+/// The run, of an abstract net under another assumption, as one of this net. Transitions
+/// that abstract nets add to the subject, of so many transitions, are the same if they have the same name.
 std::optional<Run> translated(const Run& run, const net::Net& from, const net::Net& to, std::size_t common) {
   std::map<std::string, net::TransitionId> added;
   for (auto index = static_cast<std::uint32_t>(common); index < to.transitions().size(); ++index)

@@ -72,7 +72,7 @@ class Facts {
   std::vector<std::string> wrong_;
   std::optional<bool> safe_;
   std::optional<UnitInvariants> units_;
-  /// What a search found, and what it was allowed.
+  /// The finding of a search, and what the search was allowed.
   template <class Result>
   struct Searched {
     Result result{};

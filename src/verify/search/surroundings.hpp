@@ -8,10 +8,10 @@
 
 namespace tessera::verify {
 
-/// What a subsystem can do if all others but its peers give it whatever it wants. Peers use a channel with it.
+/// The part of a net in which all others but the peers of a subsystem give it whatever it wants. Peers use a channel with it.
 ///
 /// The part of the net has the possible transitions of these subsystems, without the places of others, of
-/// channels to others, and of the layers above. What cannot be reached in it cannot be reached in the net: to
+/// channels to others, and of the layers above. A marking that it cannot reach, the net cannot reach: to
 /// take a place out of a net, with its arcs, lets every run of the net still be fired, and the transitions
 /// that are left out touch none of the places that are left, except to start the subsystems, which are
 /// started here. Places that are left keep their bound, as far as invariants over them show it.

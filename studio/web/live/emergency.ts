@@ -7,7 +7,7 @@ import { Store } from "./store";
 export interface EmergencyState {
   /** The controllers that drive devices now. */
   controllers: Driving["controllers"];
-  /** What was told to them and is not answered yet. */
+  /** The command that they have not answered yet. */
   asked: "stop" | "reset" | null;
   /** The result of the last command; null: there was none, or it was put away. */
   told: (CommandDone & { what: "stop" | "reset" }) | null;

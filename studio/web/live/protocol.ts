@@ -134,9 +134,9 @@ export interface Requests {
     };
   };
   "GET /api/driving": { status: 200; answer: Driving };
-  /** What `tessera emergency-stop` does: all controllers of this user in real time. */
+  /** Does as `tessera emergency-stop`: all controllers of this user in real time. */
   "POST /api/emergency_stop": { body: Nothing; status: 200; answer: CommandDone };
-  /** What `tessera reset` does. */
+  /** Does as `tessera reset`. */
   "POST /api/emergency_reset": {
     body: {
       /** The name of one: of a deployed system, all processes are reset. */
@@ -414,7 +414,7 @@ export interface Verdict {
   trace: TracedFiring[] | null;
   /** Violated: what would help. */
   hint?: string;
-  /** What is not shown because a limit of time was reached. */
+  /** The part that is not shown because a limit of time was reached. */
   cut_off?: string;
   /** The same as waits, as data. */
   at_end: SubsystemAtEnd[];
@@ -487,7 +487,7 @@ export interface Driving {
 export interface CommandDone {
   /** Whether all that were meant have obeyed. */
   done: boolean;
-  /** What it prints. */
+  /** The lines that it prints. */
   lines: string[];
 }
 export interface StartRequest {

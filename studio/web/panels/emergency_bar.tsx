@@ -25,7 +25,7 @@ export function EmergencyBar() {
   const { controllers, told } = useStore(studio.emergency.store, (all) => all);
   const ownRun = useStore(studio.runner.store, ({ kind, state }) => kind === "run" && state === "running");
   const dialog = useOpenDialog();
-  // What somebody did not obey stays to be read.
+  // A command that somebody did not obey stays to be read.
   if (controllers.length === 0 && !ownRun && (told?.done ?? true)) return null;
   return (
     <>

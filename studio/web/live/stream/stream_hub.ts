@@ -1,8 +1,8 @@
 /** The part of the shared worker that needs no worker: one event stream for all tabs of a browser. */
 
-/** What a tab says to the hub. */
+/** A message of a tab to the hub. */
 export type ToHub = { open: string } | { ping: true } | { close: true };
-/** What the hub says to a tab. `broken`: there is no stream any more; the tab asks for one again. */
+/** A message of the hub to a tab. `broken`: there is no stream any more; the tab asks for one again. */
 export type FromHub = { opened: true } | { broken: true } | { pong: true } | { event: string; data: string };
 
 /** The end of a tab. A tab that is gone takes messages all the same, and nobody says so. */

@@ -98,7 +98,7 @@ function changed(base: readonly string[], from: number, to: number, hunks: reado
   return [...lines, ...base.slice(at, to)];
 }
 
-/** Merges two changes of `base` line by line. What one side alone changed is taken from it. */
+/** Merges two changes of `base` line by line. A change of one side alone is taken from it. */
 export function mergeLines(base: string, mine: string, theirs: string): Merged {
   const lines = base.split("\n");
   const left = [

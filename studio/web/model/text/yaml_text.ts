@@ -71,7 +71,7 @@ export class YamlText {
     return (found as Node | null | undefined) ?? undefined;
   }
 
-  /** Whether an alias stands at a path. What it stands for is written elsewhere, and is changed there. */
+  /** Whether an alias stands at a path. Its value is written elsewhere, and is changed there. */
   isAlias(path: YamlPath): boolean {
     return isAlias(this.node(path));
   }

@@ -56,7 +56,7 @@ export function Field({
   const key = (event: KeyboardEvent<HTMLInputElement>) => {
     const undo = undoOf(event);
     if (undo && !apart) {
-      // What the browser would undo are letters, also those of values that have taken effect long ago.
+      // The browser would undo letters, also those of values that have taken effect long ago.
       event.preventDefault();
       event.stopPropagation();
       if (text !== value) setText(value);

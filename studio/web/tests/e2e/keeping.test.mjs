@@ -271,7 +271,7 @@ test("undo in a field takes back the edit, and an alias stays an alias", () =>
     await rate.fill("*r2");
     await rate.press("Enter");
     await page.getByLabel("not saved").waitFor({ state: "detached" });
-    // What is not taken yet goes first.
+    // Text that is not taken yet goes first.
     await rate.fill("99");
     await rate.press("Control+z");
     assert.equal(await rate.inputValue(), "*r2");

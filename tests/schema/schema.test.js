@@ -39,7 +39,7 @@ for (const { name, text } of specifications('valid')) {
 }
 
 for (const { name, text } of specifications('wrong')) {
-  const verdict = /^# schema: (accepts|rejects)$/m.exec(text.split('\n', 1)[0])?.[1];
+  const verdict = /^(?:#|<!--) schema: (accepts|rejects)(?: -->)?$/m.exec(text.split('\n', 1)[0])?.[1];
   test(`wrong/${name}: the schema ${verdict} it`, () => {
     assert.ok(verdict, 'the first line must be "# schema: accepts" or "# schema: rejects"');
     assert.equal(accepts(text) ? 'accepts' : 'rejects', verdict, JSON.stringify(validate.errors, null, 2));

@@ -101,7 +101,8 @@ int set_in_all(std::vector<SeenController>& processes, const project::command::S
         unknown = answer->problem->text;  // with a hint
     } else if (!answer->problem) {
       taken = true;
-      if (processes.size() > 1 && !command.only_try) fmt::print("{}: {}={}\n", name, command.path, command.value);
+      if (processes.size() > 1 && !command.only_try)
+        fmt::print("{}: {}={}\n", name, command.path, command.value);
     } else {
       taken = true;
       code = complain(processes.size() > 1 ? name + ": " + answer->problem->text : answer->problem->text);
@@ -253,7 +254,8 @@ void add_set(CommandLine& app, int& exit_code) {
       .required();
   declare_controller(command, *options);
   command.footer(
-      "A value that does not fit the parameter's type and range is refused, and then no value is set. A number\n"
+      "A value that does not fit the parameter's type and range is refused, and then no value is set. A "
+      "number\n"
       "may have any unit of its quantity: v='30 cm/s'. A subsystem takes the new value\n"
       "just before it calls a transition function, and the recording says when. In a system of several\n"
       "processes, each one on this machine that has the parameter takes it and is named.\n"

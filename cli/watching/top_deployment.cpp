@@ -69,7 +69,8 @@ void wait_for_all(DeploymentWatch& deployment, const WatchedSystem& system, bool
         all    ? meets_within
         : once ? answers_within
                : DeploymentWatch::longest_silence + std::chrono::milliseconds(200);
-    if (has_heard(deployment, system.found, /*silent_counts=*/!once, all) || Clock::now() >= begin + longest) return;
+    if (has_heard(deployment, system.found, /*silent_counts=*/!once, all) || Clock::now() >= begin + longest)
+      return;
     deployment.poll(std::chrono::milliseconds(100), each_line);
   }
 }

@@ -24,25 +24,24 @@ struct NamedUnit {
   UnitBase base;
   int power = 1;
 };
-constexpr std::array named_units =
-    std::to_array<NamedUnit>({{"km", 1000, 1, UnitBase::metre},
-                              {"m", 1, 1, UnitBase::metre},
-                              {"cm", 1, 100, UnitBase::metre},
-                              {"mm", 1, 1000, UnitBase::metre},
-                              {"um", 1, 1e6, UnitBase::metre},
-                              {"\u00b5m", 1, 1e6, UnitBase::metre},
-                              {"rad", 1, 1, UnitBase::radian},
-                              {"deg", std::numbers::pi, 180, UnitBase::radian},
-                              {"h", 3600, 1, UnitBase::second},
-                              {"min", 60, 1, UnitBase::second},
-                              {"s", 1, 1, UnitBase::second},
-                              {"ms", 1, 1e3, UnitBase::second},
-                              {"us", 1, 1e6, UnitBase::second},
-                              {"\u00b5s", 1, 1e6, UnitBase::second},
-                              {"ns", 1, 1e9, UnitBase::second},
-                              {"Hz", 1, 1, UnitBase::second, -1},
-                              {"kHz", 1e3, 1, UnitBase::second, -1},
-                              {"MHz", 1e6, 1, UnitBase::second, -1}});
+constexpr std::array named_units = std::to_array<NamedUnit>({{"km", 1000, 1, UnitBase::metre},
+                                                             {"m", 1, 1, UnitBase::metre},
+                                                             {"cm", 1, 100, UnitBase::metre},
+                                                             {"mm", 1, 1000, UnitBase::metre},
+                                                             {"um", 1, 1e6, UnitBase::metre},
+                                                             {"\u00b5m", 1, 1e6, UnitBase::metre},
+                                                             {"rad", 1, 1, UnitBase::radian},
+                                                             {"deg", std::numbers::pi, 180, UnitBase::radian},
+                                                             {"h", 3600, 1, UnitBase::second},
+                                                             {"min", 60, 1, UnitBase::second},
+                                                             {"s", 1, 1, UnitBase::second},
+                                                             {"ms", 1, 1e3, UnitBase::second},
+                                                             {"us", 1, 1e6, UnitBase::second},
+                                                             {"\u00b5s", 1, 1e6, UnitBase::second},
+                                                             {"ns", 1, 1e9, UnitBase::second},
+                                                             {"Hz", 1, 1, UnitBase::second, -1},
+                                                             {"kHz", 1e3, 1, UnitBase::second, -1},
+                                                             {"MHz", 1e6, 1, UnitBase::second, -1}});
 
 void multiply(Unit& product, const Unit& unit, int power) {
   for (int count = 0; count < std::abs(power); ++count) {

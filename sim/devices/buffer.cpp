@@ -55,7 +55,8 @@ void Buffer::convert_from(std::span<const std::string> given, const std::string&
       continue;
     }
     if (!read_unit(from) && !read_unit(to)) continue;  // N m, Nm: two names of one unit, perhaps
-    const std::string field = fields_[index].empty() ? "the buffer" : "'" + fields_[index] + "' of the buffer";
+    const std::string field =
+        fields_[index].empty() ? "the buffer" : "'" + fields_[index] + "' of the buffer";
     throw DeviceError(what + " is in " + from + ", and " + field + " in " + to,
                       "declare it in " + from + ", or in another unit of that quantity");
   }

@@ -71,7 +71,8 @@ hint: map its fields one by one, or give the buffer a structure
 
 /// The report about a base whose forward speed is declared in `unit`, behind a message of that type.
 std::string report_of_unit(const std::string& unit, const std::string& driver) {
-  diagnostics::Diagnostics out("spec.yaml", "tessera: 1\nsystem: demo\ntypes: { Motion: { v: float64 " + unit +
+  diagnostics::Diagnostics out("spec.yaml", "tessera: 1\nsystem: demo\ntypes: { Motion: { v: float64 " +
+                                                unit +
                                                 R"( } }
 agents:
   robot:
@@ -80,7 +81,8 @@ agents:
       base: { rate: 1 Hz, inputs: { motion: Motion }, real: { command: Motion }, stale: 1 s, behaviours: { drive: {} } }
 channels: [robot.control.motion -> robot.base.motion]
 drivers:
-  robot.base.command: { ros2: /out, )" + driver + " }\n");
+  robot.base.command: { ros2: /out, )" + driver +
+                                                " }\n");
   auto model = spec::parse(out);
   EXPECT_TRUE(model.has_value()) << render(out);
   if (!model) return "";
@@ -92,8 +94,9 @@ TEST(Specification, WithUnitsThatTheMessagesOfAPackageDoNotHaveIsRefused) {
   const std::string twist = "type: geometry_msgs/Twist, fields: { linear.x: v }";
   EXPECT_EQ(report_of_unit("m/s", twist), "");
   EXPECT_EQ(report_of_unit("furlong/fortnight", twist), "") << "it is not known, and may be right";
-  EXPECT_EQ(report_of_unit("cm/s", twist),
-            R"(spec.yaml:11:43: error E218: messages of geometry_msgs are in SI units, and command.v is declared in cm/s
+  EXPECT_EQ(
+      report_of_unit("cm/s", twist),
+      R"(spec.yaml:11:43: error E218: messages of geometry_msgs are in SI units, and command.v is declared in cm/s
    11 |   robot.base.command: { ros2: /out, type: geometry_msgs/Twist, fields: { linear.x: v } }
       |                                           ^~~~~~~~~~~~~~~~~~~
 hint: declare it in m/s, and convert it in the transition function

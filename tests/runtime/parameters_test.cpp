@@ -64,9 +64,8 @@ TEST_F(Parameters, OfArraysAreLists) {
   EXPECT_EQ(seen.at(0).points, (Points{4, 5, 6}));
   EXPECT_EQ(set({{"points", "[1, 2]"}}),
             "parameter points = [1, 2]: [1, 2] has 2 elements, and the parameter has 3: write [1, 2, 3]");
-  EXPECT_EQ(
-      set({{"points", "[1, 2, x]"}}),
-      "parameter points = [1, 2, x]: [1, 2, x] is wrong: element 2 (x) is no number");
+  EXPECT_EQ(set({{"points", "[1, 2, x]"}}),
+            "parameter points = [1, 2, x]: [1, 2, x] is wrong: element 2 (x) is no number");
   EXPECT_EQ(set({{"points", "[1, -2, 3]"}}),
             "parameter points = [1, -2, 3]: [1, -2, 3] is wrong: element 1 (-2) is out of range 0 to inf");
   EXPECT_NE(set({{"points", ""}}), "");
@@ -83,9 +82,10 @@ TEST_F(Parameters, AnyUnitOfTheQuantityIsConverted) {
   EXPECT_EQ(set({{"gain", "3 kg"}}),
             "parameter gain = 3 kg: 3 kg has another unit: the parameter is in m/s; write a number in m/s");
   EXPECT_EQ(set({{"gain", "20 m/s"}}), "parameter gain = 20 m/s: 20 m/s is out of range 0 to 10");
-  EXPECT_EQ(set({{"level", "30 cm"}}),
-            "parameter level = 30 cm: 30 cm has a unit, and the parameter has none; write the number alone: 0.3 "
-            "if it is in m");
+  EXPECT_EQ(
+      set({{"level", "30 cm"}}),
+      "parameter level = 30 cm: 30 cm has a unit, and the parameter has none; write the number alone: 0.3 "
+      "if it is in m");
 }
 
 TEST_F(Parameters, TheLastOneCounts) {

@@ -31,7 +31,8 @@ TEST(RepeatedLines, TheFirstThreeAndThePowersOfTenArePrinted) {
 
 TEST(RepeatedLines, OtherTextsPathsAndLevelsAreOtherKinds) {
   const auto lines = std::make_unique<RepeatedLines>();
-  for (int number = 0; number < 5; ++number) static_cast<void>(lines->next(1, "robot[1].motor", "late by 3 ms"));
+  for (int number = 0; number < 5; ++number)
+    static_cast<void>(lines->next(1, "robot[1].motor", "late by 3 ms"));
   EXPECT_FALSE(lines->next(1, "robot[1].motor", "late by 4 ms").printed);
   EXPECT_TRUE(lines->next(1, "robot[2].motor", "late by 3 ms").printed);
   EXPECT_TRUE(lines->next(2, "robot[1].motor", "late by 3 ms").printed);

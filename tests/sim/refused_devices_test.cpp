@@ -78,20 +78,24 @@ DriverRequest in_units(DriverRequest request, std::vector<std::string> units) {
 
 TEST(RefusedDevices, AUnitOfAnotherQuantityIsRefused) {
   const auto world = open_text("units_refused", workshop);
-  EXPECT_EQ(refusal<double>(*world, in_units({"a.m.c", "actuator", {"shoulder"}, {}}, {"m"}), true),
-            "the command of an actuator is in rad, and the buffer in m | declare it in rad, or in another unit of "
-            "that quantity | ");
-  EXPECT_EQ(refusal<double>(*world, in_units({"a.s.p", "joint_position", {"wrist"}, {}}, {"deg"})),
-            "the position of a joint is in m, and the buffer in deg | declare it in m, or in another unit of that "
-            "quantity | ");
+  EXPECT_EQ(
+      refusal<double>(*world, in_units({"a.m.c", "actuator", {"shoulder"}, {}}, {"m"}), true),
+      "the command of an actuator is in rad, and the buffer in m | declare it in rad, or in another unit of "
+      "that quantity | ");
+  EXPECT_EQ(
+      refusal<double>(*world, in_units({"a.s.p", "joint_position", {"wrist"}, {}}, {"deg"})),
+      "the position of a joint is in m, and the buffer in deg | declare it in m, or in another unit of that "
+      "quantity | ");
   using Two = std::array<double, 2>;
-  EXPECT_EQ(refusal<Two>(*world, in_units({"a.s.p", "joint_velocity", {"shoulder", "wrist"}, {}}, {"deg/s", "px"})),
-            "the velocity of a joint is in m/s, and '[1]' of the buffer in px | declare it in m/s, or in another "
-            "unit of that quantity | ");
+  EXPECT_EQ(
+      refusal<Two>(*world, in_units({"a.s.p", "joint_velocity", {"shoulder", "wrist"}, {}}, {"deg/s", "px"})),
+      "the velocity of a joint is in m/s, and '[1]' of the buffer in px | declare it in m/s, or in another "
+      "unit of that quantity | ");
   using Three = std::array<double, 3>;
-  EXPECT_EQ(refusal<Three>(*world, in_units({"a.s.g", "sensor", {"gyro"}, {}}, {"rad/s", "deg/s", "turns"})),
-            "a sensor of the world is in rad/s, and '[2]' of the buffer in turns | declare it in rad/s, or in "
-            "another unit of that quantity | ");
+  EXPECT_EQ(
+      refusal<Three>(*world, in_units({"a.s.g", "sensor", {"gyro"}, {}}, {"rad/s", "deg/s", "turns"})),
+      "a sensor of the world is in rad/s, and '[2]' of the buffer in turns | declare it in rad/s, or in "
+      "another unit of that quantity | ");
   EXPECT_NE(refusal<Three>(*world, in_units({"a.s.r", "scan", {"tip"}, {}}, {"s", "s", "s"})), "");
   EXPECT_EQ(refusal<double>(*world, in_units({"a.s.p", "joint_position", {"wrist"}, {}}, {"mm"})), "");
 }

@@ -155,7 +155,8 @@ TEST(WorldErrors, AFileOfTheWorldThatIsMissingIsNamedWithTheLine) {
     return error;
   };
   EXPECT_THAT(problem("<mujoco>\n  <worldbody/>\n  <include file='gone.xml'/>\n</mujoco>"),
-              ::testing::AllOf(HasSubstr("there is no file "), HasSubstr("gone.xml, which an <include> names (line 3)")));
+              ::testing::AllOf(HasSubstr("there is no file "),
+                               HasSubstr("gone.xml, which an <include> names (line 3)")));
   EXPECT_THAT(problem("<mujoco>\n  <asset><mesh name='m' file='gone.stl'/></asset>\n  <worldbody>\n"
                       "    <geom type='mesh' mesh='m'/></worldbody>\n</mujoco>"),
               ::testing::AllOf(HasSubstr("the file "), HasSubstr("gone.stl cannot be opened (line 2)")));

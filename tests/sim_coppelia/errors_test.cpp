@@ -183,7 +183,8 @@ TEST(CoppeliaErrors, ASceneThatDoesNotLoadIsTold) {
   std::string error;
   const auto world = open_world({.server = server.address()}, error);
   ASSERT_NE(world, nullptr) << error;
-  EXPECT_NE(world->receptor(request_for<double>({"robot.s.a", "reflectance", {"eye_left"}, {}}), error), nullptr)
+  EXPECT_NE(world->receptor(request_for<double>({"robot.s.a", "reflectance", {"eye_left"}, {}}), error),
+            nullptr)
       << error;
 }
 
@@ -193,7 +194,8 @@ TEST(CoppeliaErrors, ASceneThatCannotBeSimulatedIsClosedAgain) {
   for (SceneServer* server : {&without, &too_fast}) {
     WorldServer address = server->address();
     address.scene = "/tmp/hall.ttt";
-    EXPECT_THAT(problem_with(address), HasSubstr(server == &without ? "has no main script" : "unknown version"));
+    EXPECT_THAT(problem_with(address),
+                HasSubstr(server == &without ? "has no main script" : "unknown version"));
     EXPECT_THAT(server->scenes(), ::testing::ElementsAre(1));
   }
   EXPECT_THAT(problem_with(without.address()), HasSubstr("has no main script"));

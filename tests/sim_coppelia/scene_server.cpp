@@ -125,8 +125,8 @@ std::optional<Bytes> SceneServer::answer(const Bytes& request) {
 }
 
 json SceneServer::execute(const std::string& function, const json& arguments) {
-  for (const auto part : {&SceneServer::of_scenes, &SceneServer::of_simulation, &SceneServer::of_object, &SceneServer::of_joint,
-                          &SceneServer::of_sensor})
+  for (const auto part : {&SceneServer::of_scenes, &SceneServer::of_simulation, &SceneServer::of_object,
+                          &SceneServer::of_joint, &SceneServer::of_sensor})
     if (json values = (this->*part)(function, arguments); !values.is_null()) return values;
   throw std::runtime_error("No such function: " + function);
 }
@@ -169,7 +169,8 @@ json SceneServer::of_simulation(const std::string& function, const json& argumen
     return json::array();
   }
   if (function == "sim.getScript") {
-    if (arguments.at(0) != constant("scripttype_mainscript") || settings_.no_main_script) refuse(function, "script does not exist.");
+    if (arguments.at(0) != constant("scripttype_mainscript") || settings_.no_main_script)
+      refuse(function, "script does not exist.");
     return json::array({main_script});
   }
   if (function == "sim.callScriptFunction") {
@@ -196,8 +197,9 @@ SceneServer::Thing& SceneServer::thing(const json& handle) {
 json SceneServer::of_object(const std::string& function, const json& arguments) {
   if (function == "sim.getObject") {
     const auto found = std::ranges::find(things_, arguments.at(0).get<std::string>(), &Thing::path);
-    return json::array(
-        {scenes_.back().is_empty || found == things_.end() ? -1 : static_cast<int>(found - things_.begin()) + first_handle});
+    return json::array({scenes_.back().is_empty || found == things_.end()
+                            ? -1
+                            : static_cast<int>(found - things_.begin()) + first_handle});
   }
   if (function == "sim.getObjectsInTree") {
     json handles = json::array();

@@ -31,10 +31,10 @@ class SceneServer {
     std::string track;  ///< PNG; empty: a white floor
     sim::Pose start{};
     double step_s = 0.01;
-    int version = 40900;           ///< of the program
-    bool runs_already = false;     ///< a simulation that another client started
-    std::uint16_t port = 0;        ///< 0: a free one
-    int waits_per_step = 3;        ///< how often a step asks the client to wait
+    int version = 40900;        ///< of the program
+    bool runs_already = false;  ///< a simulation that another client started
+    std::uint16_t port = 0;     ///< 0: a free one
+    int waits_per_step = 3;     ///< how often a step asks the client to wait
     bool no_main_script = false;
     bool no_marks = false;         ///< refuses to call functions of scripts
     std::set<std::string> silent;  ///< functions that never answer

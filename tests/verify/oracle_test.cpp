@@ -249,7 +249,8 @@ class Comparison {
       EXPECT_TRUE(can_fire->empty()) << "the run ends in no dead marking";
     }
     if (property.name == "goes_on" || (property.exceptions && !can_fire->empty())) {
-      ASSERT_FALSE(property.waits.empty()) << property.name << " (" << property.method << "): " << property.why;
+      ASSERT_FALSE(property.waits.empty())
+          << property.name << " (" << property.method << "): " << property.why;
       if (property.name == "goes_on") {  // the one that is named, not another that gets stuck too
         EXPECT_FALSE(end.moves(property.why.substr(0, property.why.find(' ')))) << property.why;
       }

@@ -88,8 +88,7 @@ template <class Number>
   const auto [end, problem] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (problem == std::errc::result_out_of_range) return Problem{"does not fit its type"};
   if (problem != std::errc{} || end != text.data() + text.size())
-    return Problem{std::is_integral_v<Number> ? "is no whole number"
-                                              : "is no number"};
+    return Problem{std::is_integral_v<Number> ? "is no whole number" : "is no number"};
   const auto real = static_cast<double>(value);
   if (!std::isfinite(real)) return Problem{"is not finite"};
   if (real < parameter.minimum || real > parameter.maximum)

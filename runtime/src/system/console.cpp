@@ -204,9 +204,9 @@ Session::~Session() {
   if (outermost_) {
     repeated().tell_left_out([](std::string_view path, std::string_view text, std::uint64_t left_out) {
       std::array<char, longest_line> line, room;
-      const auto end = fmt::format_to_n(line.data(), line.size(),
-                                        "{}{}  {} more like this were not printed: {}\n",
-                                        journal_level(LogLevel::info), path, left_out, printable(text, room));
+      const auto end =
+          fmt::format_to_n(line.data(), line.size(), "{}{}  {} more like this were not printed: {}\n",
+                           journal_level(LogLevel::info), path, left_out, printable(text, room));
       writer().put(cut(line, end.size));
     });
     writer().end();
@@ -225,10 +225,9 @@ void print(LogLevel level, Time time, std::string_view path, std::string_view te
   if (turn.count > 1) fmt::format_to_n(times.data(), times.size() - 1, " ({} times)", turn.count);
   std::array<char, longest_line> line, room;  // text of user code, too
   const char* mark = level == LogLevel::info ? "" : level == LogLevel::warning ? "warning: " : "error: ";
-  const auto end =
-      fmt::format_to_n(line.data(), line.size(), "{}{}{:.3f} s  {}  {}{}{}\n", journal_level(level),
-                       erase_progress(), seconds(time.time_since_epoch()), path, mark, printable(text, room),
-                       times.data());
+  const auto end = fmt::format_to_n(line.data(), line.size(), "{}{}{:.3f} s  {}  {}{}{}\n",
+                                    journal_level(level), erase_progress(), seconds(time.time_since_epoch()),
+                                    path, mark, printable(text, room), times.data());
   writer().put(cut(line, end.size));
 }
 

@@ -29,8 +29,8 @@ class RepeatedLines {
   void tell_left_out(Tell&& tell) {
     for (Kind& one : kinds_) {
       if (const std::uint64_t left_out = one.count - one.printed; one.ready && left_out > 0)
-        tell(std::string_view(one.path.data(), one.path_size), std::string_view(one.text.data(), one.text_size),
-             left_out);
+        tell(std::string_view(one.path.data(), one.path_size),
+             std::string_view(one.text.data(), one.text_size), left_out);
       one.key = 0;
       one.ready = false;
       one.count = one.printed = 0;

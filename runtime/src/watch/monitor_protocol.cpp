@@ -128,7 +128,8 @@ template <class All>
 /// Throws as simulation_command.
 [[nodiscard]] AnsweredCommand answered_command(const json& object) {
   const std::string name = object.value("command", "");
-  if (name == "set") return commands::SetParameter{object.at("path"), object.at("value"), object.value("try", false)};
+  if (name == "set")
+    return commands::SetParameter{object.at("path"), object.at("value"), object.value("try", false)};
   if (name == "panel") return panel_command(object);
   if (name == "emergency_stop")
     return commands::EmergencyStop{object.value("why", "an operator asks for it")};

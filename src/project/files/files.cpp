@@ -91,9 +91,8 @@ void copy_whole(const fs::path& from, const fs::path& to) {
   struct stat status {};
   int wrong = fstat(source, &status) == 0 ? 0 : errno;
   if (wrong == 0 && unlink(to.c_str()) != 0 && errno != ENOENT) wrong = errno;
-  const int target = wrong != 0 ? -1
-                                : open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC,
-                                       status.st_mode & 07777U);
+  const int target =
+      wrong != 0 ? -1 : open(to.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, status.st_mode & 07777U);
   if (wrong == 0 && target < 0) wrong = errno;
   if (target >= 0) {
     wrong = copy_bytes(source, target);

@@ -119,7 +119,8 @@ class MessageFinder {
     if (is_service(driver)) mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
     const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     std::vector<ros2::MappingProblem> problems;
-    if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems)) return has_its_units(driver);
+    if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems))
+      return has_its_units(driver);
     for (const ros2::MappingProblem& problem : problems)
       complain("E321", place_in(driver, problem.subject), problem.text, problem.hint);
     return false;

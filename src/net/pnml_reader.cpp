@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <cstdint>
 #include <map>
 #include <pugixml.hpp>
+#include <string>
 #include <string_view>
 #include <unordered_map>
 #include <unordered_set>
@@ -12,6 +13,8 @@
 #include <vector>
 
 #include "diagnostics/utf8.hpp"
+#include "net/pnml_elements.hpp"
+#include "net/pnml_labels.hpp"
 #include "net/pnml_vocabulary.hpp"
 
 namespace tessera::net {
@@ -19,48 +22,6 @@ namespace {
 
 using diagnostics::in_quotes;
 using pugi::xml_node;
-
-std::string_view name_of(const xml_node& node) { return local_name(node.name()); }
-
-xml_node child(const xml_node& node, std::string_view name) {
-  for (const xml_node candidate : node.children())
-    if (name_of(candidate) == name) return candidate;
-  return {};
-}
-
-/// "[0,inf)", the interval of an arc of TAPAAL that any age satisfies.
-bool is_any_time(std::string_view text) {
-  std::string plain;
-  for (const char c : text)
-    if (c != ' ') plain += c;
-  return plain == "[0,inf)";
-}
-
-/// Lines and columns of byte offsets.
-class Positions {
- public:
-  explicit Positions(std::string_view text) : size_(text.size()) {
-    for (std::size_t end = text.find('\n'); end != std::string_view::npos; end = text.find('\n', end + 1))
-      starts_.push_back(end + 1);
-  }
-  [[nodiscard]] Span at(std::ptrdiff_t offset, std::size_t length) const {
-    if (offset < 0) return {};
-    const std::size_t position = std::min(static_cast<std::size_t>(offset), size_);
-    const auto line = std::prev(std::ranges::upper_bound(starts_, position));
-    return {static_cast<std::uint32_t>(line - starts_.begin() + 1),
-            static_cast<std::uint32_t>(position - *line + 1),
-            static_cast<std::uint32_t>(std::max<std::size_t>(1, length))};
-  }
-  [[nodiscard]] Span of(const xml_node& node) const {
-    const bool element = node.type() == pugi::node_element;
-    return at(node.offset_debug(),
-              element ? std::string_view(node.name()).size() : std::string_view(node.value()).size());
-  }
-
- private:
-  std::size_t size_;
-  std::vector<std::size_t> starts_{0};
-};
 
 /// The element that an id of the document refers to.
 struct Element {
@@ -84,7 +45,8 @@ constexpr std::array coloured_types =
 
 class Reader {
  public:
-  explicit Reader(diagnostics::Diagnostics& out) : out_(out), positions_(out.text()), vocabulary_(out) {}
+  explicit Reader(diagnostics::Diagnostics& out)
+      : out_(out), positions_(out.text()), vocabulary_(out), labels_(out, positions_, vocabulary_) {}
 
   std::optional<Net> result() {
     const std::size_t before = out_.error_count();
@@ -141,7 +103,7 @@ class Reader {
     xml_node found;
     vocabulary_.judge(PnmlOwner::document, root, positions_.of(root));
     for (const xml_node candidate : root.children()) {
-      if (!is_read(PnmlOwner::document, candidate)) continue;
+      if (!labels_.is_read(PnmlOwner::document, candidate)) continue;
       if (found) {
         out_.error("E422", positions_.of(candidate), "the file has more than one net",
                    "keep one net per file");
@@ -177,7 +139,7 @@ class Reader {
         continue;
       }
       stack.back() = node.next_sibling();
-      if (!is_read(stack.size() > 1 ? PnmlOwner::page : PnmlOwner::net, node)) continue;
+      if (!labels_.is_read(stack.size() > 1 ? PnmlOwner::page : PnmlOwner::net, node)) continue;
       const std::string_view kind = name_of(node);
       if (kind == "page") {
         vocabulary_.judge(PnmlOwner::page, node, positions_.of(node));
@@ -188,24 +150,13 @@ class Reader {
     }
   }
 
-  /// A child that has no meaning for the net has been judged then.
-  bool is_read(PnmlOwner owner, const xml_node& node) {
-    std::string value;
-    if (PnmlVocabulary::has_value(owner, node)) {
-      std::optional<Value> given = value_of(node);
-      if (!given) return false;
-      value = std::move(given->text);
-    }
-    return vocabulary_.is_read(owner, node, positions_.of(node), value);
-  }
-
   void add(const xml_node& node, std::string_view kind) {
     if (kind == "place") {
       enter(node, {Element::Kind::place, static_cast<std::uint32_t>(places_.size())});
       judge(PnmlOwner::place, node);
       Place place;
-      place.name = label(node, "name");
-      place.tokens = marking(node);
+      place.name = PnmlLabels::name(node);
+      place.tokens = labels_.marking(node);
       place.span = positions_.of(node);
       places_.push_back(std::move(place));
       place_ids_.emplace_back(node.attribute("id").value());
@@ -216,7 +167,7 @@ class Reader {
         if (!node.attribute(part) && !child(node, part))
           vocabulary_.judge_same(part, "not given", positions_.of(node));
       Transition transition;
-      transition.name = label(node, "name");
+      transition.name = PnmlLabels::name(node);
       transition.span = positions_.of(node);
       transitions_.push_back(std::move(transition));
       transition_ids_.emplace_back(node.attribute("id").value());
@@ -237,7 +188,7 @@ class Reader {
     vocabulary_.judge(owner, node, positions_.of(node));
     std::vector<std::string_view> seen;
     for (const xml_node part : node.children()) {
-      if (!is_read(owner, part)) continue;
+      if (!labels_.is_read(owner, part)) continue;
       if (std::ranges::find(seen, name_of(part)) != seen.end())
         vocabulary_.refuse("E428", "twice " + std::string(name_of(part)), positions_.of(part),
                            in_quotes(part.name()) + " is given twice to one " + std::string(name_of(node)),
@@ -253,109 +204,6 @@ class Reader {
       out_.error("E424", positions_.of(node), "this " + std::string(name_of(node)) + " has no id");
     else if (!elements_.emplace(id, element).second)
       out_.error("E424", positions_.of(node), "the id " + in_quotes(id) + " is given twice");
-  }
-
-  /// The name of an element: its label, as the standard says and as PIPE does, or its attribute, as TAPAAL does.
-  static std::string label(const xml_node& node, std::string_view name) {
-    const xml_node holder = child(node, name);
-    if (const xml_node text = child(holder, "text")) return text.text().get();
-    if (const xml_node text = child(holder, "value")) return text.text().get();
-    return holder ? "" : node.attribute(std::string(name).c_str()).value();
-  }
-
-  /// The text of a label, and where it stands. nullopt: it is not clear, which has been said.
-  struct Value {
-    std::string text;
-    Span span;
-  };
-  std::optional<Value> value_of(const xml_node& holder) {
-    vocabulary_.judge(PnmlOwner::label, holder, positions_.of(holder));
-    std::optional<Value> value;
-    std::size_t count = 0;
-    if (const pugi::xml_attribute attribute = holder.attribute("value")) {
-      value = {attribute.value(), positions_.of(holder)};
-      ++count;
-    }
-    for (const xml_node part : holder.children()) {
-      if (!is_read(PnmlOwner::label, part)) continue;
-      const xml_node text = part.first_child();
-      if (text && (text.next_sibling() || text.type() == pugi::node_element)) count = 2;
-      value = {text.value(), positions_.of(text ? text : part)};
-      ++count;
-    }
-    if (count == 1) return value;
-    vocabulary_.refuse("E428", "no single value", positions_.of(holder),
-                       in_quotes(holder.name()) + (count == 0 ? " has no value" : " has more than one value"),
-                       "a value stands in a <text>");
-    return std::nullopt;
-  }
-
-  std::uint32_t marking(const xml_node& place) {
-    return number(place, "initialMarking", place.attribute("initialMarking"), "marking", 0, 0);
-  }
-
-  /// owner: has the number as a label, or as an attribute of its own.
-  std::uint32_t number(const xml_node& owner, const char* label, const pugi::xml_attribute& attribute,
-                       const char* what, std::uint32_t missing, std::uint32_t least) {
-    const xml_node holder = child(owner, label);
-    if (holder && attribute)
-      vocabulary_.refuse("E428", std::string("twice ") + label, positions_.of(holder),
-                         in_quotes(label) + " is given twice to one " + std::string(name_of(owner)),
-                         "keep one");
-    std::optional<Value> value;
-    if (holder)
-      value = value_of(holder);
-    else if (attribute)
-      value = {attribute.value(), positions_.of(owner)};
-    if (!value || (holder && is_any_time(value->text))) return missing;
-    return whole_number(*value, what, missing, least);
-  }
-
-  /// "3", or "Default,3" as PIPE writes it: the number of tokens of a class.
-  std::uint32_t whole_number(const Value& given, const char* what, std::uint32_t missing,
-                             std::uint32_t least) {
-    std::string_view digits = trimmed(given.text);
-    for (std::size_t comma = digits.find(','); comma != std::string_view::npos; comma = digits.find(',')) {
-      const std::string_view name = trimmed(digits.substr(0, comma)), rest = digits.substr(comma + 1);
-      const std::size_t next = rest.find(',');
-      const std::string_view count = trimmed(rest.substr(0, next));
-      if (name.empty()) break;
-      if (next == std::string_view::npos || count != "0") {
-        if (count != "0") vocabulary_.judge_same("class of tokens", name, given.span);
-        if (next != std::string_view::npos && !only_zeros(rest.substr(next + 1))) break;
-        digits = count;
-      } else {
-        digits = rest.substr(next + 1);
-      }
-    }
-    std::uint32_t value = 0;
-    const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), value);
-    if (problem == std::errc{} && end == digits.data() + digits.size() && value >= least &&
-        value <= largest_pnml_number)
-      return value;
-    out_.error("E425", given.span,
-               std::string(what) + " " + in_quotes(given.text) + " is not a whole number from " +
-                   std::to_string(least) + " to " + std::to_string(largest_pnml_number));
-    return missing;
-  }
-
-  /// "Red,0,Blue,0": no token of these classes.
-  static bool only_zeros(std::string_view text) {
-    while (!text.empty()) {
-      const std::size_t comma = text.find(',');
-      if (comma == std::string_view::npos) return false;
-      text.remove_prefix(comma + 1);
-      const std::size_t end = std::min(text.find(','), text.size());
-      if (trimmed(text.substr(0, end)) != "0") return false;
-      text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return true;
-  }
-
-  static std::string_view trimmed(std::string_view text) {
-    const std::size_t begin = text.find_first_not_of(" \t\r\n");
-    if (begin == std::string_view::npos) return {};
-    return text.substr(begin, text.find_last_not_of(" \t\r\n") - begin + 1);
   }
 
   /// Keeps names that exist and are unique; otherwise uses the id, which is unique.
@@ -377,8 +225,8 @@ class Reader {
   }
 
   void connect(const xml_node& arc) {
-    if (!is_plain(arc)) return;
-    const std::uint32_t weight = weight_of(arc);
+    if (!labels_.is_plain(arc)) return;
+    const std::uint32_t weight = labels_.weight(arc);
     const std::optional<Element> source = end_of(arc, "source"), target = end_of(arc, "target");
     if (!source || !target) return;
     if (source->kind == target->kind) {
@@ -395,45 +243,6 @@ class Reader {
       return;
     }
     sum += weight;
-  }
-
-  /// Whether tokens are taken or put. false: it is another kind of arc, which has been said.
-  bool is_plain(const xml_node& arc) {
-    std::string kind = arc.attribute("type").value();
-    for (const char* name : {"type", "arctype"})
-      if (const xml_node type = child(arc, name)) {
-        const std::optional<Value> value = value_of(type);
-        if (!value) return false;
-        if (trimmed(value->text) != "normal") kind = trimmed(value->text);
-      }
-    const std::string_view interval = arc.attribute("inscription").value();
-    if (kind == "timed" && !is_any_time(interval)) {
-      vocabulary_.refuse(
-          "E429", "interval", positions_.of(arc),
-          "the interval " + in_quotes(interval) + " of an arc: place/transition nets have no time",
-          "without invariants and intervals it can be read");
-      return false;
-    }
-    if (kind.empty() || kind == "normal" || kind == "timed") return true;
-    vocabulary_.refuse_arc(kind, arc, positions_.of(arc));
-    return false;
-  }
-
-  /// TAPAAL has the weight beside the inscription, which is an interval of time or 1.
-  std::uint32_t weight_of(const xml_node& arc) {
-    const pugi::xml_attribute weight = arc.attribute("weight"), inscription = arc.attribute("inscription");
-    const std::string_view text = inscription.value();
-    const bool says_nothing =
-        !inscription || is_any_time(text) || (weight && (text == "1" || text == weight.value()));
-    if (says_nothing) return number(arc, "inscription", weight, "weight", 1, 1);
-    if (weight) {
-      vocabulary_.refuse("E428", "weight and inscription", positions_.of(arc),
-                         "the weight " + in_quotes(weight.value()) + " and the inscription " +
-                             in_quotes(text) + " of an arc disagree",
-                         "keep one");
-      return 1;
-    }
-    return number(arc, "inscription", inscription, "weight", 1, 1);
   }
 
   std::optional<Element> end_of(const xml_node& arc, const char* side) {
@@ -517,8 +326,9 @@ class Reader {
   };
 
   diagnostics::Diagnostics& out_;
-  Positions positions_;
+  PnmlPositions positions_;
   PnmlVocabulary vocabulary_;
+  PnmlLabels labels_;
   std::unordered_map<std::string, Element> elements_;
   std::vector<Place> places_;
   std::vector<Transition> transitions_;

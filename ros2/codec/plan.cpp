@@ -4,157 +4,13 @@
 #include <utility>
 
 #include "ros2/codec/cdr.hpp"
+#include "ros2/codec/value_reading.hpp"
 
 namespace tessera::ros2 {
 namespace {
 
 /// Messages without fields have one byte.
 constexpr std::uint8_t empty_message = 0;
-
-/// Records the positions of the message's parts that the buffer takes.
-class Finder {
- public:
-  struct Found {
-    std::size_t at = 0, count = 0;
-    const Plan::Step* step = nullptr;
-  };
-
-  Finder(CdrReader& reader, std::size_t blocks) : reader_(reader), blocks_(blocks) {}
-
-  void walk(const std::vector<Plan::Step>& steps) {
-    if (steps.empty()) reader_.numbers(1, 1);
-    for (const Plan::Step& step : steps) {
-      if (!reader_.ok()) return;
-      walk(step);
-    }
-  }
-
-  [[nodiscard]] const std::vector<Found>& blocks() const { return blocks_; }
-  [[nodiscard]] const Found& names() const { return names_; }
-  /// The first array of structures whose length does not fit, and the length that has come.
-  [[nodiscard]] const Found* misfit() const { return misfit_ ? &*misfit_ : nullptr; }
-
- private:
-  void walk(const Plan::Step& step) {
-    using Repeat = Type::Repeat;
-    std::size_t count = step.type.repeat == Repeat::once ? 1 : step.type.count;
-    if (step.type.repeat == Repeat::sequence) {
-      count = reader_.length();
-      if (step.type.count > 0 && count > step.type.count) reader_.fail();
-    }
-    if (!reader_.ok()) return;
-    if (step.type.primitive != Primitive::structure) {
-      const Found found{reader_.at(), count, &step};
-      if (step.block) blocks_[*step.block] = found;
-      if (step.fill == Plan::Fill::names) names_ = found;
-      reader_.skip(step.type, count);
-    } else if (step.per_element &&
-               (step.length ? count > step.members.size() : count != step.members.size())) {
-      if (!misfit_) misfit_ = Found{reader_.at(), count, &step};
-      for (std::size_t index = 0; index < count && reader_.ok(); ++index) walk(step.members.front().members);
-    } else {
-      if (step.length) blocks_[*step.length] = {reader_.at(), count, &step};
-      for (std::size_t index = 0; index < count && reader_.ok(); ++index)
-        walk(step.per_element ? step.members[index].members : step.members);
-    }
-  }
-
-  CdrReader& reader_;
-  std::vector<Found> blocks_;
-  Found names_;
-  std::optional<Found> misfit_;
-};
-
-/// The index of each name in the message.
-std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const Finder::Found& found,
-                                                 const std::vector<std::string>& names,
-                                                 Plan::Misfit& misfit) {
-  constexpr std::size_t nowhere = ~std::size_t{0};
-  std::vector<std::size_t> order(names.size(), nowhere);
-  reader.go_to(found.at);
-  for (std::size_t index = 0; index < found.count; ++index) {
-    const auto name = std::ranges::find(names, reader.text());
-    if (name == names.end()) continue;
-    std::size_t& place = order[static_cast<std::size_t>(name - names.begin())];
-    if (place != nowhere) return misfit = {.field = *name, .came = 2, .room = 1}, std::nullopt;
-    place = index;
-  }
-  if (const auto missing = std::ranges::find(order, nowhere); missing != order.end())
-    return misfit = {.field = names[static_cast<std::size_t>(missing - order.begin())], .room = 1},
-           std::nullopt;
-  return order;
-}
-
-/// Writes the bytes of the buffer's value, block after block.
-class ValueWriter {
- public:
-  using Outcome = Plan::Outcome;
-  ValueWriter(CdrReader& reader, Plan::Misfit& misfit) : reader_(reader), misfit_(misfit) {}
-
-  Outcome add(const Finder::Found& found, const Plan::Block& block, const std::vector<std::size_t>& order,
-              std::size_t names) {
-    const bool by_name = found.step->by_name;
-    const std::size_t room = by_name ? names : block.count;
-    if (block.is_sequence ? found.count > block.count : found.count != room) {
-      misfit_ = {block.path, found.count, room};
-      return Outcome::other_length;
-    }
-    if (block.is_sequence) add_length(found.count);
-    reader_.go_to(found.at);
-    if (block.primitive == Primitive::string) return add_texts(found, block, by_name ? &order : nullptr);
-    return add_numbers(found, block, by_name ? &order : nullptr);
-  }
-  void add_length(std::size_t count) {
-    const auto length = static_cast<std::uint32_t>(count);
-    put(&length, sizeof length);
-  }
-  std::vector<std::byte>& value() { return value_; }
-
- private:
-  Outcome add_numbers(const Finder::Found& found, const Plan::Block& block,
-                      const std::vector<std::size_t>* order) {
-    const Primitive source = found.step->type.primitive;
-    const auto bytes = reader_.numbers(size_of(source), found.count);
-    const std::size_t first = value_.size(), size = size_of(block.primitive);
-    const std::size_t count = block.is_sequence ? found.count : block.count;
-    value_.resize(first + size * count);
-    bool good = true;
-    if (order == nullptr && count > 0)
-      good = convert(source, bytes.data(), reader_.swapped(), block.primitive, value_.data() + first, count);
-    for (std::size_t index = 0; order != nullptr && index < block.count; ++index)
-      good = convert(source, bytes.data() + (*order)[index] * size_of(source), reader_.swapped(),
-                     block.primitive, value_.data() + first + index * size, 1) &&
-             good;
-    return good ? Outcome::good : Outcome::malformed;
-  }
-
-  Outcome add_texts(const Finder::Found& found, const Plan::Block& block,
-                    const std::vector<std::size_t>* order) {
-    std::vector<std::string_view> texts(found.count);
-    for (std::string_view& text : texts) text = reader_.text();
-    const std::size_t count = block.is_sequence ? found.count : block.count;
-    for (std::size_t index = 0; index < count; ++index) {
-      const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
-      if (text.size() > block.capacity) {
-        misfit_ = {block.path, text.size(), block.capacity, /*is_text=*/true};
-        return Outcome::other_length;
-      }
-      const auto length = static_cast<std::uint32_t>(text.size());
-      put(&length, sizeof length);
-      put(text.data(), text.size());
-    }
-    return Outcome::good;
-  }
-
-  void put(const void* bytes, std::size_t count) {
-    const auto* const first = static_cast<const std::byte*>(bytes);
-    value_.insert(value_.end(), first, first + count);
-  }
-
-  CdrReader& reader_;
-  Plan::Misfit& misfit_;
-  std::vector<std::byte> value_;
-};
 
 /// The array of the buffer whose elements these are; empty: it is not known.
 std::string array_of(const Plan::Step& step, const std::vector<Plan::Block>& blocks) {
@@ -345,10 +201,10 @@ Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::
   constexpr std::size_t most_padding = 3;
   auto reader = CdrReader::open(message);
   if (!reader) return Outcome::malformed;
-  Finder finder(*reader, blocks_.size());
+  PartFinder finder(*reader, blocks_.size());
   finder.walk(steps_);
   if (!reader->ok() || reader->left() > most_padding) return Outcome::malformed;
-  if (const Finder::Found* const found = finder.misfit()) {
+  if (const PartFinder::Found* const found = finder.misfit()) {
     why = {array_of(*found->step, blocks_), found->count, found->step->members.size()};
     return Outcome::other_length;
   }

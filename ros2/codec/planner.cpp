@@ -3,55 +3,25 @@
 #include <set>
 #include <utility>
 
+#include "ros2/codec/buffer_blocks.hpp"
 #include "ros2/codec/cdr.hpp"
+#include "ros2/codec/field_paths.hpp"
+#include "ros2/codec/mapping_hints.hpp"
+#include "ros2/codec/message_steps.hpp"
 #include "ros2/codec/plan.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::ros2 {
 
-namespace {
-
-constexpr std::size_t most_blocks = 1U << 14;
-
-std::vector<std::string> split_path(std::string_view path) {
-  std::vector<std::string> parts;
-  while (!path.empty()) {
-    const std::size_t dot = std::min(path.find('.'), path.size());
-    parts.emplace_back(path.substr(0, dot));
-    path.remove_prefix(std::min(dot + 1, path.size()));
-  }
-  return parts;
-}
-
-std::vector<std::string> field_names(const Structure& structure) {
-  std::vector<std::string> names;
-  for (const Field& field : structure.fields) names.push_back(field.name);
-  return names;
-}
-
-std::vector<std::string> member_names(const ValueType& type) {
-  std::vector<std::string> names;
-  for (const ValueType::Member& member : type.members) names.push_back(member.name);
-  return names;
-}
-
-/// "did you mean 'x'?", or all names if none is near.
-Hint hint_of(std::string_view word, const std::vector<std::string>& names, std::string_view owner) {
-  if (Hint guess = did_you_mean(word, names); !guess.empty()) return guess;
-  std::string list;
-  for (const std::string& name : names) list += (list.empty() ? "" : ", ") + name;
-  return std::string(owner) + " has " + (list.empty() ? "no fields" : list);
-}
-
-std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }
-
-}  // namespace
-
 class Planner {
  public:
   Planner(const ValueType& value, const Mapping& mapping, Direction direction,
           std::vector<MappingProblem>& problems)
-      : value_(value), mapping_(mapping), receives_(direction == Direction::receive), problems_(problems) {}
+      : value_(value),
+        mapping_(mapping),
+        direction_(direction),
+        receives_(direction == Direction::receive),
+        problems_(problems) {}
 
   std::optional<Plan> make(std::shared_ptr<const Structure> message) {
     const std::size_t before = problems_.size();
@@ -59,11 +29,13 @@ class Planner {
     plan_.names_ = mapping_.names;
     plan_.frame_id_ = mapping_.frame_id;
     plan_.steps_ = steps_of(*plan_.message_);
-    number_blocks(value_, "", {});
-    if (plan_.blocks_.size() >= most_blocks) {
+    auto blocks = BufferBlocks::number(value_);
+    if (!blocks) {
       wrong("the buffer has too many structures", "use arrays of numbers");
       return std::nullopt;
     }
+    blocks_ = std::move(*blocks);
+    plan_.blocks_ = blocks_.all();
     if (!refuse_wide_strings(*plan_.message_) || !check_fills() || !take_own_fields()) return std::nullopt;
     mapping_.fields.empty() ? map_by_names() : map_as_told();
     if (problems_.size() == before) complain_of_rest();
@@ -76,18 +48,6 @@ class Planner {
     problems_.push_back({subject_, std::move(text), std::move(hint)});
   }
 
-  static std::vector<Plan::Step> steps_of(const Structure& structure) {
-    std::vector<Plan::Step> steps;
-    for (const Field& field : structure.fields) {
-      Plan::Step step;
-      step.type = field.type;
-      step.defaults = field.defaults;
-      if (field.type.structure != nullptr) step.members = steps_of(*field.type.structure);
-      steps.push_back(std::move(step));
-    }
-    return steps;
-  }
-
   bool refuse_wide_strings(const Structure& structure) {
     for (const Field& field : structure.fields) {
       if (field.type.primitive == Primitive::wstring) {
@@ -98,50 +58,6 @@ class Planner {
       if (field.type.structure != nullptr && !refuse_wide_strings(*field.type.structure)) return false;
     }
     return true;
-  }
-
-  /// The element of a sequence in which a part of the buffer lies, if it lies in one.
-  struct Element {
-    std::optional<std::size_t> sequence{};  ///< the block of its length
-    std::uint32_t number = 0;
-  };
-
-  /// The blocks of the buffer, and their number by path: "v", "poses[2].x".
-  void number_blocks(const ValueType& type, const std::string& path, const Element& element) {
-    if (plan_.blocks_.size() >= most_blocks) return;
-    if (type.primitive != Primitive::structure) {
-      add_block(path, {.primitive = type.primitive,
-                       .count = std::max(type.count, 1U),
-                       .capacity = type.capacity,
-                       .is_sequence = type.is_sequence,
-                       .sequence = element.sequence,
-                       .element = element.number});
-      return;
-    }
-    std::optional<std::size_t> length;
-    if (type.is_sequence) {
-      length = plan_.blocks_.size();
-      add_block(length_path(path),
-                {.primitive = Primitive::uint32, .capacity = type.count, .is_length = true});
-    }
-    for (std::uint32_t index = 0; index < std::max(type.count, 1U); ++index)
-      for (const ValueType::Member& member : type.members)
-        number_blocks(member.type, member_path(element_path(path, type, index), member.name),
-                      length ? Element{length, index} : element);
-  }
-  void add_block(const std::string& path, Plan::Block block) {
-    block_of_.emplace(path, plan_.blocks_.size());
-    paths_.push_back(path);
-    block.path = path.substr(0, path.find('#'));
-    plan_.blocks_.push_back(std::move(block));
-  }
-  /// No field has such a name.
-  static std::string length_path(const std::string& path) { return path + "#"; }
-  static std::string element_path(const std::string& path, const ValueType& type, std::uint32_t index) {
-    return type.count == 0 ? path : path + "[" + std::to_string(index) + "]";
-  }
-  static std::string member_path(const std::string& path, const std::string& name) {
-    return path.empty() ? name : path + "." + name;
   }
 
   /// The time, the frame and the names, which are sent without a part of the buffer.
@@ -162,24 +78,6 @@ class Planner {
     return true;
   }
 
-  static Plan::Step* find_step(std::vector<Plan::Step>& steps, const Structure& structure,
-                               const std::string& name) {
-    const Field* const field = structure.find(name);
-    return field == nullptr ? nullptr : &steps[static_cast<std::size_t>(field - structure.fields.data())];
-  }
-
-  static void fill_header(Plan::Step& header) {
-    const Structure& structure = *header.type.structure;
-    if (Plan::Step* const frame = find_step(header.members, structure, "frame_id"))
-      if (frame->type.primitive == Primitive::string) frame->fill = Plan::Fill::frame_id;
-    Plan::Step* const stamp = find_step(header.members, structure, "stamp");
-    if (stamp == nullptr || stamp->type.structure == nullptr) return;
-    if (Plan::Step* const sec = find_step(stamp->members, *stamp->type.structure, "sec"))
-      if (sec->type.primitive == Primitive::int32) sec->fill = Plan::Fill::stamp_sec;
-    if (Plan::Step* const nanosec = find_step(stamp->members, *stamp->type.structure, "nanosec"))
-      if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Plan::Fill::stamp_nanosec;
-  }
-
   /// Fields that the driver itself sets or reads are no part of the message.
   bool take_own_fields() {
     bool good = true;
@@ -197,7 +95,7 @@ class Planner {
         good = false;
         continue;
       }
-      plan_.own_.back() = block_of_.at(own.name);
+      plan_.own_.back() = blocks_.at(own.name);
       used_.insert(*plan_.own_.back());
     }
     return good;
@@ -253,9 +151,9 @@ class Planner {
   /// A path through an array of messages, and one through an array of the buffer: "boxes.center.x" and "x".
   /// The field is that of every element. false: the path of the message leads through no array.
   bool match_in_elements(const std::string& of_message, const std::string& of_value) {
-    const auto array = array_in(of_message);
+    const auto array = array_in(of_message, plan_.steps_, *plan_.message_);
     if (!array) return false;
-    const auto elements = elements_in(of_value);
+    const auto elements = elements_in(of_value, value_);
     if (!elements) {
       wrong("the field " + in_quotes(of_message) + " lies in the array " + in_quotes(array->path) + ", and " +
                 shown(of_value) + " in none",
@@ -279,48 +177,6 @@ class Planner {
     return true;
   }
 
-  struct ArrayOfMessage {
-    Plan::Step* step;
-    std::string path, rest;  ///< of the array; inside its elements
-  };
-  /// The first array of messages through which the path leads, to something inside.
-  std::optional<ArrayOfMessage> array_in(const std::string& path) {
-    std::vector<Plan::Step>* steps = &plan_.steps_;
-    const Structure* structure = plan_.message_.get();
-    std::string way, rest = path;
-    for (const std::string& part : split_path(path)) {
-      Plan::Step* const step = structure == nullptr ? nullptr : find_step(*steps, *structure, part);
-      if (step == nullptr) return std::nullopt;
-      way = member_path(way, part);
-      rest = rest.substr(std::min(part.size() + 1, rest.size()));
-      if (step->type.structure != nullptr && step->type.repeat != Type::Repeat::once)
-        return rest.empty() ? std::nullopt : std::optional(ArrayOfMessage{step, way, rest});
-      steps = &step->members;
-      structure = step->type.structure.get();
-    }
-    return std::nullopt;
-  }
-
-  struct ElementsOfBuffer {
-    const ValueType* type;
-    std::string path, rest;
-  };
-  /// The first array of structures of the buffer through which the path leads, or to which it leads.
-  [[nodiscard]] std::optional<ElementsOfBuffer> elements_in(const std::string& path) const {
-    const ValueType* type = &value_;
-    std::string way, rest = path;
-    for (const std::string& part : split_path(path)) {
-      if (type->count > 0) break;
-      const ValueType::Member* const member = type->find(part);
-      if (member == nullptr) return std::nullopt;
-      type = &member->type;
-      way = member_path(way, part);
-      rest = rest.substr(std::min(part.size() + 1, rest.size()));
-    }
-    if (type->count == 0 || type->primitive != Primitive::structure) return std::nullopt;
-    return ElementsOfBuffer{type, way, rest};
-  }
-
   /// Gives an array of messages a step for each element of the array of the buffer. false: they do not fit,
   /// which has been said.
   bool divide(const ValueType& value, const std::string& value_path, Plan::Step& step,
@@ -340,7 +196,7 @@ class Planner {
     one.type.repeat = Type::Repeat::once;
     step.members.assign(value.count, one);
     if (!value.is_sequence) return true;
-    step.length = block_of_.at(length_path(value_path));
+    step.length = blocks_.length_at(value_path);
     if (!used_.insert(*step.length).second && receives_) {
       wrong("two arrays of the message for " + shown(value_path));
       return false;
@@ -412,26 +268,8 @@ class Planner {
               member_path(message_path, member.name));
       else
         wrong(in_quotes(structure.name) + " has no field " + in_quotes(member.name),
-              missing_member_hint(member, value_path, structure, message_path, proposed));
+              missing_member_hint(member, value_path, structure, message_path, direction_, proposed));
     }
-  }
-
-  /// For a field of the buffer that the message does not have by that name at that place. proposed: the fields
-  /// of the message that hints have named.
-  [[nodiscard]] Hint missing_member_hint(const ValueType::Member& member, const std::string& value_path,
-                                         const Structure& structure, const std::string& message_path,
-                                         std::set<std::string>& proposed) const {
-    std::string found = find_inside(member, structure, /*by_name=*/true, {});
-    if (Hint guess = did_you_mean(member.name, field_names(structure)); found.empty() && !guess.empty())
-      return guess;
-    if (found.empty()) found = find_inside(member, structure, /*by_name=*/false, proposed);
-    if (found.empty()) return hint_of(member.name, field_names(structure), structure.name);
-    proposed.insert(found);
-    std::string of_value = member_path(value_path, member.name);
-    for (std::size_t open = 0; (open = of_value.find('[')) != std::string::npos;)
-      of_value.erase(open, of_value.find(']') + 1 - open + (open == 0 ? 1 : 0));
-    return "say which fields correspond: fields: { " + member_path(message_path, found) + ": " + of_value +
-           " }";
   }
 
   void match_structures(const ValueType& value, const std::string& value_path, Plan::Step& step,
@@ -440,7 +278,7 @@ class Planner {
     if (!same_shape(value, value_path, step, message_path)) return;
     const Structure& structure = *step.type.structure;
     if (value.count == 0) return match_members(value, value_path, step.members, structure, message_path);
-    if (const std::string fields = fields_of_elements(value, value_path, structure, message_path);
+    if (const std::string fields = fields_of_elements(value, value_path, structure, message_path, direction_);
         !fields.empty())
       return wrong("the elements of " + in_quotes(message_path) + " do not have the fields of those of " +
                        shown(value_path),
@@ -463,7 +301,7 @@ class Planner {
       return differ(value, value_path, step, message_path);
     if (step.fill == Plan::Fill::names)
       return wrong("'name' is compared with the names and has no place in the buffer");
-    const std::size_t block = block_of_.at(value_path);
+    const std::size_t block = blocks_.at(value_path);
     if (!used_.insert(block).second && receives_)
       return wrong("two fields of the message for " + shown(value_path));
     step.block = block;
@@ -472,10 +310,6 @@ class Planner {
     if (step.by_name && (value.is_sequence || value.count != mapping_.names.size()))
       wrong("there are " + std::to_string(mapping_.names.size()) + " names, and " + shown(value_path) +
             " is " + value.text());
-  }
-
-  static std::string shown(const std::string& value_path) {
-    return value_path.empty() ? "the buffer" : "the buffer's " + in_quotes(value_path);
   }
 
   bool same_shape(const ValueType& value, const std::string& value_path, const Plan::Step& step,
@@ -499,109 +333,24 @@ class Planner {
           fitting_type(step));
   }
 
-  /// For an element of the buffer with a field that the element of the message does not have: a hint with the
-  /// entries of `fields` for the whole element. A field is that of the same name and a type that fits, wherever
-  /// it lies in the element, or else the first one of such a type. Empty: no field is missing, or one has no
-  /// such type.
-  [[nodiscard]] std::string fields_of_elements(const ValueType& value, const std::string& value_path,
-                                               const Structure& structure,
-                                               const std::string& message_path) const {
-    if (value_path.find('[') != std::string::npos) return {};  // an array in an element has no names
-    std::string entries;
-    bool missing = false, guessed = false;
-    std::set<std::string> used;
-    for (const bool by_name : {true, false})
-      for (const ValueType::Member& member : value.members) {
-        const std::string named = find_inside(member, structure, /*by_name=*/true, {});
-        if (named.empty() == by_name) continue;
-        const std::string found = by_name ? named : find_inside(member, structure, /*by_name=*/false, used);
-        if (found.empty()) return {};
-        used.insert(found);
-        missing = missing || found != member.name;
-        guessed = guessed || !by_name;
-        entries += (entries.empty() ? "" : ", ") + message_path + "." + found + ": " +
-                   member_path(value_path, member.name);
-      }
-    if (!missing) return {};
-    const std::string example = guessed ? ", for example" : value_path.empty() ? ":" : "";
-    return value_path.empty() ? "say which fields correspond" + example + " fields: { " + entries + " }"
-                              : "say which ones correspond" + example + (guessed ? "" : ",") +
-                                    " beside the others in `fields`: { " + entries + " }";
-  }
-
-  /// The path of the nearest field with a type that fits the member, and with its name if `by_name`; empty:
-  /// there is none. without: paths that do not count.
-  [[nodiscard]] std::string find_inside(const ValueType::Member& member, const Structure& structure,
-                                        bool by_name, const std::set<std::string>& without) const {
-    constexpr int deepest = 8;
-    std::vector<std::pair<const Structure*, std::string>> level{{&structure, ""}};
-    for (int depth = 0; depth < deepest && !level.empty(); ++depth) {
-      std::vector<std::pair<const Structure*, std::string>> below;
-      for (const auto& [one, path] : level)
-        for (const Field& field : one->fields) {
-          const std::string here = member_path(path, field.name);
-          if ((!by_name || field.name == member.name) && may_fit(member.type, field.type) &&
-              !without.contains(here))
-            return here;
-          if (field.type.structure != nullptr && field.type.repeat == Type::Repeat::once)
-            below.emplace_back(field.type.structure.get(), here);
-        }
-      level = std::move(below);
-    }
-    return {};
-  }
-
-  [[nodiscard]] bool may_fit(const ValueType& value, const Type& type) const {
-    if ((value.count > 0) != (type.repeat != Type::Repeat::once)) return false;
-    if (value.primitive == Primitive::structure || type.primitive == Primitive::structure)
-      return value.primitive == type.primitive;
-    return receives_ ? converts_exactly(type.primitive, value.primitive)
-                     : converts_exactly(value.primitive, type.primitive);
-  }
-
-  [[nodiscard]] std::string fitting_type(const Plan::Step& step) const {
-    if (step.type.primitive == Primitive::structure) {
-      const std::string name = step.type.refers.substr(step.type.refers.rfind('/') + 1);
-      if (step.type.repeat == Type::Repeat::sequence)
-        return "it is a sequence: a buffer such as Element<=16, where Element is a structure with fields "
-               "of " +
-               name + ", does";
-      if (step.type.repeat == Type::Repeat::array)
-        return "it is an array: a buffer Element[" + std::to_string(step.type.count) +
-               "], where Element is a structure with fields of " + name + ", does";
-      return "map its fields one by one, or give the buffer a structure";
-    }
-    std::string type = name_of(step.type.primitive);
-    if (step.type.string_bound > 0) type += "<=" + std::to_string(step.type.string_bound);
-    if (step.type.repeat == Type::Repeat::array) type += "[" + std::to_string(step.type.count) + "]";
-    if (step.type.repeat == Type::Repeat::sequence)
-      type += step.type.count > 0 ? "<=" + std::to_string(step.type.count) : "<=16";
-    return "a buffer of type " + type + " does" +
-           (step.type.repeat == Type::Repeat::sequence
-                ? ": it has 0 to " +
-                      std::to_string(step.type.count > 0 ? step.type.count : std::uint32_t{16}) + " elements"
-                : "");
-  }
-
   /// A part of the buffer that is silently left out would be worse than an error.
   void complain_of_rest() {
     for (std::size_t block = 0; block < plan_.blocks_.size(); ++block)
       if (!used_.contains(block))
-        return wrong("no field of the message corresponds to " +
-                         shown(paths_[block].substr(0, paths_[block].find('#'))),
+        return wrong("no field of the message corresponds to " + shown(plan_.blocks_[block].path),
                      "name it in `fields`");
     if (plan_.blocks_.empty()) wrong("the buffer has no fields");
   }
 
   const ValueType& value_;
   const Mapping& mapping_;
+  Direction direction_;
   bool receives_;
   std::vector<MappingProblem>& problems_;
   Plan plan_;
   std::string subject_;
-  std::map<std::string, std::size_t> block_of_;
+  BufferBlocks blocks_;
   std::map<const Plan::Step*, std::string> divided_;  ///< the array of the buffer for an array of messages
-  std::vector<std::string> paths_;
   std::set<std::size_t> used_;
 };
 

@@ -1,0 +1,58 @@
+#include "ros2/codec/message_steps.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <utility>
+
+#include "ros2/codec/field_paths.hpp"
+
+namespace tessera::ros2 {
+
+std::vector<Plan::Step> steps_of(const Structure& structure) {
+  std::vector<Plan::Step> steps;
+  for (const Field& field : structure.fields) {
+    Plan::Step step;
+    step.type = field.type;
+    step.defaults = field.defaults;
+    if (field.type.structure != nullptr) step.members = steps_of(*field.type.structure);
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
+Plan::Step* find_step(std::vector<Plan::Step>& steps, const Structure& structure, const std::string& name) {
+  const Field* const field = structure.find(name);
+  return field == nullptr ? nullptr : &steps[static_cast<std::size_t>(field - structure.fields.data())];
+}
+
+void fill_header(Plan::Step& header) {
+  const Structure& structure = *header.type.structure;
+  if (Plan::Step* const frame = find_step(header.members, structure, "frame_id"))
+    if (frame->type.primitive == Primitive::string) frame->fill = Plan::Fill::frame_id;
+  Plan::Step* const stamp = find_step(header.members, structure, "stamp");
+  if (stamp == nullptr || stamp->type.structure == nullptr) return;
+  if (Plan::Step* const sec = find_step(stamp->members, *stamp->type.structure, "sec"))
+    if (sec->type.primitive == Primitive::int32) sec->fill = Plan::Fill::stamp_sec;
+  if (Plan::Step* const nanosec = find_step(stamp->members, *stamp->type.structure, "nanosec"))
+    if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Plan::Fill::stamp_nanosec;
+}
+
+std::optional<ArrayOfMessage> array_in(const std::string& path, std::vector<Plan::Step>& first,
+                                       const Structure& message) {
+  std::vector<Plan::Step>* steps = &first;
+  const Structure* structure = &message;
+  std::string way, rest = path;
+  for (const std::string& part : split_path(path)) {
+    Plan::Step* const step = structure == nullptr ? nullptr : find_step(*steps, *structure, part);
+    if (step == nullptr) return std::nullopt;
+    way = member_path(way, part);
+    rest = rest.substr(std::min(part.size() + 1, rest.size()));
+    if (step->type.structure != nullptr && step->type.repeat != Type::Repeat::once)
+      return rest.empty() ? std::nullopt : std::optional(ArrayOfMessage{step, way, rest});
+    steps = &step->members;
+    structure = step->type.structure.get();
+  }
+  return std::nullopt;
+}
+
+}  // namespace tessera::ros2

@@ -1,0 +1,119 @@
+#include "ros2/codec/value_reading.hpp"
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace tessera::ros2 {
+
+void PartFinder::walk(const std::vector<Plan::Step>& steps) {
+  if (steps.empty()) reader_.numbers(1, 1);
+  for (const Plan::Step& step : steps) {
+    if (!reader_.ok()) return;
+    walk(step);
+  }
+}
+
+void PartFinder::walk(const Plan::Step& step) {
+  using Repeat = Type::Repeat;
+  std::size_t count = step.type.repeat == Repeat::once ? 1 : step.type.count;
+  if (step.type.repeat == Repeat::sequence) {
+    count = reader_.length();
+    if (step.type.count > 0 && count > step.type.count) reader_.fail();
+  }
+  if (!reader_.ok()) return;
+  if (step.type.primitive != Primitive::structure) {
+    const Found found{reader_.at(), count, &step};
+    if (step.block) blocks_[*step.block] = found;
+    if (step.fill == Plan::Fill::names) names_ = found;
+    reader_.skip(step.type, count);
+  } else if (step.per_element && (step.length ? count > step.members.size() : count != step.members.size())) {
+    if (!misfit_) misfit_ = Found{reader_.at(), count, &step};
+    for (std::size_t index = 0; index < count && reader_.ok(); ++index) walk(step.members.front().members);
+  } else {
+    if (step.length) blocks_[*step.length] = {reader_.at(), count, &step};
+    for (std::size_t index = 0; index < count && reader_.ok(); ++index)
+      walk(step.per_element ? step.members[index].members : step.members);
+  }
+}
+
+std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const PartFinder::Found& found,
+                                                 const std::vector<std::string>& names,
+                                                 Plan::Misfit& misfit) {
+  constexpr std::size_t nowhere = ~std::size_t{0};
+  std::vector<std::size_t> order(names.size(), nowhere);
+  reader.go_to(found.at);
+  for (std::size_t index = 0; index < found.count; ++index) {
+    const auto name = std::ranges::find(names, reader.text());
+    if (name == names.end()) continue;
+    std::size_t& place = order[static_cast<std::size_t>(name - names.begin())];
+    if (place != nowhere) return misfit = {.field = *name, .came = 2, .room = 1}, std::nullopt;
+    place = index;
+  }
+  if (const auto missing = std::ranges::find(order, nowhere); missing != order.end())
+    return misfit = {.field = names[static_cast<std::size_t>(missing - order.begin())], .room = 1},
+           std::nullopt;
+  return order;
+}
+
+Plan::Outcome ValueWriter::add(const PartFinder::Found& found, const Plan::Block& block,
+                               const std::vector<std::size_t>& order, std::size_t names) {
+  const bool by_name = found.step->by_name;
+  const std::size_t room = by_name ? names : block.count;
+  if (block.is_sequence ? found.count > block.count : found.count != room) {
+    misfit_ = {block.path, found.count, room};
+    return Plan::Outcome::other_length;
+  }
+  if (block.is_sequence) add_length(found.count);
+  reader_.go_to(found.at);
+  if (block.primitive == Primitive::string) return add_texts(found, block, by_name ? &order : nullptr);
+  return add_numbers(found, block, by_name ? &order : nullptr);
+}
+
+void ValueWriter::add_length(std::size_t count) {
+  const auto length = static_cast<std::uint32_t>(count);
+  put(&length, sizeof length);
+}
+
+Plan::Outcome ValueWriter::add_numbers(const PartFinder::Found& found, const Plan::Block& block,
+                                       const std::vector<std::size_t>* order) {
+  const Primitive source = found.step->type.primitive;
+  const auto bytes = reader_.numbers(size_of(source), found.count);
+  const std::size_t first = value_.size(), size = size_of(block.primitive);
+  const std::size_t count = block.is_sequence ? found.count : block.count;
+  value_.resize(first + size * count);
+  bool good = true;
+  if (order == nullptr && count > 0)
+    good = convert(source, bytes.data(), reader_.swapped(), block.primitive, value_.data() + first, count);
+  for (std::size_t index = 0; order != nullptr && index < block.count; ++index)
+    good = convert(source, bytes.data() + (*order)[index] * size_of(source), reader_.swapped(),
+                   block.primitive, value_.data() + first + index * size, 1) &&
+           good;
+  return good ? Plan::Outcome::good : Plan::Outcome::malformed;
+}
+
+Plan::Outcome ValueWriter::add_texts(const PartFinder::Found& found, const Plan::Block& block,
+                                     const std::vector<std::size_t>* order) {
+  std::vector<std::string_view> texts(found.count);
+  for (std::string_view& text : texts) text = reader_.text();
+  const std::size_t count = block.is_sequence ? found.count : block.count;
+  for (std::size_t index = 0; index < count; ++index) {
+    const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
+    if (text.size() > block.capacity) {
+      misfit_ = {block.path, text.size(), block.capacity, /*is_text=*/true};
+      return Plan::Outcome::other_length;
+    }
+    const auto length = static_cast<std::uint32_t>(text.size());
+    put(&length, sizeof length);
+    put(text.data(), text.size());
+  }
+  return Plan::Outcome::good;
+}
+
+void ValueWriter::put(const void* bytes, std::size_t count) {
+  const auto* const first = static_cast<const std::byte*>(bytes);
+  value_.insert(value_.end(), first, first + count);
+}
+
+}  // namespace tessera::ros2

@@ -7,9 +7,13 @@ export function Problems() {
   const diagnostics = useStore(studio.draft.store, (draft) => draft.diagnostics);
   const checking = useStore(studio.draft.store, (draft) => draft.checking);
   const net = useStore(studio.draft.store, (draft) => draft.net);
-  const [open, setOpen] = useState(true);
+  const [chosen, setChosen] = useState<boolean | null>(null);
   const errors = diagnostics.filter((one) => one.severity === "error").length;
   const warnings = diagnostics.filter((one) => one.severity === "warning").length;
+  const notes = diagnostics.length - errors - warnings;
+  // Notes alone do not take the space of the drawing.
+  const open = chosen ?? errors + warnings > 0;
+  const problems = [count(errors, "error"), count(warnings, "warning")].filter(Boolean).join(", ") || "No problems";
   const go = (line: number) => {
     studio.view.set({ text: true });
     studio.showLine(line);
@@ -20,11 +24,11 @@ export function Problems() {
         <button
           className="quiet"
           aria-expanded={open && diagnostics.length > 0}
-          onClick={() => setOpen(!open)}
+          onClick={() => setChosen(!open)}
           data-testid="problem-count"
         >
           <span className={`dot ${errors ? "error" : warnings ? "warning" : "good"}`} />
-          {[count(errors, "error"), count(warnings, "warning")].filter(Boolean).join(", ") || "No problems"}
+          {notes > 0 ? `${problems}, ${count(notes, "note")}` : problems}
         </button>
         <span className="faint">{checking ? "checking…" : ""}</span>
         <span className="spring" />

@@ -77,7 +77,8 @@ TEST_F(Failures, ReachBehavioursThatNothingElseReaches) {
                              "arm.control.crawl (line 12)"),
             std::string::npos)
       << judged.text;
-  for (const nlohmann::json& property : json("verify").at("properties"))
+  const nlohmann::json report = json("verify");
+  for (const nlohmann::json& property : report.at("properties"))
     if (property.at("name") == "live_behaviours") {
       EXPECT_EQ(property.at("verdict"), "holds");
       EXPECT_EQ(property.at("behaviours").size(), 2U);

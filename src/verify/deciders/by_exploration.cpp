@@ -62,7 +62,7 @@ Finding deadlock_free(const NetUnderAssumption& given, const Question& question,
       finding.trace = known.front();
       finding.has_trace = true;
     } else {
-      found = &facts.dead_end(question.assume, limits);
+      found = &facts.dead_end(question.assume, budget.left());
       finding = judged(*found, Found::Kind::no);
     }
   }

@@ -96,11 +96,11 @@ void throw_errors(const Diagnostics& found) {
   Diagnostics text = diagnostics::load(file);
   if (!text.has_errors()) return text;
   const diagnostics::Diagnostic problem = text.sorted().front();
-  const bool folder = std::filesystem::is_directory(file);
+  if (std::filesystem::is_directory(file))
+    throw std::runtime_error(
+        fmt::format("{}: this is a folder; name the file of the parameters", file.string()));
   throw std::runtime_error(fmt::format("{}: {}{}", file.string(), problem.message,
-                                       folder                 ? "; name the file of the parameters"
-                                       : problem.hint.empty() ? ""
-                                                              : "; " + problem.hint));
+                                       problem.hint.empty() ? "" : "; " + problem.hint));
 }
 
 /// A file without any value is no mistake: all its lines may be comments.

@@ -142,9 +142,9 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         if (most) await fill(of.getByLabel(`Most of ${name}`), most);
       };
       const nothing = () => page.locator(".react-flow__pane").click({ position: { x: 8, y: 8 } });
-      /** Selects a subsystem. Its box may still be moving to make space for a new buffer, so that a click can miss it. */
-      const head = (path) => {
-        const one = page.locator(`.subsystem-head[data-path="${path}"]`);
+      /** Selects a box. It may still be moving, because another gets more space, so that a click can miss it. */
+      const select = (kind, path) => {
+        const one = page.locator(`.${kind}[data-path="${path}"]`);
         const isSelected = async () => {
           await one.click();
           await drawn(page);
@@ -152,7 +152,8 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         };
         return until(page, isSelected, `${path} is selected`);
       };
-      const chip = (path) => page.locator(`.chip[data-path="${path}"]`).click();
+      const head = (path) => select("subsystem-head", path);
+      const chip = (path) => select("chip", path);
       const buffer = async (subsystem, what, fresh, name, type) => {
         await head(subsystem);
         await button(page, `Add ${what}`).click();

@@ -63,8 +63,8 @@ TEST_F(Hostile, TheCodeOfAFolderRunsOnlyOnceTheUserTrustsIt) {
   serve();
   EXPECT_EQ(get("/api/project").json().at("trusted"), false);
   // The answer counts until the server ends where no note of it can be kept.
-  write(folder_ / "file", "");
-  setenv("XDG_STATE_HOME", (folder_ / "file").c_str(), 1);
+  fs::remove_all(folder_ / "user");
+  write(folder_ / "user", "");  // the server must not see the environment change
   EXPECT_EQ(post("/api/trust", nlohmann::json::object()).json().at("kept"), false);
   EXPECT_EQ(get("/api/project").json().at("trusted"), true);
 }

@@ -39,6 +39,16 @@ TEST(RepeatedLines, OtherTextsPathsAndLevelsAreOtherKinds) {
   EXPECT_TRUE(lines->next(1, "robot[1].motor", "early by 3 ms").printed);
 }
 
+TEST(RepeatedLines, TheDigitsOfANameTellItFromOthers) {
+  const auto lines = std::make_unique<RepeatedLines>();
+  for (int robot = 0; robot < 20; ++robot) {
+    const std::string number = std::to_string(robot);
+    EXPECT_TRUE(lines->next(1, "tessera", "waits for robot[" + number + "].control (1.0 s)").printed)
+        << robot;
+    EXPECT_TRUE(lines->next(1, "tessera", "joint_" + number + " does not obey").printed) << robot;
+  }
+}
+
 TEST(RepeatedLines, MoreKindsThanThereIsRoomForArePrinted) {
   const auto lines = std::make_unique<RepeatedLines>();
   const auto text = [](int kind) { return std::string(static_cast<std::size_t>(kind + 1), 'x'); };

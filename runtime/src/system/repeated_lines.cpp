@@ -7,10 +7,14 @@ namespace {
 
 constexpr std::uint64_t shown_at_first = 3;
 
-/// FNV-1a without digits.
+/// FNV-1a without numbers. Digits of names stay, because robot[1] is not robot[2], and joint_1 not joint_2.
 std::uint64_t mixed(std::uint64_t hash, std::string_view text) {
-  for (const char c : text)
-    if (c < '0' || c > '9') hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  bool in_name = false;
+  for (const char c : text) {
+    const bool is_digit = c >= '0' && c <= '9';
+    if (!is_digit) in_name = c == '[' || c == '_' || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (!is_digit || in_name) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3ULL;
+  }
   return (hash ^ 0xff) * 0x100000001b3ULL;
 }
 

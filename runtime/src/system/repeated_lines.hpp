@@ -8,7 +8,8 @@
 
 namespace tessera {
 
-/// Counts lines that differ in their numbers only, so that one warning does not bury the others.
+/// Counts lines that differ in their numbers only, so that one warning does not bury the others. The digits of a
+/// name count as letters: robot[1] is not robot[2].
 ///
 /// The first three of a kind are printed, then the 10th, the 100th and so on. Kinds beyond the 128th are always
 /// printed.

@@ -14,11 +14,9 @@ namespace {
 
 using diagnostics::in_quotes;
 
-/// Units that may follow a number without a blank. After a blank, every word that begins
-/// with a letter may be a unit.
-constexpr std::array close_units =
-    std::to_array<std::string_view>({"m", "km", "cm", "mm", "um", "rad", "deg", "s", "ms", "us", "ns", "min",
-                                     "h", "Hz", "kHz", "MHz", "V", "A", "%"});
+/// Units that may follow a number without a blank, beside those that can be converted. After a blank, every word
+/// that begins with a letter may be a unit.
+constexpr std::array close_units = std::to_array<std::string_view>({"V", "A", "%"});
 
 /// 0x40, the usual form of addresses on a bus.
 std::optional<double> hexadecimal(std::string_view text) {
@@ -33,7 +31,8 @@ std::optional<double> hexadecimal(std::string_view text) {
 /// A text that begins with a digit need not be a number with a unit: 192.168.0.1, "3rd floor", 8N1.
 bool is_unit(const Quantity& quantity) {
   const std::string_view unit = quantity.unit;
-  if (unit.empty() || std::ranges::find(close_units, unit) != close_units.end()) return true;
+  if (unit.empty() || simple_unit(unit) || std::ranges::find(close_units, unit) != close_units.end())
+    return true;
   const bool apart = quantity.digits.data() + quantity.digits.size() != unit.data();
   const auto first = static_cast<unsigned char>(unit.front());
   const bool begins_well = (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z') || first >= 0x80;

@@ -38,13 +38,34 @@ class Starter : public testing::Test {
     starter_ = fork();
     if (starter_ == 0) {
       setpgid(0, 0);  // SIGTSTP stops no process in a group without a shell
+      for (const int ignored_in_background : {SIGINT, SIGQUIT}) signal(ignored_in_background, SIG_DFL);
       first();
       _exit(how_({"sh", "-c", script}));
     }
+    ASSERT_TRUE(becomes([&] { return fs::exists(ready()); }));
+  }
+  [[nodiscard]] static bool becomes(const std::function<bool()>& condition) {
     const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-    while (!fs::exists(ready()) && std::chrono::steady_clock::now() < until)
+    while (!condition()) {
+      if (std::chrono::steady_clock::now() > until) return false;
       std::this_thread::sleep_for(std::chrono::milliseconds(2));
-    ASSERT_TRUE(fs::exists(ready()));
+    }
+    return true;
+  }
+  /// A shell with `echo $$ >ready`.
+  [[nodiscard]] pid_t child_that_wrote_its_number() const {
+    pid_t child = 0;
+    static_cast<void>(becomes([&] { return static_cast<bool>(std::ifstream(ready()) >> child); }));
+    return child;
+  }
+  /// A letter of proc(5): T is stopped.
+  [[nodiscard]] static char state_of(pid_t process) {
+    std::string word;
+    std::ifstream status("/proc/" + std::to_string(process) + "/status");
+    while (status >> word && word != "State:") continue;
+    char state = 0;
+    status >> state;
+    return state;
   }
   [[nodiscard]] std::string ready() const { return folder_ / "ready"; }
   /// Exit code; 1000 + signal: killed by it; 2000 + signal: stopped.
@@ -110,6 +131,17 @@ TEST_F(Starter, StopsWithAChildThatWritesNothingWhileItReadsItsOutput) {
   EXPECT_EQ(wait(), 42);
 }
 
+/// A shell starts programs with vfork(): it cannot stop while the program that it starts is stopped already.
+TEST_F(Starter, StopsWithAChildThatCannotStop) {
+  how_ = [](const Command& command) { return capture(command).code; };
+  start("trap 'exit 42' TERM; trap '' TSTP; touch " + ready() + "; while :; do sleep 0.02; done");
+  tell(SIGTSTP);
+  ASSERT_EQ(wait(), 2000 + SIGSTOP);
+  tell(SIGCONT);
+  tell(SIGTERM);
+  EXPECT_EQ(wait(), 42);
+}
+
 /// cmake starts ninja, which starts the compiler; each of them has the output open.
 TEST_F(Starter, EndsAllThatACapturedProgramHasStartedAndSaysWhichSignalItWas) {
   how_ = [](const Command& command) { return capture(command).signal; };
@@ -121,16 +153,16 @@ TEST_F(Starter, EndsAllThatACapturedProgramHasStartedAndSaysWhichSignalItWas) {
 }
 
 TEST_F(Starter, EndsAChildThatIsStopped) {
-  start("trap 'exit 42' TERM; touch " + ready() + "; kill -STOP $$; while :; do sleep 0.02; done");
+  start("trap 'exit 42' TERM; echo $$ >" + ready() + "; kill -STOP $$; while :; do sleep 0.02; done");
+  const pid_t child = child_that_wrote_its_number();
+  ASSERT_TRUE(becomes([&] { return state_of(child) == 'T'; }));
   tell(SIGTERM);
   EXPECT_EQ(wait(), 42);
 }
 
 TEST_F(Starter, WaitsForAChildThatSomebodyElseStopsAndContinues) {
   start("trap 'exit 42' TERM; echo $$ >" + ready() + "; while :; do sleep 0.02; done");
-  pid_t child = 0;
-  const auto until = std::chrono::steady_clock::now() + std::chrono::minutes(1);
-  while (child == 0 && std::chrono::steady_clock::now() < until) std::ifstream(ready()) >> child;
+  const pid_t child = child_that_wrote_its_number();
   ASSERT_GT(child, 0);
   kill(child, SIGSTOP);
   std::this_thread::sleep_for(std::chrono::milliseconds(100));  // time for the mistake to happen

@@ -160,11 +160,14 @@ class ChildEnd {
     if (changed < 0 && errno != EINTR) return true;
     if (changed > 0 && !WIFSTOPPED(status_) && !WIFCONTINUED(status_)) return true;
     if (changed > 0) stopped_ = WIFSTOPPED(status_);
-    if (!stopped_ || asked_to_suspend == 0) return false;
+    if (stopped_ && asked_to_suspend != 0) suspend();
+    return false;
+  }
+  /// This process stops, and the child continues together with it.
+  void suspend() {
     asked_to_suspend = 0;
     raise(SIGSTOP);
     kill(receiver == -child_ ? -child_ : child_, SIGCONT);
-    return false;
   }
   [[nodiscard]] int code() const {
     return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
@@ -183,14 +186,27 @@ int wait_for(pid_t child) {
 }
 
 /// A child that is stopped writes nothing and does not close its output. So both are looked at in turn.
+///
+/// A shell that is just starting a program can miss what its group was told: it does not see the end of a program
+/// that had not started, and it cannot stop while a program that it starts (vfork) has stopped already. So this process
+/// repeats the signal, and does not wait for long until the child has stopped.
 int read_to_end(Output& output, const std::function<void(std::string_view)>& each_line) {
+  using Clock = std::chrono::steady_clock;
   constexpr int look_period_ms = 100;
+  constexpr auto patience = std::chrono::seconds(1);
   ChildEnd end(output.child());
+  auto quiet_since = Clock::now();
   bool ended = false;
   for (bool open = true; open;) {
     if (!ended && end.look(WNOHANG)) {
       ended = true;
-      // A program that was being started when the group got the signal has missed it.
+      if (asked_to_stop != 0) kill(receiver, asked_to_stop);
+    }
+    if (asked_to_suspend == 0 && asked_to_stop == 0) {
+      quiet_since = Clock::now();
+    } else if (Clock::now() - quiet_since > patience) {
+      quiet_since = Clock::now();
+      if (asked_to_suspend != 0) end.suspend();
       if (asked_to_stop != 0) kill(receiver, asked_to_stop);
     }
     pollfd source{.fd = output.descriptor(), .events = POLLIN, .revents = 0};

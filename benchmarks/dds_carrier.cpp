@@ -1,6 +1,6 @@
 // Compares values sent through a carrier between two processes with a bare publisher and subscriber of
 // Cyclone DDS: one-way latency, and the throughput. Both have the same configuration and use UDP on loopback.
-// They take turns in the same run; the counters are medians over the rounds. docs/performance.md has figures.
+// They take turns in the same run; the counters are medians over the rounds. docs/inside/performance.md has figures.
 
 #include <benchmark/benchmark.h>
 #include <time.h>

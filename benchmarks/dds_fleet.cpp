@@ -1,6 +1,6 @@
 // Measures the cost of many processes of one deployment that know each other: bench_dds_fleet PROCESSES
 // star|all. Each is a process with a carrier on loopback and no work. star: one process has a channel to and
-// from each of the others. all: each has a channel with each. docs/scale.md has figures.
+// from each of the others. all: each has a channel with each. docs/use/scale.md has figures.
 
 #include <sys/mman.h>
 #include <sys/prctl.h>

@@ -1,5 +1,5 @@
 // Measures a firing of a NetExecutor, on nets of different sizes, beside a hand-written ring with tables in
-// the same program. Figures are in docs/performance.md.
+// the same program. Figures are in docs/inside/performance.md.
 
 #include <benchmark/benchmark.h>
 

@@ -1,6 +1,6 @@
 // Compares the cost of the subsystem executor with hand-written code: an iteration alone, a value through a
 // channel between two threads, a blocking round trip. The compared programs take turns in the same run, and
-// the counters are medians over the repetitions. docs/performance.md has figures.
+// the counters are medians over the repetitions. docs/inside/performance.md has figures.
 
 #include <benchmark/benchmark.h>
 #include <linux/futex.h>

@@ -1,6 +1,6 @@
 // Measures how well the subsystem executor keeps periods, beside a thread that only sleeps until the next
 // one, and the cost of recording a million events a second. The compared programs take turns in the same run;
-// counters are medians over the repetitions. Figures are in docs/performance.md.
+// counters are medians over the repetitions. Figures are in docs/inside/performance.md.
 
 #include <benchmark/benchmark.h>
 #include <unistd.h>

@@ -43,7 +43,7 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
   command
       .option("--inject", options.inject,
               "Plant a fault, FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
-              "device:robot.motor@any (docs/running.md)")
+              "device:robot.motor@any (docs/use/running.md)")
       .repeated();
   command.flag("--accept-stuck", options.accept_stuck,
                "Do not fail if a subsystem waits for ever while others go on");

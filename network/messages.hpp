@@ -4,7 +4,7 @@
 #include <cstdint>
 
 /// The protocol of channels between processes: the messages that the two sides of a channel exchange, and how
-/// each side reacts to them. It knows no middleware, no clock and no values (docs/fleets.md).
+/// each side reacts to them. It knows no middleware, no clock and no values (docs/use/fleets.md).
 namespace tessera::network {
 
 /// The number of a start of a process, greater than those of all earlier starts. 0: none, or not known.

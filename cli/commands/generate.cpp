@@ -88,7 +88,7 @@ void add_generate(CommandLine& app, int& exit_code) {
       .excludes(command.declared("--output"));
   command.option(
       "--systemd", options->systemd,
-      "Folder for a unit of systemd per process of `deploy`, or one for the system (docs/service.md)");
+      "Folder for a unit of systemd per process of `deploy`, or one for the system (docs/use/service.md)");
   declare_verification_gate(command, options->gate);
   command.option("--json", options->json, "Write the list of changes as JSON (- is standard output)");
   command.footer("Example: tessera generate --stubs");

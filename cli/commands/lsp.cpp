@@ -11,7 +11,7 @@ void add_lsp(CommandLine& app, int& exit_code) {
       "Editors start this command and speak to it over standard input and output. It completes, explains "
       "and\n"
       "renames names of the specification, and shows mistakes while you type.\n"
-      "docs/editors.md says how VS Code and Neovim start it.");
+      "docs/use/editors.md says how VS Code and Neovim start it.");
   command.callback([&exit_code] {
     exit_code = language_server::serve({.schema = project::Installation::find().share / "spec.schema.json"});
   });

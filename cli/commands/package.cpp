@@ -37,7 +37,7 @@ std::optional<OtherProcessor> processor_of(const PackageCommandOptions& options)
       std::filesystem::absolute(options.runtime.empty() ? usual : std::filesystem::path(options.runtime))};
   if (!std::filesystem::exists(processor.cmake_package() / "toolchain.cmake"))
     throw std::runtime_error(fmt::format(
-        "there is no runtime for {} in {}; --runtime names its folder, and docs/service.md says how "
+        "there is no runtime for {} in {}; --runtime names its folder, and docs/use/service.md says how "
         "it is made",
         name, processor.runtime.string()));
   return processor;
@@ -102,7 +102,7 @@ void add_package(CommandLine& app, int& exit_code) {
   declare_verification_gate(command, options->gate);
   command.footer(
       "Examples:\n  tessera package --format deb --output packages\n"
-      "  tessera package --host cart.local --release 1.2   (docs/service.md)");
+      "  tessera package --host cart.local --release 1.2   (docs/use/service.md)");
   command.callback([options, &exit_code] { exit_code = package_command(*options); });
 }
 

@@ -256,7 +256,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
       .option(
           "--ros2-clock", options->ros2_clock,
           "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
-          "then not faster than the wall clock (docs/ros2.md)")
+          "then not faster than the wall clock (docs/use/ros2.md)")
       .excludes(schedules);
   command.option("--steps", options->steps, "PNML files, which have no controller: how often to fire")
       .shows_default();
@@ -266,7 +266,7 @@ void add_simulate(CommandLine& app, int& exit_code) {
   command.declared("--record").excludes(schedules);
   command.option("--network", options->network,
                  "Network between the processes of `deploy`, for example delay=2ms,jitter=1ms,loss=0.1,"
-                 "duplicate=0.01,reorder=0.05 (docs/fleets.md)");
+                 "duplicate=0.01,reorder=0.05 (docs/use/fleets.md)");
   for (const char* other : {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit",
                             "--track", "--start", "--scenario", "--schedules", "--coverage", "--interleave",
                             "--realtime", "--report", "--hardware", "--ros2-clock"})
@@ -333,7 +333,7 @@ void add_run(CommandLine& app, int& exit_code) {
   declare_deployment_options(command, *options);
   command.footer(
       "Examples:\n  tessera run\n  tessera run --world --for 10s\n"
-      "  tessera run --deploy --restart on-failure       every process of this machine (docs/fleets.md)");
+      "  tessera run --deploy --restart on-failure       every process of this machine (docs/use/fleets.md)");
   command.callback([options, &exit_code] { exit_code = run_command(*options); });
 }
 

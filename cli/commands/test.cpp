@@ -79,7 +79,7 @@ void report_reached(const Specification& specification, const fs::path& recordin
     any = true;
   }
   if (!any) {
-    fmt::print("\nno test runs the system (docs/testing.md), so nothing is said about the net\n");
+    fmt::print("\nno test runs the system (docs/use/testing.md), so nothing is said about the net\n");
     return;
   }
   fmt::print("\nthe net, in the runs of the tests:\n");

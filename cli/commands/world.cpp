@@ -118,7 +118,7 @@ void add_world(CommandLine& app, int& exit_code) {
   command.option("--json", options->json, "Write the list as JSON (- is standard output)");
   command.footer(
       "Examples:\n  tessera world arm.xml\n  tessera world          the world of ./spec.yaml\n"
-      "The kinds of drivers are described in docs/worlds.md.");
+      "The kinds of drivers are described in docs/use/worlds.md.");
   command.callback([options, &exit_code] { exit_code = world_command(*options); });
 }
 

@@ -20,7 +20,7 @@
 
 namespace tessera::dds {
 
-/// Carries the messages of channels over Cyclone DDS (docs/fleets.md, "On the wire").
+/// Carries the messages of channels over Cyclone DDS (docs/use/fleets.md, "On the wire").
 ///
 /// A process that shares a channel with this one is reachable while its signs of life arrive. They are sent
 /// by receive(), so a process that does not call it is unreachable for the others. When an incarnation

@@ -25,7 +25,7 @@ std::string peers_of(const Location& location) {
 
 /// An interruption of the network that is shorter than the lease has no effect on discovery. After a longer
 /// one, the processes find each other again within the interval of discovery (SPDP). Both cost traffic
-/// (docs/scale.md).
+/// (docs/use/scale.md).
 std::string discovery(int domain, const Location& location, std::chrono::seconds lease) {
   return element("Discovery",
                  element("ExternalDomainId", std::to_string(domain)) + element("ParticipantIndex", "auto") +

@@ -128,7 +128,7 @@ void ServiceClient::try_to_send() {
   if (servers.foreign)
     return warn(foreign_,
                 "no request is sent: a server is there that would misunderstand it. Start it with "
-                "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/ros2.md");
+                "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
   if (servers.ready == 0) return;
   if (servers.ready > 1) warn(several_, "several servers get this request, and the first reply counts");
   pending_->sequence = ++sequence_;

@@ -11,7 +11,7 @@
 
 namespace tessera::ros2 {
 
-/// The outcome of a call: the field `outcome` of the receptor's buffer (docs/ros2.md).
+/// The outcome of a call: the field `outcome` of the receptor's buffer (docs/use/ros2.md).
 enum class CallOutcome : std::uint8_t {
   answered = 1,
   no_server = 2,   ///< the request was not sent: no server could receive it before the timeout

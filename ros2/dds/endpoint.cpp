@@ -65,7 +65,7 @@ void tell_of_middleware() {
 void Endpoint::warn_of_qos(const ListenerState& state, std::uint32_t policy) {
   std::fprintf(
       stderr,
-      "warning: %s: a %s another %s of %s than ours, so that nothing passes; see `qos` in docs/ros2.md\n",
+      "warning: %s: a %s another %s of %s than ours, so that nothing passes; see `qos` in docs/use/ros2.md\n",
       state.path.c_str(), state.writes ? "subscriber asks for" : "publisher offers", name_of_policy(policy),
       state.topic.c_str());
 }

@@ -34,7 +34,7 @@ std::string advice_for(const Network& network) {
   return "nodes that use the other interfaces of this machine cannot be reached over " + network.interface +
          ". Write `interface: " + other +
          "` into the driver, or start the nodes with ROS_LOCALHOST_ONLY=1 (ROS 2 Humble and older); see "
-         "\"Network\" in docs/ros2.md";
+         "\"Network\" in docs/use/ros2.md";
 }
 
 }  // namespace

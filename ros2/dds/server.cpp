@@ -95,7 +95,7 @@ void ServiceServer::take_requests() {
     if (!header) {
       warn(foreign_,
            "a request was dropped: its client is not one of rmw_cyclonedds_cpp. Start it with "
-           "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/ros2.md");
+           "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
     } else if (waiting_.size() >= most_waiting) {
       warn(crowded_, "a request was dropped: too many wait");
     } else {

@@ -7,7 +7,7 @@
 
 namespace tessera::ros2 {
 
-/// One side of a service, as docs/ros2.md describes it. The receptor and the effector of an agent with the
+/// One side of a service, as docs/use/ros2.md describes it. The receptor and the effector of an agent with the
 /// same service and role work together. nullptr and `error`: the binding is wrong.
 ///
 /// Client: the effector sends a request when the field `call` has a new number that is not 0. The receptor

@@ -16,7 +16,7 @@ struct DeviceContext {
   std::shared_ptr<sim::Writers> writers = std::make_shared<sim::Writers>();
 };
 
-/// Make the device that the request asks for (docs/worlds.md). Throw sim::DeviceError if CoppeliaSim has no
+/// Make the device that the request asks for (docs/use/worlds.md). Throw sim::DeviceError if CoppeliaSim has no
 /// such kind, the scene no such object, or it does not fit the buffer.
 [[nodiscard]] std::unique_ptr<RealReceptor> make_receptor(const DeviceContext& context,
                                                           const DriverRequest& request);

@@ -12,7 +12,7 @@
 #include "sim/simulation.hpp"
 #include "tessera/device.hpp"
 
-/// The devices of simulated worlds (docs/worlds.md describes the kinds).
+/// The devices of simulated worlds (docs/use/worlds.md describes the kinds).
 ///
 /// A new kind is one function that makes it, and a row in kinds.cpp. The specification also needs its name
 /// (src/spec/devices/world_kinds.cpp).

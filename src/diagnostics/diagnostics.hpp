@@ -28,7 +28,7 @@ enum class Severity : std::uint8_t { error, warning, note };
 /// One message about a mistake in the user's input.
 struct Diagnostic {
   Severity severity = Severity::error;
-  std::string code;  ///< "E101"; the catalogue is docs/diagnostics.md
+  std::string code;  ///< "E101"; the catalogue is docs/reference/diagnostics.md
   Span span;
   std::string message;                    ///< one line, lower case, no full stop
   std::string hint;                       ///< what to do about it; may be empty

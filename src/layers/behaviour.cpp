@@ -72,7 +72,7 @@ Ending ending(const spec::Behaviour& behaviour) {
 
 /// Layer 4, a behaviour (paper, sec. IV-D). The paper joins t5 and t6; apart, an error can be routed.
 /// With `receive: first`, the same blocks stand in another order: the iteration begins (i := i + 1), receives,
-/// calculates its transition function, and sends (docs/decisions/0015-receive-first.md).
+/// calculates its transition function, and sends (docs/inside/decisions/0015-receive-first.md).
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
                            net::BehaviourId id) {
   using net::Operation;

@@ -9,7 +9,7 @@ namespace tessera::layers {
 /// modes and timeouts, within a process or between two. Valid as long as `model`.
 ///
 /// Source: paper, sec. IV-E. Non-blocking at both ends is its fully asynchronous model; the other built-in
-/// models are made in the same way. docs/specification.md draws them.
+/// models are made in the same way. docs/reference/specification.md draws them.
 [[nodiscard]] const spec::CommunicationModel& model_of(const spec::Model& model,
                                                        const spec::Channel& channel);
 

@@ -15,7 +15,7 @@ struct SideMode {
 ///
 /// A value is `sent` if it is the newest and alone on the way; `more` stands for it and any number of older
 /// ones. The newest value is never lost: a network that loses a message is one that takes longer, since the
-/// sender sends it again. docs/fleets.md explains the four ends of a timeout.
+/// sender sends it again. docs/use/fleets.md explains the four ends of a timeout.
 [[nodiscard]] spec::CommunicationModel networked(SideMode send, SideMode receive);
 
 }  // namespace tessera::layers

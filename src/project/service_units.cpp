@@ -31,7 +31,7 @@ StateDirectory={system}
 WatchdogSec=2
 TimeoutStopSec=10
 # A robot that drives on by itself after a crash surprises people. With `on-failure` the process begins again
-# with lost memory, and the others find it again (docs/fleets.md).
+# with lost memory, and the others find it again (docs/use/fleets.md).
 Restart=no
 # The guardian of the controller gets SIGTERM too, ignores it, and ends with the controller.
 KillMode=control-group

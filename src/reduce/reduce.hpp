@@ -113,7 +113,7 @@ class Reduced {
 ///
 /// Threads: pure. Linear in the net. Places and transitions with very many arcs are tried less often.
 /// Source:  Berthelot, *Transformations and decompositions of nets*, 1987; Thierry-Mieg 2020. Proofs of the
-///          deviations: docs/reductions.md.
+///          deviations: docs/theory/reductions.md.
 [[nodiscard]] Reduced reduce(const net::Net& net, const Preserve& what, const Rules& on = {});
 
 }  // namespace tessera::reduce

@@ -11,7 +11,7 @@ namespace tessera::spec {
 /// if one of them is an error.
 ///
 /// Errors:  E0xx not a YAML text that this parser reads; E1xx names and structure; E2xx types and units;
-///          E3xx wiring. docs/diagnostics.md lists all of them.
+///          E3xx wiring. docs/reference/diagnostics.md lists all of them.
 /// Threads: pure.
 [[nodiscard]] std::optional<Model> parse(diagnostics::Diagnostics& out);
 

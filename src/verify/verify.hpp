@@ -101,7 +101,7 @@ class VerifiedNet {
 
 // ---------------------------------------------------------------------------------------------- prove
 
-/// The methods by name, in the order in which they are tried (docs/verification.md).
+/// The methods by name, in the order in which they are tried (docs/theory/verification.md).
 [[nodiscard]] const std::vector<std::string>& method_names();
 
 struct ProveOptions {
@@ -142,7 +142,7 @@ struct Subject {
 /// With all default properties of the net.
 [[nodiscard]] std::string verification_hash(const Subject& subject);
 
-/// Decides the default properties and those of the author (docs/verification.md).
+/// Decides the default properties and those of the author (docs/theory/verification.md).
 ///
 /// Threads: pure, except that options.progress is called, in the same thread.
 [[nodiscard]] Report prove(const Subject& subject, const ProveOptions& options = {});

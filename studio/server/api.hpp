@@ -17,7 +17,7 @@
 
 namespace tessera::server {
 
-/// Handles the requests under /api/ (docs/studio.md).
+/// Handles the requests under /api/ (docs/reference/studio.md).
 class Api {
  public:
   struct Parts {

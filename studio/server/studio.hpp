@@ -19,7 +19,7 @@ struct StudioOptions {
   HttpLimits limits = {};
 };
 
-/// `tessera studio`: serves the page and its data (docs/studio.md has the protocol). It serves on the
+/// `tessera studio`: serves the page and its data (docs/reference/studio.md has the protocol). It serves on the
 /// loopback interface from construction to destruction; jobs and runs end with it.
 ///
 /// Threads: one thread makes and destroys it.

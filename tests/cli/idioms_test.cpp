@@ -1,4 +1,5 @@
-// The idioms of docs/specification.md mean what the page says: one controller, and runs in which one of them fails.
+// The idioms of docs/reference/specification.md mean what the page says: one controller, and runs in
+// which one of them fails.
 
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace {
 
 /// The specification of the section "Idioms".
 std::string idioms() {
-  const std::string page = content_of(fs::path(TESSERA_SOURCE_DIR) / "docs/specification.md");
+  const std::string page = content_of(fs::path(TESSERA_SOURCE_DIR) / "docs/reference/specification.md");
   const std::string fence = "```yaml\n";
   const std::size_t section = page.find("### Idioms\n");
   const std::size_t begin = page.find(fence, section);
@@ -44,7 +45,7 @@ using Idioms = Command;
 
 TEST_F(Idioms, MeanWhatTheirPageSays) {
   const std::string text = idioms();
-  ASSERT_FALSE(text.empty()) << "docs/specification.md has no section of idioms";
+  ASSERT_FALSE(text.empty()) << "docs/reference/specification.md has no section of idioms";
   write(folder_ / "p/spec.yaml", text);
   const project::Exit checked = tessera("check p");
   EXPECT_EQ(checked.code, 0) << checked.text;

@@ -30,7 +30,7 @@ struct Fleet {
 inline constexpr std::array<std::string_view, 7> fleet_names{"async",  "bb",       "nb_b", "b_nb",
                                                              "nbring", "bbnbring", "nbbi"};
 
-/// The fleets of docs/performance.md by name; nullopt for another name.
+/// The fleets of docs/inside/performance.md by name; nullopt for another name.
 inline std::optional<Fleet> fleet_named(std::string_view name, unsigned agents) {
   const auto fleet = [&](Mix inside, Mix between, Topology topology) {
     return Fleet{.agents = agents, .inside = inside, .between = between, .topology = topology};

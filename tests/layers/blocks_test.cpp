@@ -14,7 +14,7 @@ struct BlockCase {
   std::vector<std::string> snd, rcv;
 };
 
-// docs/paper.md, communication: every block, arc by arc.
+// docs/theory/paper.md, communication: every block, arc by arc.
 const std::vector<BlockCase> block_cases{
     {"NB -> NB",
      {N, N},

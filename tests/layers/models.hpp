@@ -34,7 +34,7 @@ class ModelBuilder {
   spec::Model model_;
 };
 
-/// The paper's example, as in docs/specification.md.
+/// The paper's example, as in docs/reference/specification.md.
 spec::Model line_follower();
 /// `count` line followers of one template.
 spec::Model fleet(std::uint32_t count);

@@ -128,7 +128,7 @@ std::string report_of_golden(const fs::path& file, bool expected) {
 
 /// TESSERA_UPDATE_GOLDEN=1 writes the present messages; read the difference before you keep it.
 TEST(Specification, WithWrongMessagesOrServicesIsRefused) {
-  const std::string catalogue = text_in(fs::path(TESSERA_SOURCE_DIR) / "docs/diagnostics.md");
+  const std::string catalogue = text_in(fs::path(TESSERA_SOURCE_DIR) / "docs/reference/diagnostics.md");
   for (const auto& file : fs::directory_iterator(goldens / "wrong")) {
     if (file.path().extension() != ".yaml") continue;
     const std::string report = report_of_golden(file, false);

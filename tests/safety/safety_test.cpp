@@ -1,5 +1,5 @@
 // Whatever happens to a controller, the last command of every device is the safe one: the rows of
-// docs/safety.md. TESSERA_SAFETY_RUNS=100 is the long form.
+// docs/reference/safety.md. TESSERA_SAFETY_RUNS=100 is the long form.
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -367,12 +367,13 @@ TEST(Safety, DevicesThatNothingProtectsAreNamed) {
       {.name = "start",
        .strike = sends(SIGTERM),
        .output = Output::pipe,
-       .says = start + "robot.arm.lamp (docs/safety.md)"},
+       .says = start + "robot.arm.lamp (docs/reference/safety.md)"},
       {.name = "start without a guardian",
        .strike = sends(SIGTERM),
        .output = Output::pipe,
        .says =
-           start + "robot.arm.joint, robot.arm.lamp, robot.motor.left, robot.motor.right (docs/safety.md)",
+           start +
+           "robot.arm.joint, robot.arm.lamp, robot.motor.left, robot.motor.right (docs/reference/safety.md)",
        .arguments = {"--no-guardian"}},
       {.name = "SIGKILL of the controller below tessera run",
        .strike = kill_controller,

@@ -1,16 +1,16 @@
-// docs/studio.md lists the requests and events of share/tessera/studio.schema.json.
+// docs/reference/studio.md lists the requests and events of share/tessera/studio.schema.json.
 import assert from 'node:assert/strict';
 import { readFileSync } from 'node:fs';
 import { test } from 'node:test';
 import { schemas, wrongWith } from './judge.js';
 
-const documentation = readFileSync(new URL('../../docs/studio.md', import.meta.url), 'utf8');
+const documentation = readFileSync(new URL('../../docs/reference/studio.md', import.meta.url), 'utf8');
 const { Requests, Events, RunState, ControlRequest, Diagnostic } = schemas.studio.$defs;
 
 /** The first column of the table with that head. */
 function firstColumn(head) {
   const [, rows] = documentation.split(`\n| ${head} |`);
-  assert.ok(rows, `docs/studio.md has no table | ${head} |`);
+  assert.ok(rows, `docs/reference/studio.md has no table | ${head} |`);
   return rows.split('\n\n')[0].split('\n').flatMap((row) => /^\| `([^`]+)`/.exec(row)?.[1] ?? []);
 }
 
@@ -20,15 +20,15 @@ function withQuery([name, { properties }]) {
   return name + (names.length > 0 ? `?${names.map((one) => `${one}=`).join('&')}` : '');
 }
 
-test('docs/studio.md lists every request', () => {
+test('docs/reference/studio.md lists every request', () => {
   assert.deepEqual(firstColumn('Request | Body → answer').sort(), Object.entries(Requests.properties).map(withQuery).sort());
 });
 
-test('docs/studio.md lists every event', () => {
+test('docs/reference/studio.md lists every event', () => {
   assert.deepEqual(firstColumn('Event | Data').sort(), Object.keys(Events.properties).sort());
 });
 
-test('docs/studio.md names every state, command and severity', () => {
+test('docs/reference/studio.md names every state, command and severity', () => {
   for (const name of [...RunState.enum, ...ControlRequest.properties.command.enum, ...Diagnostic.properties.severity.enum])
     assert.ok(documentation.includes(`"${name}"`), name);
 });

@@ -39,7 +39,8 @@ TEST_P(WrongSpecification, GetsItsDiagnostics) {
 INSTANTIATE_TEST_SUITE_P(Golden, WrongSpecification, testing::ValuesIn(specifications("wrong")), name_of);
 
 TEST(Catalogue, ListsEveryCodeThatASpecificationCanGet) {
-  const std::string catalogue = text_of_file(std::string(TESSERA_SOURCE_DIR) + "/docs/diagnostics.md");
+  const std::string catalogue =
+      text_of_file(std::string(TESSERA_SOURCE_DIR) + "/docs/reference/diagnostics.md");
   for (const std::string& name : specifications("wrong")) {
     diagnostics::Diagnostics out(name, golden("wrong/" + name + ".yaml"));
     EXPECT_FALSE(parse(out).has_value());

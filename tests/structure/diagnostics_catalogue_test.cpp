@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-/// docs/diagnostics.md explains every code that the sources give, and no other.
+/// docs/reference/diagnostics.md explains every code that the sources give, and no other.
 namespace tessera::test {
 namespace {
 
@@ -38,7 +38,7 @@ Codes codes_of_sources() {
 Codes codes_of_catalogue() {
   static const std::regex code(R"(([EW])(\d{3})(?:-[EW](\d{3}))?)");
   Codes codes;
-  std::ifstream stream(root / "docs/diagnostics.md");
+  std::ifstream stream(root / "docs/reference/diagnostics.md");
   for (std::string line; std::getline(stream, line);) {
     if (!line.starts_with("| E") && !line.starts_with("| W")) continue;
     const std::string cell = line.substr(2, line.find('|', 2) - 2);

@@ -1,4 +1,4 @@
-// The tables of docs/architecture.md are the rule; the sources keep to them.
+// The tables of docs/inside/architecture.md are the rule; the sources keep to them.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ struct Row {
 
 /// The rows of the table whose head is the given line.
 std::vector<Row> table(const std::string& head) {
-  std::istringstream page(read(root / "docs/architecture.md"));
+  std::istringstream page(read(root / "docs/inside/architecture.md"));
   std::vector<Row> rows;
   const std::regex quoted("`([^`]+)`");
   bool inside = false;
@@ -105,7 +105,8 @@ TEST(Structure, ModulesIncludeWhatTheTableNames) {
     for (const fs::path& file : sources(folder, cpp)) {
       ++files;
       const std::string module = module_of(file);
-      ASSERT_TRUE(allowed.contains(module)) << "a module that docs/architecture.md does not know: " << module;
+      ASSERT_TRUE(allowed.contains(module))
+          << "a module that docs/inside/architecture.md does not know: " << module;
       for (const std::string& include : includes(file)) {
         if (include.find('/') == std::string::npos) continue;  // of the same folder
         const std::string target = module_of_include(include);
@@ -162,7 +163,7 @@ TEST(Structure, FilesAndFoldersAreSmall) {
 
 /// "Where would I change X?" names at most three files for each X, and files that are there.
 TEST(Structure, AnswersToWhereWouldIChangeNameFewFilesThatExist) {
-  std::istringstream page(read(root / "docs/architecture.md"));
+  std::istringstream page(read(root / "docs/inside/architecture.md"));
   const std::regex row("^\\| ([^|]*)\\| ([^|]+) \\| [^|]+ \\|$");
   const std::regex quoted("`([^`]+)`");
   std::map<std::string, std::size_t> answers;

@@ -7,7 +7,7 @@
 #include <set>
 #include <string>
 
-/// Each promise of docs/safety.md names a test that exists.
+/// Each promise of docs/reference/safety.md names a test that exists.
 namespace tessera::test {
 namespace {
 
@@ -29,7 +29,7 @@ std::set<std::string> tests_of_sources() {
 TEST(SafetyPage, EachRowOfWhatIsPromisedNamesATestThatExists) {
   const std::set<std::string> tests = tests_of_sources();
   static const std::regex last_cell(R"(\| (?:`(\w+\.\w+)`|the same) \|$)");
-  std::ifstream stream(fs::path(TESSERA_SOURCE_DIR) / "docs/safety.md");
+  std::ifstream stream(fs::path(TESSERA_SOURCE_DIR) / "docs/reference/safety.md");
   std::size_t rows = 0;
   bool inside = false;
   for (std::string line; std::getline(stream, line);) {

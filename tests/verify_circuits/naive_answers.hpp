@@ -8,7 +8,7 @@
 
 namespace tessera::test {
 
-/// The result of a search over all markings of a flat net, by the definitions of docs/verification.md.
+/// The result of a search over all markings of a flat net, by the definitions of docs/theory/verification.md.
 struct NaiveAnswers {
   std::size_t markings = 0;
   /// Per subsystem: from some marking on it never fires again, although it has not ended.

@@ -6,7 +6,7 @@ namespace tessera {
 
 /// The checks and measures of a simulated run and their results, as lines for people:
 /// "  check nobody touches: held". json: an object with `checks` and `measures`, such as the summary of a
-/// run (docs/worlds.md). Empty: the object has neither, or the text is no such object.
+/// run (docs/use/worlds.md). Empty: the object has neither, or the text is no such object.
 [[nodiscard]] std::string judgement_lines(const std::string& json);
 
 }  // namespace tessera

@@ -78,7 +78,7 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 struct Event {
   enum class Kind : std::uint8_t {
     /// subject: transition; version: that of the channel it touched (0: none). For a channel between
-    /// processes, version is the low 32 bits of the number of a value (docs/fleets.md): for a sender, the
+    /// processes, version is the low 32 bits of the number of a value (docs/use/fleets.md): for a sender, the
     /// value that it has written last, or writes; for a receiver, the value that it reads; 0: none.
     firing = 1,
     log = 2,      ///< subject: bytes of text, which follow in whole events' worth of space; version: level

@@ -67,8 +67,8 @@ struct RunOptions {
   /// File of a run that is followed first (tessera verify --scenario). After its last step, the run is free,
   /// and `duration` begins. Simulated clock only.
   std::string scenario;
-  std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/running.md)
-  /// How processes of a deployed system communicate (docs/fleets.md).
+  std::vector<std::string> inject;  ///< faults to plant, as `--inject` (docs/use/running.md)
+  /// How processes of a deployed system communicate (docs/use/fleets.md).
   struct Network {
     std::string process;        ///< steady clock: the process to run; empty: the whole system
     std::string library;        ///< steady clock: the library that carries messages; empty: the installed one

@@ -78,7 +78,7 @@ class RealEffector : public Device {
 };
 
 /// A driver of an effector that also derives from Guarded lets the guardian process give its device
-/// the safe command after the controller has died (docs/safety.md). The guardian makes a driver from
+/// the safe command after the controller has died (docs/reference/safety.md). The guardian makes a driver from
 /// the same setup and calls `open`, `write` with the safe value, and `close`. If one of them fails,
 /// it tries again for a while.
 ///
@@ -164,8 +164,8 @@ struct WorldOptions {
   double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
   std::uint64_t seed = 1;                                         ///< of sensor noise
   std::string trace;   ///< file that gets the path of the robot; empty: none
-  std::string checks;  ///< JSON: the checks and measures of the run (docs/worlds.md); empty: none
-  std::string models;  ///< JSON: the placed models (docs/worlds.md); empty: none
+  std::string checks;  ///< JSON: the checks and measures of the run (docs/use/worlds.md); empty: none
+  std::string models;  ///< JSON: the placed models (docs/use/worlds.md); empty: none
   std::optional<WorldServer> server{};
   /// No run follows: the world is only asked about problems with its devices. A world on a server then makes
   /// no connection, and reports what it knows without one.
@@ -235,7 +235,7 @@ class World {
   }
   /// The checks that have failed since the last call.
   [[nodiscard]] virtual std::vector<WorldFailure> take_failures() { return {}; }
-  /// JSON with `checks` and `measures` of the run (docs/worlds.md), at its end; empty: there are none.
+  /// JSON with `checks` and `measures` of the run (docs/use/worlds.md), at its end; empty: there are none.
   [[nodiscard]] virtual std::string results() { return {}; }
   /// nullopt: the world has no picture. devices: all devices of the run that the world may have made.
   [[nodiscard]] virtual std::optional<WorldScene> scene(std::span<const DriverRequest> /*devices*/) {

@@ -54,7 +54,7 @@
 ///     {"command": "reset"}                                       ends the emergency stop (by an operator);
 ///                                                                refused until all devices have obeyed it
 ///     {"command": "panel", "path": "robot.operator.drive", "operator": text, "values": {"turn": 0.2}}
-///                                                                an input of a panel (docs/drivers.md);
+///                                                                an input of a panel (docs/use/drivers.md);
 ///                                                                without "values": the operator lets go
 ///
 /// An answer with {"elsewhere": true} says that no subsystem of this process has such a parameter or panel;

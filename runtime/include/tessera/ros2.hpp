@@ -15,7 +15,7 @@
 namespace tessera {
 
 /// A real buffer that is a ROS 2 topic or one side of a service, with everything that the library needs to
-/// know about it (docs/ros2.md).
+/// know about it (docs/use/ros2.md).
 struct Ros2Binding {
   std::string path;   ///< "robot.base.velocity"
   std::string topic;  ///< "/cmd_vel", or the name of a service

@@ -187,7 +187,7 @@ inline constexpr FusedPlace asynchronous[] = {shared_places::lock};
 inline constexpr FusedPlace buffered[] = {shared_places::empty, shared_places::full};
 inline constexpr FusedPlace acknowledged[] = {shared_places::empty, shared_places::full,
                                               shared_places::acknowledged};
-// The places of channels between processes (docs/fleets.md). The last list is for a sender that waits without
+// The places of channels between processes (docs/use/fleets.md). The last list is for a sender that waits without
 // a timeout.
 inline constexpr FusedPlace networked_exchange[] = {shared_places::sent_memory,
                                                     shared_places::received_memory};

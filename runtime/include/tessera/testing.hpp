@@ -17,7 +17,7 @@
 #include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
-/// Tests of a project use this header (docs/testing.md). The generated file tessera_testing.hpp includes it
+/// Tests of a project use this header (docs/use/testing.md). The generated file tessera_testing.hpp includes it
 /// and says which types belong to each Context.
 namespace tessera {
 

@@ -75,7 +75,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
                   "BUFFER=KIND:TARGET[,OPTION=NUMBER...]: robot.sensor.left=reflectance:eye_left,noise=0.01")
       ->allow_extra_args(false);
   command.add_option("--simulation", words.simulation,
-                     "Devices of the world and models placed in it (JSON, docs/worlds.md)");
+                     "Devices of the world and models placed in it (JSON, docs/use/worlds.md)");
   command
       .add_option(
           "--inject", options.inject,
@@ -110,7 +110,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
 
 void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& network, Words& words) {
   static_assert(last_domain == network::last_domain);
-  run.add_option("--process", network.process, "The process of the deployment to run (docs/fleets.md)");
+  run.add_option("--process", network.process, "The process of the deployment to run (docs/use/fleets.md)");
   run.add_option("--carrier-library", network.library,
                  "Library that carries messages to other processes (default: that of the installation)");
   run.add_option("--domain", words.domain, "DDS domain, in place of that of the specification")
@@ -268,7 +268,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
       "--no-monitor", words.unwatched,
       "Run without a control socket: `tessera top`, `set` and `emergency-stop` cannot reach this run");
   run->add_flag("!--no-guardian", line.options.guardian,
-                "No guardian process, for debuggers that stop the controller (docs/safety.md)");
+                "No guardian process, for debuggers that stop the controller (docs/reference/safety.md)");
   run->add_flag("--simulated", line.options.simulated_drivers,
                 "Simulated drivers in place of the real ones; a --world implies it");
   simulate->add_option("--scenario", line.options.scenario,
@@ -286,7 +286,7 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   simulate->add_option("--ros2-clock", line.options.ros2_clock,
                        "Publish the simulated time as /clock of ROS 2 on this network interface, for example "
-                       "lo; it is then not faster than the wall clock (docs/ros2.md)");
+                       "lo; it is then not faster than the wall clock (docs/use/ros2.md)");
   simulate->add_flag("--controlled", words.controlled,
                      "Can be watched, paused, stepped and slowed down while it runs (as the studio does)");
   simulate->add_flag("--paused", line.options.paused, "With --controlled: begin paused");

@@ -91,7 +91,7 @@ void warn_of_unprotected(const std::vector<std::string>& devices) {
   if (devices.empty()) return;
   console::print(LogLevel::warning, Time{}, "tessera",
                  fmt::format("if the controller is killed, nothing gives the safe command to {} "
-                             "(docs/safety.md)",
+                             "(docs/reference/safety.md)",
                              listed_devices(devices)));
 }
 

@@ -15,7 +15,7 @@ struct GiveUp {
   /// process has ended, so this is short.
   Duration unsafe = std::chrono::seconds(4);
   /// The same if all devices are safe. It is shorter than the stop time of the systemd unit
-  /// (docs/service.md), because a kill by systemd would leave the recording open.
+  /// (docs/use/service.md), because a kill by systemd would leave the recording open.
   Duration safe = std::chrono::seconds(8);
 };
 

@@ -19,7 +19,7 @@ struct BuildContext {
 /// Explains what compiler and linker have printed, in at most one screen: one message for each mistake, at the
 /// line of the user's file or of the specification, with a hint.
 ///
-/// Codes: E501 - E509 and E511 of docs/diagnostics.md.
+/// Codes: E501 - E509 and E511 of docs/reference/diagnostics.md.
 [[nodiscard]] std::string explain_build(std::string_view output, const BuildContext& context);
 
 /// The same for a CMake that could not configure the build: E510.

@@ -15,7 +15,7 @@ namespace tessera::project {
 /// A driver of the world as the world sees it, with the type of its buffer but without its encoding.
 [[nodiscard]] DriverRequest request_of(const spec::Model& model, const spec::Driver& driver);
 
-/// The placed models as JSON: a list of objects (docs/worlds.md); empty: there are none. Their files are
+/// The placed models as JSON: a list of objects (docs/use/worlds.md); empty: there are none. Their files are
 /// absolute. project: the folder of the specification.
 [[nodiscard]] std::string placements_json(const spec::Simulation& simulation,
                                           const std::filesystem::path& project);

@@ -17,7 +17,8 @@ namespace {
 
 using diagnostics::in_quotes;
 
-constexpr const char* model_hint = "a model has slots, shared, send and receive; see docs/specification.md";
+constexpr const char* model_hint =
+    "a model has slots, shared, send and receive; see docs/reference/specification.md";
 
 /// A whole number of at most `most`. Errors: E203, E204.
 std::uint32_t read_number(const Entry& entry, std::uint32_t least, std::uint32_t most, Diagnostics& out) {

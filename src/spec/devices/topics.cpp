@@ -74,7 +74,7 @@ class TopicReader {
     if (ros2::is_action_type(text->text))
       out_.error("E323", text->span, in_quotes(text->text) + " is an action, and Tessera has no actions",
                  "use a topic or service that the node offers beside it, or a node of yours that turns a "
-                 "message into a goal; see \"Actions\" in docs/ros2.md");
+                 "message into a goal; see \"Actions\" in docs/use/ros2.md");
     else if (!name)
       out_.error("E105", text->span, in_quotes(text->text) + " is no name of a message",
                  "for example geometry_msgs/msg/Twist");
@@ -87,7 +87,7 @@ class TopicReader {
     if (name != nullptr) {
       if (ros2::is_action_type(name->text))
         out_.error("E323", name->span, in_quotes(name->text) + " is an action, and Tessera has no actions",
-                   "an action is more than a service; see \"Actions\" in docs/ros2.md");
+                   "an action is more than a service; see \"Actions\" in docs/use/ros2.md");
       else if (!ros2::full_service_name(name->text))
         out_.error("E105", name->span, in_quotes(name->text) + " is no name of a service",
                    "for example std_srvs/srv/SetBool");

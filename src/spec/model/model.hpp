@@ -18,7 +18,7 @@
 #include "spec/model/property.hpp"
 #include "spec/model/world.hpp"
 
-/// The specification as data, as section "The specification file" of docs/specification.md describes it.
+/// The specification as data, as section "The specification file" of docs/reference/specification.md describes it.
 /// Every default is filled in, and every name is resolved to a number. Nothing here depends on nets.
 namespace tessera::spec {
 

@@ -49,7 +49,7 @@ struct CircuitReport {
 
 /// Decides goes_on, deadlock_free and channels_flow where every subsystem repeats one cyclic sequence of
 /// communications: every subsystem goes on if and only if no circuit of the event graph is free of tokens and
-/// none passes an edge that may lose one. Definitions, statement and proof: docs/circuits.md.
+/// none passes an edge that may lose one. Definitions, statement and proof: docs/theory/circuits.md.
 ///
 /// Threads: pure. Linear in the structure.
 /// Source: Commoner, Holt, Even, Pnueli, *Marked directed graphs*, JCSS 5, 1971: the case in which

@@ -10,7 +10,7 @@
 namespace tessera::verify {
 
 /// A marked graph, as a directed graph whose edges may hold tokens. Some of its edges may lose tokens
-/// (docs/circuits.md). Build it with node() and edge(), then close().
+/// (docs/theory/circuits.md). Build it with node() and edge(), then close().
 class EventGraph {
  public:
   struct Edge {

@@ -19,7 +19,7 @@ struct StrictSide {
 /// needed before may arrive as late as one likes, so its subsystem comes to it with nothing there, or is stuck
 /// before. Without any, a cut link stops nobody, since every other side of a network goes on without its peer.
 ///
-/// Linear in the structure. docs/fleets.md says why.
+/// Linear in the structure. docs/use/fleets.md says why.
 [[nodiscard]] std::vector<StrictSide> strict_sides(const CommunicationStructure& structure);
 
 /// "robot.control waits for values of a.y->b.x from base.control, and 2 more sides wait so"

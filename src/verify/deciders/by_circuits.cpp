@@ -164,7 +164,7 @@ std::optional<Finding> claims(const NetUnderAssumption& given, const net::Hierar
   return finding;
 }
 
-/// Communication structure and event graph: docs/circuits.md.
+/// Communication structure and event graph: docs/theory/circuits.md.
 class ByCircuits final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "circuits"; }

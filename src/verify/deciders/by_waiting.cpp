@@ -31,7 +31,7 @@ std::set<std::string> certainly_reached(const CommunicationStructure& structure,
   return reached;
 }
 
-/// Circular waits: subsystems that wait for each other: docs/waiting.md.
+/// Circular waits: subsystems that wait for each other: docs/theory/waiting.md.
 class ByWaiting final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "waiting"; }

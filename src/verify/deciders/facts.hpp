@@ -51,9 +51,9 @@ class Facts {
   /// Precondition: wrong_invariants() is empty.
   [[nodiscard]] const UnitInvariants& units();
   [[nodiscard]] const NetUnderAssumption& under(Assume assume);
-  /// The subsystems that go on for ever, by circuits (docs/circuits.md) or else by waiting (docs/waiting.md).
-  /// Precondition: there is a communication structure. If there was not enough time for it before, it is tried
-  /// again only if there is twice as much now.
+  /// The subsystems that go on for ever, by circuits (docs/theory/circuits.md) or else by waiting
+  /// (docs/theory/waiting.md). Precondition: there is a communication structure. If there was not enough
+  /// time for it before, it is tried again only if there is twice as much now.
   [[nodiscard]] const WaitingReport& waiting(Assume assume, const explore::Limits& limits);
   /// Is a dead marking reachable that is not final? yes: with a run of the abstract net. Searched for once, as
   /// `waiting` is.

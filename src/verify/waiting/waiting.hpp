@@ -22,7 +22,7 @@ struct WaitingReport {
 /// Proves that subsystems go on, whatever behaviours they have and whatever channels these use. A subsystem
 /// that is stuck for ever waits for another one that is stuck for ever. Every cycle of such waits is excluded
 /// by a channel that cannot be empty and full at once, or by a trap. A group is proved as a whole or not at
-/// all. Definitions, statement and proof: docs/waiting.md.
+/// all. Definitions, statement and proof: docs/theory/waiting.md.
 ///
 /// groups: no channel at which a subsystem may have to wait joins a group to a subsystem outside it.
 /// Subsystems in no group are not judged.

@@ -14,7 +14,7 @@
 namespace tessera::verify {
 
 /// Searches for a set of subsystems that are stuck: each waits, at some stop, for another one of the set or
-/// for one that need not come back (docs/waiting.md).
+/// for one that need not come back (docs/theory/waiting.md).
 ///
 /// Threads: one.
 class WaitingCycleSearch {

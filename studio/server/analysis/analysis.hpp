@@ -17,7 +17,7 @@ namespace tessera::server {
 
 /// The complete analysis of a text, even of one with errors.
 struct Analysis {
-  std::shared_ptr<const std::string> json;  ///< the message `analysis` of docs/studio.md
+  std::shared_ptr<const std::string> json;  ///< the message `analysis` of docs/reference/studio.md
   /// Set only if the text has no errors:
   std::optional<spec::Model> model;
   std::optional<net::HierarchicalNet> pages;

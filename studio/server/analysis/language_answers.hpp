@@ -9,7 +9,7 @@
 
 namespace tessera::server {
 
-/// The answers to the editor's questions about a text (docs/studio.md, `POST /api/language`).
+/// The answers to the editor's questions about a text (docs/reference/studio.md, `POST /api/language`).
 ///
 /// Threads: any.
 class LanguageAnswers {

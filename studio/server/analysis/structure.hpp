@@ -7,7 +7,7 @@
 namespace tessera::server {
 
 /// The system in the terms of robotics: agents, subsystems, behaviours, buffers, channels, with the lines of
-/// the specification (docs/studio.md, `structure`).
+/// the specification (docs/reference/studio.md, `structure`).
 ///
 /// model: may come from a text with errors (spec::parse_what_is_known).
 [[nodiscard]] nlohmann::ordered_json structure_json(const spec::Model& model);

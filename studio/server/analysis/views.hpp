@@ -7,7 +7,7 @@
 
 namespace tessera::server {
 
-/// {"views": [{"path", "type", "kind", ...}...]} of docs/studio.md.
+/// {"views": [{"path", "type", "kind", ...}...]} of docs/reference/studio.md.
 [[nodiscard]] nlohmann::json json_of(const std::vector<project::WorldView>& views);
 
 }  // namespace tessera::server

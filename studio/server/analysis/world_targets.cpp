@@ -16,7 +16,7 @@ namespace {
 struct KindOfDriver {
   const char *kind, *list;
 };
-/// docs/worlds.md
+/// docs/use/worlds.md
 constexpr std::array kinds{KindOfDriver{"sensor", "sensors"},        KindOfDriver{"joint_position", "joints"},
                            KindOfDriver{"joint_velocity", "joints"}, KindOfDriver{"scan", "sites"},
                            KindOfDriver{"pose", "bodies"},           KindOfDriver{"pose", "sites"},

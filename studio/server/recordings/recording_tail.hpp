@@ -52,7 +52,7 @@ class Reached {
   void begin(const Recording& header);
   void add(const std::vector<net::TransitionId>& fired, const std::vector<net::PlaceId>& marked);
   void lack_events();
-  /// {"behaviours", "places", "transitions", "conditions", "missing", ...} of docs/studio.md.
+  /// {"behaviours", "places", "transitions", "conditions", "missing", ...} of docs/reference/studio.md.
   [[nodiscard]] nlohmann::json coverage(const net::HierarchicalNet& pages, const net::Net& net) const;
 
  private:

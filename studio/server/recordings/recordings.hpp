@@ -29,22 +29,22 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "lacks_beginning", "cut", "truncated", "path", "track", "scene"} of docs/studio.md, within the time span: at most
-  /// most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
+  /// "values", "lacks_beginning", "cut", "truncated", "path", "track", "scene"} of
+  /// docs/reference/studio.md, within the time span: at most most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
   /// name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
 
-  /// {"frames": [[t, base64]...], "until"} of docs/studio.md: the poses in the time span, those at its
+  /// {"frames": [[t, base64]...], "until"} of docs/reference/studio.md: the poses in the time span, those at its
   /// beginning first, at most about most_pose_bytes. nullopt: no recording has that name. Throws
   /// std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> poses(const std::string& name, Span span) const;
   static constexpr std::size_t most_pose_bytes = 1'500'000;
-  /// {"arrays": [[t, {path: base64 or null}]...], "until"} of docs/studio.md: the arrays of numbers that devices
-  /// gave in the time span, those at its beginning first, at most about most_array_bytes and ten times a second.
+  /// {"arrays": [[t, {path: base64 or null}]...], "until"} of docs/reference/studio.md: the arrays of numbers
+  /// that devices gave in the time span, those at its beginning first, at most about most_array_bytes and ten times a second.
   /// nullopt: no recording has that name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> arrays(const std::string& name, Span span) const;
   static constexpr std::size_t most_array_bytes = 4'000'000;
-  /// The part of the specification's net that the recorded run has reached: docs/studio.md. nullopt: no
+  /// The part of the specification's net that the recorded run has reached: docs/reference/studio.md. nullopt: no
   /// recording has that name. Throws std::runtime_error if it cannot be read, or is of another net.
   [[nodiscard]] std::optional<std::string> coverage(const std::string& name) const;
   /// The glTF file of the scene beside a recording; nullopt: none has it.

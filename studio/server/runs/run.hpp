@@ -69,9 +69,9 @@ class Run {
   enum class State : std::uint8_t { building, running, paused, ended, failed };
   [[nodiscard]] bool over() const;
   [[nodiscard]] RunRequest::Kind kind() const { return request_.kind; }
-  /// {"run", "state", "kind", ...}: docs/studio.md.
+  /// {"run", "state", "kind", ...}: docs/reference/studio.md.
   [[nodiscard]] nlohmann::json info(bool all) const;
-  /// The part of the net that it has reached so far: docs/studio.md.
+  /// The part of the net that it has reached so far: docs/reference/studio.md.
   [[nodiscard]] nlohmann::json coverage() const {
     return reached_.coverage(*analysis_->pages, *analysis_->net);
   }

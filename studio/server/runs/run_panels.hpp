@@ -7,7 +7,7 @@
 
 namespace tessera::server {
 
-/// The panels of such a run: [{"path", "stale_s", "controls"}] of docs/studio.md.
+/// The panels of such a run: [{"path", "stale_s", "controls"}] of docs/reference/studio.md.
 [[nodiscard]] nlohmann::json panels_of(const spec::Model& model, const RunRequest& request);
 
 }  // namespace tessera::server

@@ -24,7 +24,7 @@ class RunParameters {
   /// Makes all values unknown.
   void forget();
 
-  /// [{"path", "type", "unit", "minimum", "maximum", "initial", "value", "differs"}] of docs/studio.md. Those
+  /// [{"path", "type", "unit", "minimum", "maximum", "initial", "value", "differs"}] of docs/reference/studio.md. Those
   /// of the system come first, then those of subsystems.
   [[nodiscard]] nlohmann::json shown() const;
 

@@ -23,7 +23,7 @@ export type ArraysRow = [number, Arrays];
 export type VerifyEvent = VerifyStarted | VerifyProgress | VerifyEnd;
 
 /**
- * The messages between the server of `tessera studio` and its page (docs/studio.md).
+ * The messages between the server of `tessera studio` and its page (docs/reference/studio.md).
  * studio/web/scripts/protocol.mjs makes the types of the page from it; the tests of the server validate every
  * answer and event.
  */

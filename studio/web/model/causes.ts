@@ -1,6 +1,6 @@
 import { withoutIndex, type Channel } from "./structure/structure";
 
-/** The state of a subsystem in a run that has stopped, from the server (docs/studio.md). */
+/** The state of a subsystem in a run that has stopped, from the server (docs/reference/studio.md). */
 export interface SubsystemAtEnd {
   path: string;
   state: "waits" | "no_successor" | "ended" | "gives_no_more" | "takes_no_more";

@@ -73,7 +73,7 @@ class Compiler {
     for (std::size_t p = 0; p < net_.places.size(); ++p) {
       const auto& place = net_.places[p];
       if (place.name.ends_with(".none"))
-        continue;  // it has left the behaviour, says docs/verification.md, and does nothing any more
+        continue;  // it has left the behaviour, says docs/theory/verification.md, and does nothing any more
       if (place.name != path && (place.fused || !place.name.starts_with(path + "."))) continue;
       places.push_back(static_cast<int>(p));
     }

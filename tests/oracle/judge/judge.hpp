@@ -1,4 +1,4 @@
-// The verdicts of section 7 of the design and of docs/specification.md, computed
+// The verdicts of section 7 of the design and of docs/reference/specification.md, computed
 // from every reachable marking.
 #pragma once
 
@@ -53,7 +53,7 @@ class Judge {
 };
 
 /// Whether a communication model of a specification is sound if each side is used for
-/// ever (docs/verification.md).
+/// ever (docs/theory/verification.md).
 bool sound_model(const Model& model);
 
 }  // namespace oracle

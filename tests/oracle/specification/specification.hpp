@@ -1,4 +1,4 @@
-// A specification as the oracle holds it: what docs/specification.md lets a user write, no more.
+// A specification as the oracle holds it: what docs/reference/specification.md lets a user write, no more.
 #pragma once
 
 #include <optional>

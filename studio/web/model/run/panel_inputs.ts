@@ -1,4 +1,4 @@
-/** The values of the controls of an operator's panel (docs/drivers.md, Teleoperation). */
+/** The values of the controls of an operator's panel (docs/use/drivers.md, Teleoperation). */
 
 export interface ControlShape {
   field: string;

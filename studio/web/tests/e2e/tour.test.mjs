@@ -1,4 +1,4 @@
-// The tour of docs/studio_tour.md, step by step, from a new project to a changed behaviour that runs. With
+// The tour of docs/start/studio_tour.md, step by step, from a new project to a changed behaviour that runs. With
 // STUDIO_PICTURES=FOLDER it leaves the tour's pictures there, and those of the moving one in FOLDER/moving.
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";

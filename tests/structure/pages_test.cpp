@@ -122,6 +122,30 @@ TEST(Pages, EachLinkLeadsToAFileAndAHeading) {
   EXPECT_GT(links, 300U);
 }
 
+/// The pages that the links of these pages lead to.
+std::set<fs::path> linked_from(const std::set<fs::path>& from, const std::map<fs::path, Page>& pages) {
+  std::set<fs::path> there;
+  for (const fs::path& file : from)
+    for (const Page::Link& link : pages.at(file).links)
+      if (const fs::path page = target_of(file, link.target); pages.contains(page)) there.insert(page);
+  return there;
+}
+
+TEST(Pages, AreReachedInTwoStepsFromTheReadme) {
+  const std::map<fs::path, Page> pages = pages_of_the_tree();
+  std::set<fs::path> reached = linked_from({"README.md"}, pages);
+  reached.merge(linked_from(reached, pages));
+  std::size_t rooms = 0;
+  for (const auto& [file, page] : pages) {
+    if (*file.begin() != "docs") continue;
+    ++rooms;
+    EXPECT_TRUE(reached.contains(file)) << file.string();
+  }
+  EXPECT_GT(rooms, 40U);
+  const std::string readme = text_of(fs::path(TESSERA_SOURCE_DIR) / "README.md");
+  EXPECT_LT(std::ranges::count(readme, '\n'), 120);
+}
+
 TEST(Pages, ThatSourcesAndMessagesNameExist) {
   static const std::regex named(R"(\bdocs/[\w/-]+\.md\b)");
   std::size_t names = 0;

@@ -18,9 +18,8 @@ struct RequestHeader {
   bool operator==(const RequestHeader&) const = default;
 };
 
-/// Removes the header from a message with encapsulation, and leaves the message alone. nullopt: there is
-/// none, and the message is unchanged.
-/// none, and the message is unchanged.
+/// Removes the header from a message with encapsulation, so that the message alone is left. nullopt: there is
+/// no header, and the message is unchanged.
 [[nodiscard]] std::optional<RequestHeader> take_header(std::vector<std::byte>& message);
 /// Puts a header before the data of a little-endian message.
 void put_header(const RequestHeader& header, std::vector<std::byte>& message);

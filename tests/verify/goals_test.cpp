@@ -21,7 +21,6 @@ using oracle::Random;
 using Kind = Found::Kind;
 constexpr std::size_t most_naive_markings = 300;
 
-/// The long form of the test: TESSERA_RANDOM_NETS=20000.
 /// Adds a copy of a net as one agent of a fleet.
 void add_copy(net::Net& to, const net::Net& net, std::uint32_t agent) {
   const auto first = static_cast<std::uint32_t>(to.places().size());

@@ -13,11 +13,11 @@ namespace tessera {
 struct Arrival {
   bool fresh = false;              ///< a valid value has come since the last iteration
   bool timed_out = false;          ///< the last receive gave up waiting
-  bool valid = false;              ///< what came last is valid
+  bool valid = false;              ///< the last value that came is valid
   Time stamp{};                    ///< when the producer wrote the last valid value
   Duration age = Duration::max();  ///< now - stamp; Duration::max() before the first valid value
   bool disconnected = false;       ///< the producer is in another process, which is not reachable
-  bool failed = false;             ///< what came last is invalid: its producer failed, or has not written it
+  bool failed = false;  ///< the last value that came is invalid: its producer failed or did not write it
 };
 
 /// The status of the value in an output buffer.
@@ -25,7 +25,7 @@ struct Departure {
   bool timed_out = false;         ///< the last blocking send gave up waiting for its acknowledgement
   Time stamp{};                   ///< when it was last written to the channel
   bool disconnected = false;      ///< the consumer is in another process, which is not reachable
-  bool tessera_assigned = false;  ///< it was assigned as a whole since the runtime has reset this
+  bool tessera_assigned = false;  ///< assigned as a whole since the runtime reset this flag
 };
 
 /// Notes that an output was written.
@@ -33,7 +33,8 @@ template <class Status>
 void note_assignment(Status& status) {
   if constexpr (requires { status.tessera_assigned; }) status.tessera_assigned = true;
 }
-/// An output that is assigned to another gives it its value. An input gives its status too.
+/// The status after an assignment of a whole buffer. Between outputs only the value is copied; between inputs
+/// the status is copied too.
 template <class Status>
 void assign_status(Status& status, const Status& other) {
   if constexpr (requires { status.tessera_assigned; })

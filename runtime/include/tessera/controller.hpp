@@ -86,8 +86,8 @@ struct RunOptions {
   /// what happened ("killed by SIGSEGV at address 0x0"). If it dies without notice, and has real devices, both
   /// lines are empty, and a line follows for each device that nothing has made safe. Empty: none.
   std::string death_note;
-  /// The real devices of the project in this folder have one run at a time; empty: any number. also: this run
-  /// starts although another one has them.
+  /// The folder of the project. Its real devices have one run at a time; empty: any number of runs. also: this
+  /// run starts although another one has the devices.
   std::string project;
   bool also = false;
   int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
@@ -129,7 +129,8 @@ struct RunSummary {
   std::vector<PlantedFault> injected;  ///< the faults planted in this process
   std::string judgement;               ///< checks and measures as World::results; empty: none
   std::uint64_t lost_events = 0;       ///< events missing in the recording
-  /// The recording begins there: its limit has dropped what was before. nullopt: it has its beginning.
+  /// The time at which the recording begins, if its limit has dropped the part before. nullopt: it has its
+  /// beginning.
   std::optional<Duration> recorded_from;
   std::uint64_t lines_not_printed = 0;  ///< lines that the terminal did not take
   std::vector<std::string> warnings;    ///< e.g. the recording could not be written

@@ -161,7 +161,7 @@ struct WorldOptions {
   std::string track;  ///< PNG of the floor, dark is line; empty: a white floor
   double metres_per_pixel = 0.005;
   std::optional<double> start_x_m, start_y_m, start_heading_rad;  ///< unset: as the world file says
-  double footprint_m = 0.008;                                     ///< diameter of what a light sensor sees
+  double footprint_m = 0.008;                                     ///< diameter of a light sensor's view
   std::uint64_t seed = 1;                                         ///< of sensor noise
   std::string trace;   ///< file that gets the path of the robot; empty: none
   std::string checks;  ///< JSON: the checks and measures of the run (docs/use/worlds.md); empty: none

@@ -56,8 +56,8 @@ class DriverSetup {
   [[nodiscard]] std::shared_ptr<WorldState> world() const;
 
   [[nodiscard]] bool has(std::string_view option) const;
-  /// A number in `unit`: units of tessera/units.hpp are converted; others have to be the same text. A number without a unit
-  /// counts as one in `unit`. With an empty `unit`, the option must not have one.
+  /// A number in `unit`: units of tessera/units.hpp are converted; others have to be the same text. A number
+  /// without a unit counts as one in `unit`. With an empty `unit`, the option must not have one.
   [[nodiscard]] double number(std::string_view option, std::string_view unit = {}) const;
   [[nodiscard]] double number_or(std::string_view option, double otherwise, std::string_view unit = {}) const;
   /// A whole number without a unit.

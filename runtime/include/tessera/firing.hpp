@@ -8,8 +8,8 @@ namespace tessera::firing {
 
 using Tokens = std::uint32_t;
 
-/// Whether a place that holds `held` tokens lets a transition take `taken`. A transition is enabled if
-/// all its input places let it.
+/// Whether a transition can take `taken` tokens from a place that holds `held`. It is enabled if it can take
+/// its tokens from all its input places.
 [[nodiscard]] constexpr bool suffices(Tokens held, Tokens taken) { return held >= taken; }
 
 /// The tokens of a place after a firing that takes and gives. Precondition: suffices(held, taken).

@@ -24,9 +24,8 @@
 ///
 /// It never waits for a client: a client that has not taken a line does not get the next ones, and
 /// a client that takes nothing for five seconds is dropped. If 64 clients only watch, another must send a
-/// command within three seconds. For a large system the lines come less
-/// often, so that the thread takes at most a fiftieth of a processor. The last line is {"ended": true};
-/// without it the connection was lost.
+/// command within three seconds. For a large system the lines come less often, so that the thread takes at
+/// most a fiftieth of a processor. The last line is {"ended": true}; without it the connection was lost.
 ///
 /// Clients may send commands, one JSON object per line. Every controller that listens accepts this one:
 ///
@@ -40,7 +39,7 @@
 ///
 ///     {"command": "scene", "from": N}
 ///
-/// is answered by {"scene_bytes": N, "from": N, "total": N} and so many bytes of the scene of the simulated
+/// is answered by {"scene_bytes": N, "from": N, "total": N} and the next N bytes of the scene of the simulated
 /// world (tessera/poses.hpp), a glTF file; total 0: there is none.
 ///
 /// Every run accepts these commands, and answers them like those below:

@@ -224,8 +224,8 @@ struct Bindings {
   void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
     real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe), part});
   }
-  /// The numbers of the real output that was bound last that must be finite; without it, all of them.
-  /// check: a lambda without captures that takes a value and says whether they are.
+  /// Selects the numbers that must be finite in the real output that was bound last. Without this call, all of
+  /// them must be. check: a lambda without captures that says whether those numbers of a value are finite.
   template <class T, class Check>
   void only_finite(const Output<T>& /*output*/, Check /*check*/) {
     real_outputs.back().finite = [](const void* at) { return Check{}(*static_cast<const T*>(at)); };

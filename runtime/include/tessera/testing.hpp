@@ -162,8 +162,8 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
   }
 };
 
-/// A whole system under the simulated clock, without world and devices. Tests replace some subsystems by scripts, feed
-/// real buffers, and watch the others. Everything else is the generated controller on its net.
+/// A whole system under the simulated clock, without world and devices. Tests replace some subsystems by
+/// scripts, feed real buffers, and watch the others. Everything else is the generated controller on its net.
 ///
 ///     SystemUnderTest system(generated_system());
 ///     system.script<laser::Context>([](auto& laser) { laser.out.scan = wall_ahead(0.3); });

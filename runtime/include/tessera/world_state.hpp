@@ -9,8 +9,8 @@
 
 namespace tessera {
 
-/// The simulated world as drivers see it that the user writes as C++ classes. DriverSetup::world() gives it
-/// to the classes that `simulation: drivers:` names.
+/// The simulated world, for drivers that a user writes as C++ classes. DriverSetup::world() gives it to the
+/// classes that `simulation: drivers:` names.
 ///
 /// Names are looked up as for the other drivers: `v` is first the agent's own `robot[3]/v`, then the `v` of
 /// the world; `/v` is the world's alone.

@@ -33,8 +33,7 @@ template <class T>
   }
 }
 
-/// The numbers of a type in which a write of zero can be seen: a T has floating-point numbers that are
-/// stored in place.
+/// Whether a T has floating-point numbers that are stored in place. In these, a write of zero can be seen.
 template <class T>
 [[nodiscard]] constexpr bool can_be_marked() {
   if constexpr (std::is_floating_point_v<T>) {
@@ -85,19 +84,19 @@ bool unmark_zeros(T& value) {
   }
 }
 
-/// How the runtime sees that a transition function has written an output, although the value is the one that
-/// it began with. A number or a bool, and a structure that is assigned as a whole, say so themselves
-/// (Departure::tessera_assigned). In a structure whose fields are assigned, zeros with a minus that have lost
-/// it tell. Other fields tell nothing.
+/// How the runtime notices that a transition function has written an output, although its value is still the
+/// initial one. A number, a bool, and a structure that is assigned as a whole set Departure::tessera_assigned.
+/// In a structure whose fields are assigned, the runtime gives each floating-point zero a minus before the
+/// call. A zero that has no minus afterwards was written. Writes to other fields leave no trace.
 struct WriteTrace {
   bool (*initial)(const void* value);  ///< is_initial
   void (*reset)(void* value);          ///< makes it initial
   void (*mark)(void* value);           ///< mark_zeros; nullptr: it has no such numbers
   bool (*unmark)(void* value);         ///< unmark_zeros; nullptr: it has no such numbers
-  bool hides;                          ///< a field can be written that does not tell
+  bool hides;                          ///< a write to some field leaves no trace
 };
 
-/// Whether a field of a T can be written and does not tell.
+/// Whether a write to some field of a T leaves no trace.
 template <class T>
 [[nodiscard]] constexpr bool hides_writes() {
   if constexpr (std::is_floating_point_v<T>) {

@@ -18,8 +18,8 @@ struct DeployOptions {
 };
 
 /// Checks that the options fit the deployment of the specification. Prints the mistakes. process: of
-/// `--process`. It is also true if the specification cannot be read, because another function reports that.
-/// Called before anything is built.
+/// `--process`. Also true if the specification cannot be read, because another function reports that. Called
+/// before anything is built.
 [[nodiscard]] bool check_deployment(const std::string& spec, const DeployOptions& deploy,
                                     const std::string& process);
 

@@ -37,13 +37,13 @@ struct BoundFormula {
   std::vector<BoundFormula> parts;  ///< of every and some: one for each that [*] stands for
 };
 
-/// One formula for each i that names elements which are there; a single one if the text has no [i].
+/// One formula for each i whose elements all exist; a single one if the text has no [i].
 struct BoundFormulas {
   std::vector<std::pair<std::int64_t, BoundFormula>> by_index;
   bool has_index = false;
 };
 
-/// Problem: an element is not there, or [*] stands where it has no meaning.
+/// Problem: an element does not exist, or [*] stands where it has no meaning.
 [[nodiscard]] Result<BoundFormulas> bind(const Formula& formula, Scene& scene);
 /// A measure has no [i], and a [*] only in a distance.
 [[nodiscard]] Result<BoundNumber> bind(const Number& number, Scene& scene);
@@ -57,7 +57,7 @@ struct Shown {
   std::optional<double> limit;  ///< of a comparison
 };
 [[nodiscard]] Shown shown(const BoundFormulas& formulas, bool forbids, Scene& scene);
-/// The facts that a formula speaks of: "distance(a, b) = 0.183", "robot[0], robot[3] touch". At most three.
+/// The facts on which a formula depends: "distance(a, b) = 0.183", "robot[0], robot[3] touch". At most three.
 [[nodiscard]] std::string facts_of(const BoundFormula& formula, Scene& scene);
 
 }  // namespace tessera::checks

@@ -71,7 +71,7 @@ class Judge {
   [[nodiscard]] std::vector<CheckResult> take_failures();
   [[nodiscard]] std::vector<CheckResult> results() const;
   [[nodiscard]] const std::vector<MeasureResult>& measures() const { return measures_; }
-  /// How a check or measure went, for a plot.
+  /// The course of a check or measure, for a plot.
   struct Plotted {
     std::string name;
     bool is_check = false;

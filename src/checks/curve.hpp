@@ -5,8 +5,8 @@
 
 namespace tessera::checks {
 
-/// How a number went over any length of time, in at most `most` spans of equal length, each with the least and the
-/// greatest value in it.
+/// The course of a number over any length of time, in at most `most` spans of equal length, each with the
+/// least and the greatest value in it.
 class Curve {
  public:
   static constexpr std::size_t most = 256;

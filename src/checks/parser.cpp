@@ -314,7 +314,8 @@ class Parser : private TextReader {
     return number;
   }
 
-  /// 35 cm are 35 / 100 m, which people read as 0.35; 35 * 0.01 is 0.35000000000000003.
+  /// Divides where the factor is one over a whole number: 35 cm are 35 / 100 = 0.35 m, and not 35 * 0.01 =
+  /// 0.35000000000000003 m.
   [[nodiscard]] static double converted(double number, double factor) {
     const double parts = std::round(1 / factor);
     return parts > 1 && parts * factor == 1 ? number / parts : number * factor;

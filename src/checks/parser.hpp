@@ -31,8 +31,8 @@ struct Unit {
 };
 using Units = std::function<std::optional<Unit>(std::string_view unit)>;
 
-/// Reads what the head of expression.hpp describes. Never fails otherwise, whatever the text. A mistake is also
-/// that numbers of different units are compared, added or subtracted.
+/// Reads the grammar at the head of expression.hpp, from any text. It is a mistake, too, to compare, add or
+/// subtract numbers of different units.
 [[nodiscard]] Parsed<Formula> parse_formula(std::string_view text, const Units& units);
 [[nodiscard]] Parsed<Number> parse_number(std::string_view text, const Units& units);
 

@@ -14,7 +14,7 @@ inline constexpr const char* element_hint =
     "for example rover, arm/gripper, robot[3], robot[*] or robot[i+1]";
 
 /// Letters, words and elements of a text, from its beginning to its end. After the first mistake the text
-/// counts as ended, so every rule of a parser comes to its end soon; what rules return then means nothing.
+/// counts as ended, so every rule of a parser ends soon; the results of the rules then mean nothing.
 class TextReader {
  public:
   explicit TextReader(std::string_view text) : text_(text) {}

@@ -9,8 +9,8 @@
 
 namespace tessera::explore {
 
-/// Ends a task whose time is over, or that was told to stop, from wherever it is. Whoever began the task
-/// catches it and goes on without its result.
+/// Thrown to end a task whose time is over, or that was told to stop. The code that began the task catches it
+/// and goes on without its result.
 class CutOff : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;

@@ -17,8 +17,8 @@ struct Unit {
 ///
 /// Each unit is part of a set of places with at most one token at first, and no firing increases the sum of
 /// its tokens. So it is proved, not observed. Places in no unit are not known to be safe. The search is
-/// bounded: it is linear in nets that consist of state machines joined by their transitions, and gives up
-/// on a place after a fixed number of guesses, and on all after a fixed number of steps.
+/// bounded: it is linear in nets that consist of state machines joined by their transitions, and it gives up
+/// a place after a fixed number of guesses, and all places after a fixed number of steps.
 ///
 /// Threads: pure.
 [[nodiscard]] std::vector<Unit> find_units(const PtNet& net);

@@ -50,8 +50,8 @@ struct Branches {
   std::vector<Nodes> branches;  ///< empty unless the page forks
 };
 
-/// A transition that has several outputs which are no fused places forks, one with several such inputs joins;
-/// what is connected without them is a branch.
+/// A transition forks if several of its outputs are no fused places, and joins if several of its inputs are
+/// none. Without these transitions, the page falls into connected parts: the branches.
 Branches branches_of(const net::Page& page) {
   const auto own = [&](const Nodes& ends) {
     Nodes kept;

@@ -19,8 +19,8 @@ struct PairInvariant {
 };
 
 /// The invariants of a model that concern its shared places, unit invariants first. Closes each side to a
-/// loop, computes the minimal semiflows of the pair, and removes the places of the loops again: each side
-/// holds one token, so that the token is at `in` or `out` exactly if no other place of the side holds it.
+/// loop, computes the minimal semiflows of the pair, and removes the places of the loops again. Each side
+/// holds one token, so this token is at `in` or `out` exactly if no other place of the side holds it.
 ///
 /// Exponential at worst. Stops early if it would take long, and returns the invariants found by then.
 /// Source: Farkas' algorithm, as in Colom and Silva, *Convex geometry and semiflows in P/T nets*, 1991.

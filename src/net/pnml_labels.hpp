@@ -29,7 +29,7 @@ class PnmlLabels {
   [[nodiscard]] std::uint32_t marking(const pugi::xml_node& place);
   /// TAPAAL has the weight beside the inscription, which is an interval of time or 1.
   [[nodiscard]] std::uint32_t weight(const pugi::xml_node& arc);
-  /// Whether tokens are taken or put. false: it is another kind of arc, which has been said.
+  /// Whether tokens are taken or put. false: it is another kind of arc, which has been reported.
   [[nodiscard]] bool is_plain(const pugi::xml_node& arc);
   /// Whether the reader reads that child. A child that has no meaning for the net has been judged then.
   [[nodiscard]] bool is_read(PnmlOwner owner, const pugi::xml_node& node);
@@ -40,7 +40,7 @@ class PnmlLabels {
     std::string text;
     diagnostics::Span span;
   };
-  /// nullopt: it is not clear, which has been said.
+  /// nullopt: it is not clear, which has been reported.
   [[nodiscard]] std::optional<Value> value_of(const pugi::xml_node& holder);
   /// owner: has the number as a label, or as an attribute of its own.
   [[nodiscard]] std::uint32_t number(const pugi::xml_node& owner, const char* label,

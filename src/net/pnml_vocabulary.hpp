@@ -38,7 +38,7 @@ class PnmlVocabulary {
 
   /// The attributes of an element. at: the extent of its name.
   void judge(PnmlOwner owner, const pugi::xml_node& node, Span at);
-  /// A child of an element that was judged. false: it is not read, which has been said if it must be.
+  /// A child of an element that was judged. false: it is not read; this has been reported if necessary.
   /// value: of the child's text, or its attribute `value`.
   [[nodiscard]] bool is_read(PnmlOwner owner, const pugi::xml_node& child, Span at, const std::string& value);
   /// Whether `is_read` asks for the value of such a child.

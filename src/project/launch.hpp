@@ -63,9 +63,9 @@ struct Floor {
 /// The limit of every recording, unless `record_limit` gives another one; "none" is no limit.
 inline constexpr const char* usual_record_limit = "1GB";
 
-/// Whether every real buffer has a driver for such a run; tells which have none, and what to do. simulated:
-/// of the simulated robot, but for the hardware that the options name. True, too, if the specification cannot
-/// be read, which is told elsewhere.
+/// Whether every real buffer has a driver for such a run; reports those that have none, and what to do.
+/// simulated: of the simulated robot, but for the hardware that the options name. Also true if the
+/// specification cannot be read, because another function reports that.
 [[nodiscard]] bool every_real_buffer_has_driver(const LaunchOptions& options, bool simulated,
                                                 Listener& listener);
 

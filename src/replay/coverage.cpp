@@ -120,10 +120,10 @@ const char* meaning_of(net::TransitionRole role) {
   }
 }
 
-/// In the order of `next`; that no entry holds comes last.
+/// The position of a condition of `next` in the order of its entries. "No entry holds" comes last.
 std::uint32_t rank(const Condition& condition) { return condition.entry.value_or(UINT32_MAX); }
 
-/// Which transition fires only if the condition of another one does not hold.
+/// Whether the transition of `other` fires only if `condition` does not hold.
 bool fires_instead(const Condition& condition, const Condition& other) {
   using Kind = Condition::Kind;
   switch (condition.kind) {

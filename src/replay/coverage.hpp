@@ -35,7 +35,7 @@ class FiringCounts {
   /// A run was there, in whatever way it began, and the place was marked at some time without a firing.
   [[nodiscard]] bool was_marked(net::PlaceId id) const { return marked_[id.value]; }
   [[nodiscard]] std::uint64_t runs() const { return runs_; }
-  /// Events are missing in some recording: what is said not to be reached may have been.
+  /// Events are missing in some recording: parts that are reported as not reached may have been reached.
   [[nodiscard]] bool lacks_events() const { return lacks_events_; }
 
  private:
@@ -48,9 +48,10 @@ class FiringCounts {
 
 /// The parts of a net that runs have reached.
 ///
-/// Elements that no run can reach are left out: what only a condition leads to that is the constant false.
-/// A condition has two outcomes, each of which counts: it held, and its transition fired; it did not hold, and
-/// one fired that does so only then. A failure (an exception, a device) makes an error hold.
+/// Elements that no run can reach are left out: those behind a condition that is the constant false. A
+/// condition has two outcomes, each of which counts: it held, and its transition fired; it did not hold, and
+/// a transition fired that can fire only in this case. A failure (an exception, a device) makes an error
+/// hold.
 struct Coverage {
   struct Share {
     std::size_t reached = 0, all = 0;

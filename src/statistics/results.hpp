@@ -24,7 +24,7 @@ struct Outcome {
   std::string text;
 };
 
-/// The number of runs with a fault of `--inject`. Runs that died are in neither.
+/// The number of runs with a fault of `--inject`. A run that died counts in neither number.
 struct Injected {
   std::string fault;
   std::uint64_t runs = 0;    ///< in which it happened
@@ -57,7 +57,7 @@ struct Results {
   };
   std::optional<Failure> failure;    ///< the run of the lowest seed that failed
   std::vector<Injected> injected{};  ///< each fault of `--inject` once
-  /// First seeds whose runs went otherwise when they were made again, alone in a process.
+  /// First seeds whose runs had another result when they were made again, alone in a process.
   std::vector<std::uint64_t> not_repeated;
   std::string again;  ///< command that makes a run again, when the seed is put behind it
   /// Firings per transition of the net, over all runs; empty: not counted.

@@ -6,7 +6,7 @@
 
 namespace tessera::verify {
 
-/// The identity of a net, as the runtime computes it: 32 hex digits.
+/// The identity of a net, as the runtime computes it: 32 hexadecimal digits.
 [[nodiscard]] std::string hash_of(const net::Net& net);
 
 }  // namespace tessera::verify

@@ -115,7 +115,7 @@ struct ProveOptions {
   std::function<void(const std::string& property, const explore::Progress&)> progress = nullptr;
 };
 
-/// The input of prove: the net, and what is asked about it.
+/// The input of prove: the net, and the questions about it.
 struct Subject {
   const net::Net& net;
   /// The pages the net was flattened from. nullptr: the net has another origin, and only has the properties

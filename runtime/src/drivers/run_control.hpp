@@ -77,13 +77,14 @@ class RunControl {
   /// set_supervisor_event.
   void tell_supervisor() const;
 
-  /// How many times in which only safe commands could go to devices are over.
+  /// The number of ended periods in which only safe commands could go to devices.
   struct Interruptions {
     std::uint32_t suspensions = 0, emergencies = 0;
     [[nodiscard]] bool operator==(const Interruptions&) const = default;
   };
-  /// Ask before a command is judged. If more are over when it is given, it is from before the end of one. Their
-  /// ends are counted, not their beginnings, because a command may also be judged during an interruption.
+  /// Read it before a command is judged. If the number is greater when the command is given, such a period
+  /// has ended in between. The ends are counted, not the beginnings, because a command may also be judged
+  /// during an interruption.
   [[nodiscard]] Interruptions interruptions() const {
     return {suspensions_over_.load(std::memory_order_seq_cst),
             emergencies_over_.load(std::memory_order_seq_cst)};

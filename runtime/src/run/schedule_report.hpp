@@ -48,7 +48,7 @@ struct ScheduleOutcome {
   std::string text;
 };
 
-/// The number of runs with a planted fault. Runs that died are in neither.
+/// The number of runs with a planted fault. A run that died counts in neither number.
 struct InjectionCount {
   std::uint64_t runs = 0;    ///< runs in which it happened
   std::uint64_t missed = 0;  ///< runs that have ended without it

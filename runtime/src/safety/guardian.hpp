@@ -60,7 +60,7 @@ class Guardian {
   /// no more.
   [[nodiscard]] const std::atomic<bool>& has_acted() const;
 
-  /// Something for which the run has failed, whatever ends it.
+  /// A reason why the run has failed, whatever ends it.
   enum class Trouble : std::uint8_t {
     none,
     acted,        ///< has_acted

@@ -23,11 +23,12 @@ namespace tessera::project {
                                                                  const PictureOptions& picture);
 
 /// Whether the devices of the simulation are in the world, and fit their buffers. The files of the simulation
-/// exist (check_simulation_files). No server is called, so nobody asks CoppeliaSim for its objects.
+/// exist (check_simulation_files). No server is called, so objects in a scene of CoppeliaSim are not looked
+/// up.
 ///
 /// world: the file that is used in place of that of the specification; empty: none.
 /// Errors: E311 a device that the world does not have, or that does not fit; E312 the world cannot be opened.
-///         Note N313: the library of worlds is not installed, so nobody knows.
+///         Note N313: the library of worlds is not installed, so the devices are not checked.
 bool check_world(const spec::Model& model, const std::filesystem::path& project, const std::string& world,
                  diagnostics::Diagnostics& out);
 

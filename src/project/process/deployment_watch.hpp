@@ -20,9 +20,10 @@
 namespace tessera::project {
 
 /// All processes of a deployed system. It finds those that run on this machine as this user by their control sockets,
-/// and the others by the state that they send over the network; those that start later too. A process that has died or
-/// ended stays in the list until another start of it takes its place. So does one that had died before, if its socket
-/// was left behind. A control socket goes before the network. Processes never wait for it.
+/// and the others by the state that they send over the network, including those that start later. A process
+/// that has died or ended stays in the list until another start of it takes its place. So does one that had
+/// died before, if its socket was left behind. A control socket goes before the network. Processes never wait
+/// for it.
 ///
 /// Threads: one.
 class DeploymentWatch {

@@ -11,9 +11,9 @@
 
 namespace tessera::project {
 
-/// Processes of a deployed system as they are heard over the network: of each the latest start. One that is not heard
-/// for `longest_silence` is silent: it has died, or the way to it is cut, which look the same from here. It is gone
-/// when the middleware has forgotten it, 20 s after it was heard last.
+/// The latest start of each process of a deployed system, as it is heard over the network. One that is not
+/// heard for `longest_silence` is silent: it has died, or the way to it is cut, which look the same from
+/// here. It is gone when the middleware has forgotten it, 20 s after it was heard last.
 ///
 /// Threads: one.
 class NetworkProcesses {

@@ -11,8 +11,8 @@ namespace tessera::project {
 /// "60s", "500ms", "2min" or seconds. Throws std::runtime_error, which names `option`, for anything else.
 [[nodiscard]] double parse_seconds(const std::string& text, const std::string& option);
 
-/// The verdicts on a net made by build: those kept for it, if there are any that took no less time over what
-/// is unknown, or new ones. A file of kept verdicts that cannot be read or written counts for nothing.
+/// The verdicts on a net made by build: the kept ones if they had at least as much time for what is unknown,
+/// otherwise new ones. A file of kept verdicts that cannot be read or written counts for nothing.
 [[nodiscard]] verify::Report verify_or_recall(const Specification& specification, const Nets& nets,
                                               const VerificationGate& gate, Listener& listener);
 

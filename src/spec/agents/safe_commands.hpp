@@ -11,7 +11,7 @@ namespace tessera::spec {
 ///
 /// Errors:   E101 unknown buffer or field; E203, E204, E208 values that do not fit; E216 a number that must be
 ///           finite.
-/// Warnings: W340 numbers that may be NaN, and that the safe command leaves at zero unsaid.
+/// Warnings: W340 numbers that may be NaN and that the safe command does not mention, so that they are zero.
 void read_safe(const Entry* entry, const Types& types, Subsystem& subsystem, Diagnostics& out);
 
 }  // namespace tessera::spec

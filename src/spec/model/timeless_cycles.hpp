@@ -6,8 +6,8 @@
 
 namespace tessera::spec {
 
-/// Behaviours that a run could go round in for ever without time passing: those that repeat, or follow one
-/// another in a circle, none of them waiting. One behaviour per circle. waits: per behaviour.
+/// Behaviours in which a run could go on for ever without time passing: one that repeats, or several that
+/// follow one another in a circle, none of which waits. One behaviour per circle. waits: per behaviour.
 [[nodiscard]] std::vector<BehaviourId> timeless_cycles(const Subsystem& subsystem,
                                                        const Numbered<BehaviourId, bool>& waits);
 

@@ -29,8 +29,8 @@ class Types {
   /// Each uses only earlier ones, unless one contains itself.
   [[nodiscard]] const Numbered<StructureId, Structure>& structures() const { return structures_; }
 
-  /// Those of the structure that `type` names, or that its elements are; none of a type without fields, and of
-  /// an unknown one.
+  /// The fields of the structure that `type` names, or of its elements. Empty for a type without fields, and
+  /// for an unknown type.
   [[nodiscard]] const std::vector<Field>& fields_of(const Type& type) const;
 
   /// Whether a value of the type has floating-point numbers.

@@ -56,7 +56,7 @@ struct CircuitReport {
 /// every side blocks.
 [[nodiscard]] CircuitReport judge_circuits(const CommunicationStructure& structure);
 
-/// The text about a wait at the channel, with the reason if nobody ever does what is waited for.
+/// The text about a wait at the channel, with the reason if no subsystem ever ends it.
 [[nodiscard]] std::string with_absence(std::string text, const ChannelFlow& channel);
 /// "robot.control waits to receive from a.y->b.x for robot.motor; ...": a circuit in words.
 [[nodiscard]] std::string in_words(const CommunicationStructure& structure, const CircuitGroup& group);

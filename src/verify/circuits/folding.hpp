@@ -8,7 +8,7 @@
 
 namespace tessera::verify {
 
-/// Does this side wait for the other for as long as it takes?
+/// Does this side wait for the other without a limit?
 [[nodiscard]] bool waits_to_send(const ChannelFlow& channel);
 [[nodiscard]] bool waits_to_receive(const ChannelFlow& channel);
 /// May one side have to wait for the other without a limit? If not, no subsystem can get stuck

@@ -8,7 +8,7 @@
 
 namespace tessera::verify {
 
-/// A side of a channel between processes that waits for the other as long as it takes.
+/// A side of a channel between processes that waits for the other side without a limit.
 struct StrictSide {
   SubsystemFlowId subsystem;
   ChannelFlowId channel;
@@ -16,8 +16,9 @@ struct StrictSide {
 };
 
 /// Those that some reachable behaviour uses. A cut link stops each of them for ever: values that are not
-/// needed before may arrive as late as one likes, so its subsystem comes to it with nothing there, or is stuck
-/// before. Without any, a cut link stops nobody, since every other side of a network goes on without its peer.
+/// needed earlier may arrive at any later time, so the subsystem comes to this side without a value, or is
+/// stuck before. If there is no such side, a cut link stops no subsystem, since every other side of a network
+/// goes on without its peer.
 ///
 /// Linear in the structure. docs/use/fleets.md says why.
 [[nodiscard]] std::vector<StrictSide> strict_sides(const CommunicationStructure& structure);

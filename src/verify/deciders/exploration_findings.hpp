@@ -8,7 +8,7 @@
 #include "verify/deciders/question.hpp"
 #include "verify/search/exploration.hpp"
 
-/// Findings made of what searches found, with runs that are easy to follow.
+/// Findings from the results of searches, with runs that are easy to follow.
 namespace tessera::verify {
 
 /// good: the answer to the question of the search for which the property holds.
@@ -20,11 +20,11 @@ namespace tessera::verify {
 /// The goals were those of the question's subjects, one by one.
 void name_subjects(Finding& finding, const Question& question);
 
-/// Limits of a search that is not worth more: rather than time, markings, so that the same run is shown on
+/// Limits of a search of little worth. They count markings and not time, so that the same run is shown on
 /// every machine.
 [[nodiscard]] explore::Limits with_few_markings(const net::Net& net, explore::Limits limits);
 
-/// Names a behaviour that is never entered as the reason of a wait for what nobody ever does.
+/// Names a behaviour that is never entered, if it is the reason why a wait never ends.
 void name_absences(std::vector<SubsystemAtEnd>& waits, const NetUnderAssumption& given);
 /// Extends the run, whose violation is final, and adds the waits at its end.
 void explain(Finding& finding, const NetUnderAssumption& given, const explore::Budget& budget);

@@ -61,7 +61,8 @@ class Facts {
   /// Another method has proved that there is none.
   void exclude_dead_ends(Assume assume) { excluded_.insert(assume); }
   [[nodiscard]] bool dead_ends_are_excluded(Assume assume) const { return excluded_.contains(assume); }
-  /// Runs to dead markings that were found before, under whatever assumption, and are such runs under this one.
+  /// Runs to dead markings that were found before under any assumption, and that are such runs under this
+  /// one.
   [[nodiscard]] std::vector<std::vector<net::TransitionId>> known_dead_ends(Assume assume);
   /// All subjects of a kind of question.
   [[nodiscard]] std::vector<std::uint32_t> subjects(Question::Kind kind, Assume assume);
@@ -72,7 +73,7 @@ class Facts {
   std::vector<std::string> wrong_;
   std::optional<bool> safe_;
   std::optional<UnitInvariants> units_;
-  /// The finding of a search, and what the search was allowed.
+  /// The finding of a search, and its limits.
   template <class Result>
   struct Searched {
     Result result{};
@@ -80,7 +81,7 @@ class Facts {
     std::chrono::duration<double> time{};
     std::uint64_t markings = 0;
 
-    /// Would it be no use to search again?
+    /// Would another search find no more?
     [[nodiscard]] bool suffices(const explore::Limits& limits) const {
       return decided || (limits.time < 2 * time && limits.markings <= markings);
     }

@@ -24,7 +24,7 @@ namespace tessera::verify {
 /// branch of a fork for the first branch).
 ///
 /// Precondition: wrong_invariants() is empty. Linear in the net and the invariants, unless signed invariants
-/// are listed long before those they rest on.
+/// are listed long before those on which they depend.
 [[nodiscard]] std::vector<net::PlaceId> unbounded_places(const net::Net& net,
                                                          const std::vector<net::Invariant>& invariants);
 

@@ -8,13 +8,14 @@
 
 namespace tessera::verify {
 
-/// The part of a net in which all others but the peers of a subsystem give it whatever it wants. Peers use a channel with it.
+/// The part of a net with one subsystem and its peers, which are the subsystems that use a channel with it.
+/// All other subsystems give these whatever they wait for.
 ///
 /// The part of the net has the possible transitions of these subsystems, without the places of others, of
-/// channels to others, and of the layers above. A marking that it cannot reach, the net cannot reach: to
-/// take a place out of a net, with its arcs, lets every run of the net still be fired, and the transitions
-/// that are left out touch none of the places that are left, except to start the subsystems, which are
-/// started here. Places that are left keep their bound, as far as invariants over them show it.
+/// channels to others, and of the layers above. If the part cannot reach a marking, the net cannot reach it.
+/// For if a place is removed from a net with its arcs, every run of the net can still be fired. And the
+/// transitions that are left out touch none of the remaining places, except to start the subsystems, which
+/// are started here. Places that are left keep their bound, as far as invariants over them show it.
 ///
 /// Threads: const members from any thread.
 class Surroundings {

@@ -11,11 +11,11 @@ namespace tessera::verify {
 
 /// A net of some subsystems, without anything that no subsystem ever waits for. It has a place for every
 /// point of a behaviour at which a subsystem can be, the places `full` and `ack` of every channel at which a
-/// subsystem may have to wait, and a transition for every way on. A transfer is one step: a write counts as
+/// subsystem may have to wait, and a transition for every step. A transfer is one step: a write counts as
 /// done once it has begun, a read once it is over. Traps are searched in this net; they do not need `empty`.
 class Skeleton {
  public:
-  /// A place where a token waits for as long as it takes.
+  /// A place where a token may wait without a limit.
   struct Stop {
     std::uint32_t place = 0;
     SubsystemFlowId subsystem;

@@ -121,7 +121,7 @@ void note_not_told(const std::vector<SeenController>& processes, const char* wha
     fmt::print(stderr, "tessera: note: {}, on other machines: {}\n", what, text);
 }
 
-/// Whether not only one process was meant.
+/// Whether several processes were meant.
 bool is_system(const std::string& which, const std::vector<SeenController>& processes) {
   return which.empty() || std::ranges::any_of(processes, [&](const SeenController& one) {
            return one.snapshot && one.snapshot->system == which;

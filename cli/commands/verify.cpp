@@ -161,7 +161,8 @@ int write_scenario(const Judged& judged, const verify::Report& report, const Ver
   return ok;
 }
 
-/// It has as much time again: whoever wants the number wants it besides the verdicts.
+/// Counts the markings. This gets the same time once more, since a user wants the number besides the
+/// verdicts.
 json count_states(const Judged& judged, const VerifyOptions& options, const Allowance& allowance,
                   project::Step& step) {
   explore::Limits limits;

@@ -178,7 +178,7 @@ class Planner {
   }
 
   /// Gives an array of messages a step for each element of the array of the buffer. false: they do not fit,
-  /// which has been said.
+  /// which has been reported.
   bool divide(const ValueType& value, const std::string& value_path, Plan::Step& step,
               const std::string& message_path) {
     if (step.per_element) {

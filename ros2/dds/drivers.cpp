@@ -128,7 +128,7 @@ class Publisher final : public RealEffector {
   }
 
  private:
-  /// A device obeys every publisher of its commands, also one that nobody thinks of any more.
+  /// A device obeys every publisher of its commands, also one that was forgotten.
   void warn_of_others() {
     for (const OtherWriters::Writer& other : (*endpoint_)->new_other_writers()) {
       if (!is_told(++others_)) continue;

@@ -123,7 +123,7 @@ void Judge::observe(double time_s) {
   plot(time_s);
 }
 
-/// Rarer than it is judged, since it costs as much.
+/// Less often than the checks are judged, since it costs as much.
 void Judge::plot(double time_s) {
   constexpr double every_s = 0.04;
   for (std::size_t index = 0; index < measures_.size(); ++index)

@@ -242,7 +242,7 @@ class Parser : private TextReader {
     }
   }
 
-  /// So that no check holds or fails because something was divided by zero.
+  /// A division by zero must not make a check hold or fail.
   Number divisor() {
     Number number = factor();
     if (number.kind != Number::Kind::literal || number.value == 0)

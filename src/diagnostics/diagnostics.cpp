@@ -35,7 +35,8 @@ void Diagnostics::note(std::string code, Span span, std::string message, Hint hi
 }
 
 void Diagnostics::add(Diagnostic diagnostic) {
-  // An error that is told already counts too: a part that is read twice, through an alias, is wrong both times.
+  // An error that was reported before counts too: a part that is read twice, through an alias, is wrong both
+  // times.
   if (diagnostic.severity == Severity::error) ++errors_;
   const auto key =
       std::tie(diagnostic.span.line, diagnostic.span.column, diagnostic.code, diagnostic.message);

@@ -146,7 +146,7 @@ class Folding {
     return true;
   }
 
-  /// Which place of which of the part's channels.
+  /// The number of the channel among those of the part, and of the place within the memory of the channel.
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> within(const Part& part, std::size_t at) const {
     const std::uint32_t channel = net_.places()[part.memory[at]].channel.value;
     return {index_of(part.channels, channel), part.memory[at] - memories_[channel].first};

@@ -229,7 +229,8 @@ class Prover {
     return found;
   }
 
-  /// A behaviour that does not run by itself may still be reached after a failure: that is what it is for.
+  /// A behaviour that does not run without a failure may still be reached after one, and may be meant for
+  /// that.
   PropertyResult live_behaviours(Question question, const std::string& name) {
     Running by_itself = running(question, name);
     if (by_itself.result.verdict == Verdict::holds) return std::move(by_itself.result);
@@ -319,7 +320,7 @@ class Prover {
   }
 
   /// For a violation that is decided: the effort for its run is limited by steps, so that it does not depend on
-  /// the machine. A cut link is simple to imagine: the run that shows it is not worth much.
+  /// the machine. A cut link is easy to imagine, so the run that shows it is worth little effort.
   [[nodiscard]] explore::Limits limits_for_run(const std::string& name, Assume assume) const {
     constexpr std::uint64_t most = 300'000, fewest = 2'000, work = 600'000'000, most_of_cut = 30'000;
     explore::Limits limits = limits_for(name);

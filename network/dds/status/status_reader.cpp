@@ -9,11 +9,11 @@
 namespace tessera::dds {
 namespace {
 
-/// So that a flood of messages does not keep receive() for ever.
+/// The limit keeps a flood of messages from holding up receive() for ever.
 constexpr int most_texts_at_once = 1000;
-/// Two texts of each start of a process. Somebody who invents more fills no memory.
+/// Each start of a process has two texts. The limit keeps invented starts from filling the memory.
 constexpr int most_sources = 4096;
-/// One who watches comes and goes, and the others shall forget it soon. It says that it is there every 4 s.
+/// Clients come and go, and the processes shall forget them soon. A client announces itself every 4 s.
 constexpr std::chrono::seconds lease_of_reader{10};
 
 Qos qos_of_reader() {

@@ -78,8 +78,8 @@ void close_world(Assembly& assembly, RunSummary& summary) {
   return names;
 }
 
-/// Makes it a failure, whatever ended the run, if the guardian had to act or could not have acted. Comes when the
-/// guardian can do nothing more.
+/// Makes it a failure, whatever ended the run, if the guardian had to act or could not have acted. Call it
+/// when the guardian can do nothing more.
 void judge_guardian(const Guardian& guardian, Ending& ending) {
   const std::string_view trouble = Guardian::describe(guardian.trouble());
   if (trouble.empty()) return;
@@ -125,7 +125,7 @@ void end_without_driver(const KnownRun& known, const GiveUp& give_up, const std:
   give_up.end_process(summary);
 }
 
-/// Comes when the run and its recording have ended, so that a driver that does not return or crashes costs
+/// Call it when the run and its recording have ended, so that a driver that does not return or crashes costs
 /// neither.
 void close_the_devices(OpenDevices& devices, const std::vector<bool>& left_behind, RunSummary& summary,
                        KnownRun& known) {

@@ -5,7 +5,7 @@
 namespace tessera {
 namespace {
 
-// So that it checks regularly whether the run is to stop.
+// The longest wait, so that the thread checks regularly whether the run is to stop.
 constexpr Duration longest_wait_for_network = std::chrono::milliseconds(100);
 // Times after the end: how long repeated values are still answered, and how long values that were not taken
 // are sent.

@@ -268,8 +268,8 @@ void SteadyRun::follow_emergency(EmergencyWatch& emergencies, const RunControl& 
   }
 }
 
-/// If a device does not take its safe command, nobody knows what it does: the others have theirs until it has, or until
-/// the run stops for that reason. Returns when to look again.
+/// If a device does not take its safe command, its state is unknown. So the other devices keep their safe
+/// commands until it has taken its own, or until the run stops for that reason. Returns when to look again.
 Time SteadyRun::follow_safe_commands(Assembly& assembly, Securing& securing, Time now) {
   Time next = Time::max();
   bool any = false;

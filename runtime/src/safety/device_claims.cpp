@@ -18,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Whatever the path by which a user comes to it.
+/// The identity of a folder, which is the same for every path to it.
 std::string identity_of(const fs::path& folder) {
   struct stat status {};
   if (stat(folder.c_str(), &status) != 0) return folder.string();

@@ -281,7 +281,7 @@ void Monitor::execute_request(MonitorClient& client, const Request& request) {
   client.send();
 }
 
-/// In simulated time, the devices may stand still, and nobody is near them.
+/// In simulated time, the devices may stand still, and no person is near them.
 bool Monitor::is_answered_later(const AnsweredCommand& command) const {
   return remote_ == nullptr && std::holds_alternative<commands::EmergencyStop>(command);
 }

@@ -17,12 +17,13 @@ namespace {
 
 using namespace std::chrono_literals;
 
-/// Until it looks again whether there are readers.
+/// The time between two checks for readers.
 constexpr auto look_period = 500ms;
 constexpr auto send_period = 200ms;
 /// Any program may read: all readers together get 40 messages a second at most.
 constexpr auto period_per_reader = 50ms;
-/// The snapshot of a large system takes long to write: the thread rests for so many times as long, up to a second.
+/// The snapshot of a large system takes long to write: the thread then rests for this many times as long, up
+/// to a second.
 constexpr int rest_per_sending = 50;
 constexpr auto longest_rest = 1000ms;
 

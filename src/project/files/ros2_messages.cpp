@@ -112,7 +112,7 @@ class MessageFinder {
   bool fits(const spec::Driver& driver, std::shared_ptr<const ros2::Structure> message) {
     const spec::Subsystem& subsystem = model_.subsystem(driver.instance);
     const auto value = ros2::parse_value_type(model_.layout_of(subsystem.real[driver.real].type));
-    if (!value) return true;  // a type that is wrong in itself, which is said elsewhere
+    if (!value) return true;  // a type that is wrong in itself, which another function reports
     ros2::Mapping mapping = ros2::written_mapping(text_option(driver, "fields"), text_option(driver, "names"),
                                                   text_option(driver, "frame_id"));
     const bool sends = is_effector(model_, driver);

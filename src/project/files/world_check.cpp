@@ -97,7 +97,7 @@ bool check_world(const spec::Model& model, const fs::path& project, const std::s
   if (!model.simulation) return true;
   const spec::Simulation& simulation = *model.simulation;
   const auto chosen = world_of(simulation, project, world);
-  if (!chosen) return true;  // there is none, or its file is missing, which is said elsewhere
+  if (!chosen) return true;  // there is none, or its file is missing, which another function reports
   const diagnostics::Span place = place_of(simulation);
   if (!fs::exists(chosen->library)) {
     out.note("N313", place,

@@ -106,7 +106,7 @@ void ProcessSet::stop_in_spite_of_exceptions() {
     }
   };
   try_to([&] { stop_all(0, SIGTERM); });
-  try_to([&] { stop_all(0, SIGTERM); });  // if only telling of it had failed
+  try_to([&] { stop_all(0, SIGTERM); });  // if only the report of it had failed
   while (any_left()) try_to([&] { wait_for_something(); });
 }
 

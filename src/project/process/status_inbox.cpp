@@ -14,10 +14,10 @@ namespace {
 
 /// A process that was started again and again was heard as several sources. More of them are of no use.
 constexpr int most_starts = 8;
-/// If they are not taken, since the client hangs. The newest count.
+/// The number of texts that are kept if the client hangs and does not take them: the newest ones.
 constexpr std::size_t most_kept = 4096;
 
-/// So that nothing that goes through it needs a deep stack.
+/// The limit of nesting, so that no function needs a deep stack for a text.
 constexpr int deepest = 16;
 
 /// Brackets in brackets, those in strings left out.

@@ -50,7 +50,7 @@ const Snapshot::Link* link_of(const DeploymentWatch& deployment, const WaitingSt
   return found == links.end() ? nullptr : &*found;
 }
 
-/// How one is that is neither on this machine nor heard.
+/// The state of a process that is neither on this machine nor heard.
 std::string unseen(const DeploymentWatch& deployment) {
   return deployment.watches_network() ? "is not heard here" : "is not on this machine";
 }

@@ -157,7 +157,7 @@ std::vector<const verify::PropertyResult*> with_verdict(const verify::Report& re
   return found;
 }
 
-/// false: it does not pass. The first violation is shown; the others have the same cause more often than not.
+/// false: it does not pass. The first violation is shown; the others usually have the same cause.
 bool passes(const Nets& nets, const verify::Report& report, const VerificationGate& gate,
             const fs::path& given, Listener& listener) {
   for (const verify::PropertyResult* property : with_verdict(report, verify::Verdict::unknown))

@@ -115,7 +115,7 @@ class Kept {
   }
 
  private:
-  /// Those that were written first, when there are many more than a user works on.
+  /// Removes the files that were written first, if there are more than a user can work on.
   void remove_old() const {
     constexpr std::size_t most = 1000;
     std::vector<std::pair<fs::file_time_type, fs::path>> all;

@@ -294,7 +294,7 @@ ConditionNames::Chain ConditionNames::read_members(std::size_t begin, std::size_
   return {value, at};
 }
 
-/// false: it is no member, which has been said.
+/// false: it is no member, which has been reported.
 bool ConditionNames::read_member(std::size_t at, Value& value, std::string& path,
                                  const std::vector<Status>*& statuses) {
   const Token& member = tokens_[at];
@@ -343,7 +343,7 @@ void ConditionNames::unknown_member(const Token& member, const Value& value, con
              std::move(hint));
 }
 
-/// At "[". false: there is no such element, which has been said.
+/// At "[". false: there is no such element, which has been reported.
 bool ConditionNames::read_subscript(std::size_t& at, Value& value, const std::string& path) {
   if (value.kind == Is::text) return false;  // left to the compiler
   const Token& open = tokens_[at];

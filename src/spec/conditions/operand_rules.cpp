@@ -155,7 +155,7 @@ bool ConditionOperators::check_signs(const Token& mark, const Value& left, const
   return false;
 }
 
-/// "2 m" beside a duration was said to be no number: it means minutes.
+/// Corrects the message about "2 m" beside a duration, which was reported as no number: it means minutes.
 void ConditionOperators::hint_at_minutes(const Value& left, const Value& right) {
   for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
     const std::string text = text_of(other);

@@ -41,7 +41,7 @@ bool consists_of(const Type& type, const Model& model, IsSuch is_such) {
   if (type.kind != Type::Kind::structure) return false;
   if (!model.structures.has(type.structure)) return true;  // unknown, which is said elsewhere
   return std::ranges::all_of(model.structures[type.structure].fields, [&](const Field& field) {
-    // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
+    // A structure uses only earlier ones, unless there is a cycle, which another function reports.
     const bool cycle = field.type.kind == Type::Kind::structure && field.type.structure >= type.structure;
     return cycle || consists_of(field.type, model, is_such);
   });

@@ -49,7 +49,7 @@ void add_operable(const std::string& field, const Type& type, const Model& model
   if (type.kind == Type::Kind::scalar) all.push_back({field.empty() ? only_field : field, type});
   if (type.kind != Type::Kind::structure || !model.structures.has(type.structure)) return;
   for (const Field& one : model.structures[type.structure].fields) {
-    // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
+    // A structure uses only earlier ones, unless there is a cycle, which another function reports.
     if (one.type.kind == Type::Kind::structure && one.type.structure >= type.structure) continue;
     add_operable(field.empty() ? one.name : field + "." + one.name, one.type, model, all);
   }

@@ -219,7 +219,7 @@ bool Types::holds_floats(const Type& type) const {
   if (type.kind == Type::Kind::scalar)
     return type.scalar == Scalar::float32 || type.scalar == Scalar::float64;
   if (type.kind != Type::Kind::structure || !structures_.has(type.structure)) return false;
-  // A structure uses only earlier ones, unless there is a cycle, which is said elsewhere.
+  // A structure uses only earlier ones, unless there is a cycle, which another function reports.
   return std::ranges::any_of(structures_[type.structure].fields, [&](const Field& field) {
     const bool cycle = field.type.kind == Type::Kind::structure && field.type.structure >= type.structure;
     return !cycle && holds_floats(field.type);

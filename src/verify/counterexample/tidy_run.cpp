@@ -26,7 +26,7 @@ bool one_token_at_most(const explore::Marking& marking) {
   return std::ranges::all_of(marking, [](explore::Tokens tokens) { return tokens <= 1; });
 }
 
-/// A run as a net runs: nullopt if it is none, or a place holds two tokens at some time.
+/// The marking after the run. nullopt: it is no run of the net, or a place holds two tokens at some time.
 std::optional<explore::Marking> end_of(const explore::PtNet& net, const Run& run) {
   explore::Marking marking = net.initial();
   if (!one_token_at_most(marking)) return std::nullopt;

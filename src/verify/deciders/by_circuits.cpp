@@ -100,7 +100,7 @@ Finding channels_flow(const NetUnderAssumption& given, std::vector<std::uint32_t
   return subjects.empty() ? holds() : open(given, std::move(subjects));
 }
 
-/// From places that start a behaviour, selects those of behaviours that follow none that can run.
+/// Selects, from places that start a behaviour, those of behaviours that follow no behaviour that can run.
 std::vector<std::uint32_t> never_following(const NetUnderAssumption& given,
                                            const std::vector<std::uint32_t>& places) {
   std::set<std::string> reached;

@@ -226,7 +226,8 @@ std::vector<std::uint32_t> not_met(const NetUnderAssumption& given, const std::v
   return others;
 }
 
-/// The places that stay empty even if a subsystem and its peers get whatever they want from all others.
+/// The places that stay empty even if a subsystem and its peers get every token that they wait for from all
+/// others.
 std::vector<std::uint32_t> never_met(const NetUnderAssumption& given,
                                      const std::vector<std::uint32_t>& places, const Reducing& how,
                                      const explore::Budget& budget) {

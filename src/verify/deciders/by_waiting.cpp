@@ -44,7 +44,7 @@ class ByWaiting final : public Decider {
                        question.kind == Kind::channels_flow || question.kind == Kind::live_behaviours;
     if (!asked || !facts.under(question.assume).communication.structure) return std::nullopt;
     const NetUnderAssumption& given = facts.under(question.assume);
-    // Whoever has not ended in a dead marking does not go on.
+    // A subsystem that has not ended in a dead marking does not go on.
     const bool refuted = (question.kind == Kind::deadlock_free || question.kind == Kind::goes_on) &&
                          !facts.known_dead_ends(question.assume).empty();
     if (refuted) return std::nullopt;

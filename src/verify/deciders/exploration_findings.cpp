@@ -31,8 +31,8 @@ Finding judged(const Found& found, Found::Kind good) {
   return finding;
 }
 
-/// A search that is not worth more ends after so many markings: rather than time, so that the same run is
-/// shown on every machine. In a large net each marking is more work.
+/// The limit of a search of little worth, in markings and not in time, so that the same run is shown on every
+/// machine. In a large net each marking is more work.
 static std::uint64_t few_markings(const net::Net& net) {
   constexpr std::uint64_t most = 50'000, fewest = 1'000, work = 100'000'000;
   return std::clamp(work / std::max<std::size_t>(net.transitions().size(), 1), fewest, most);

@@ -78,8 +78,9 @@ namespace {
 
 using Run = std::vector<net::TransitionId>;
 
-/// The run, of an abstract net under another assumption, as one of this net. Transitions
-/// that abstract nets add to the subject, of so many transitions, are the same if they have the same name.
+/// A run of the abstract net `from` as a run of the abstract net `to`, which is under another assumption. The
+/// first `common` transitions are those of the subject. The others, which the abstract nets add, are the same
+/// if they have the same name.
 std::optional<Run> translated(const Run& run, const net::Net& from, const net::Net& to, std::size_t common) {
   std::map<std::string, net::TransitionId> added;
   for (auto index = static_cast<std::uint32_t>(common); index < to.transitions().size(); ++index)

@@ -77,7 +77,8 @@ RunningVerdict judge_one(const NetUnderAssumption& given, const net::Hierarchica
   return {};
 }
 
-/// One of several things of which each alone settles it; if all are known not to, it is the opposite.
+/// The verdict on a claim of several parts, each of which alone settles it by the answer `settles`. If all
+/// parts have the opposite answer, so has the claim.
 RunningVerdict first_of(const NetUnderAssumption& given, const net::HierarchicalNet& pages,
                         net::Property::Kind kind, const net::Claim& claim, Answer settles) {
   RunningVerdict last;

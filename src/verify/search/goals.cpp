@@ -114,8 +114,8 @@ class Search {
     return question == Ask::reachable ? Found::Kind::yes : Found::Kind::no;
   }
 
-  /// Components do not know of each other: what each can reach on its own, they can reach together; what is
-  /// out of reach in one stays so whatever the others do.
+  /// Components are independent: what each can reach on its own, they can reach together. What is out of
+  /// reach in one stays so whatever the others do.
   Outcome solve(const Goal& goal, Ask question, const explore::Budget& budget) {
     const bool is_list = goal.what.kind == Formula::Kind::all || goal.what.kind == Formula::Kind::any;
     if (question == Ask::leads_to || !is_list) return look_up(goal, question, budget);

@@ -121,8 +121,8 @@ WaitingCycleSearch::Stops WaitingCycleSearch::all_occupied() const {
   return stops;
 }
 
-/// Cycles without common subsystems, found by going from each stop to one of whoever it waits for; and
-/// single stops that wait for a deserter.
+/// Cycles without common subsystems, found by going from each stop to a stop of the subsystem that it waits
+/// for; and single stops that wait for a subsystem that need not come back.
 std::vector<WaitingCycleSearch::Stops> WaitingCycleSearch::cycles() const {
   std::vector<Stops> found;
   std::vector<bool> passed(stops_of_.size(), false);  // per subsystem

@@ -114,7 +114,7 @@ class Search {
     return question == Ask::reachable ? Found::Kind::yes : Found::Kind::no;
   }
 
-  /// Components are independent: what each can reach on its own, they can reach together. What is out of
+  /// Components are independent: what each can reach on its own, they can reach together, and a goal out of
   /// reach in one stays so whatever the others do.
   Outcome solve(const Goal& goal, Ask question, const explore::Budget& budget) {
     const bool is_list = goal.what.kind == Formula::Kind::all || goal.what.kind == Formula::Kind::any;

@@ -14,8 +14,8 @@ const windowOf = (state: ReactFlowState) => [...state.transform, state.width, st
  * Greys everything except the subsystems of a standstill, and draws which of them waits for which. Flies to
  * them once on request.
  *
- * net: the net of the drawing; the lens is only shown on its own. boxOf: the box of a subsystem; undefined: not drawn, or not yet. names: the boxes of other names, which
- * stay readable.
+ * net: the net of the drawing; the lens is shown only on the net in which the subsystems stand still. boxOf:
+ * the box of a subsystem; undefined: not drawn, or not yet. names: the boxes of other names, which stay readable.
  */
 export function LensOverlay({
   net,

@@ -1,4 +1,4 @@
-/** The request for a run that is made again from its beginning, and shown from some time on. */
+/** The request that repeats a run from its beginning, and shows it from some time on. */
 
 import type { StartRequest } from "./protocol";
 

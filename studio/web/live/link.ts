@@ -6,7 +6,7 @@ export interface Moment {
   time: number;
 }
 
-/** The content of an address: `#view=structure&panel=verify&at=robot.control&recording=run.trec&t=1.5`. */
+/** The part of the page's state that its address holds: `#view=structure&at=robot.control&recording=run.trec&t=1.5`. */
 export interface Linked extends Partial<Pick<ViewState, "view" | "panel" | "selected">> {
   moment?: Moment;
 }

@@ -73,7 +73,7 @@ export class Repairs {
   /** text, verdicts: of the verified text. */
   async find(cause: Cause, text: string, verdicts: readonly Verdict[]): Promise<void> {
     const search = ++this.search;
-    // An edit that leaves another standstill leads to the edits that mend that one.
+    // If another standstill is left after an edit, the edits that mend that one are tried in addition.
     const queue = candidatesFor(cause, readStructure(text)).map((one): Attempt => ({
       ...one,
       edits: 1,

@@ -32,7 +32,7 @@ const rim = { side: 6, top: 6, below: 46 };
  * An arrow for each wait between drawn boxes. Its label is beside it, within the window, and covers as little
  * as possible of boxes, names, arrows and other labels.
  *
- * boxes: of all subsystems involved. unit: of the drawing, as large as a pixel.
+ * boxes: those of all subsystems involved. unit: the size of a pixel in units of the drawing.
  */
 export function arrows(
   waits: readonly Wait[],

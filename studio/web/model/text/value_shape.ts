@@ -1,9 +1,12 @@
 import { accepts, fieldsOf, resolved, type FieldShape, type Schema } from "./schema_fields";
 import type { Value } from "./yaml_text";
 
-/** The form that a value of the specification has. The schema decides, and for alternatives the present value. */
+/** The form of a value of the specification. The schema decides it; among alternatives, the present value does. */
 export type ValueShape =
-  /** One line holds it. `more`: the alternative of several fields, and the one that takes the line. */
+  /**
+   * The value has one line. `more`: the schema also allows a map, and the line becomes the value of its field
+   * `key` (empty: of none). null: the schema allows no map.
+   */
   | { kind: "line"; more: { key: string } | null }
   /** A map whose keys the schema names. */
   | { kind: "record"; fields: readonly FieldShape[] }
@@ -25,7 +28,7 @@ const isMap = (value: unknown): value is Record<string, unknown> =>
 const kindOf = (value: unknown) =>
   value === null || value === undefined ? "null" : Array.isArray(value) ? "array" : isMap(value) ? "object" : typeof value;
 
-/** Whether a value meets a condition of the schema. It judges only what conditions have. */
+/** Whether a value meets a condition of the schema. It knows only the keywords that conditions use. */
 export function meets(schema: Schema, root: Schema, value: unknown): boolean {
   const { type, required = [], properties = {}, anyOf, pattern, const: one } = resolved(schema, root);
   const kinds = typeof type === "string" ? [type] : type;
@@ -40,7 +43,7 @@ export function meets(schema: Schema, root: Schema, value: unknown): boolean {
   );
 }
 
-/** A schema without references and conditions, as they are for a value. */
+/** A schema for one value: without references, and with its conditions decided for that value. */
 export function schemaFor(schema: Schema, root: Schema, value: unknown): Schema {
   const { if: condition, then, else: otherwise, ...rest } = resolved(schema, root);
   if (!condition) return rest;
@@ -105,7 +108,7 @@ const takes = (schema: Schema, root: Schema, value: unknown) => {
 
 const isOpen = ({ additionalProperties }: Schema) => additionalProperties !== false;
 
-/** The schemas of which a value meets one, also those inside of each other. */
+/** The alternatives of a schema for a value, in one list, also if an alternative has alternatives itself. */
 const alternativesOf = ({ anyOf = [] }: Schema, root: Schema, value: unknown): Schema[] =>
   anyOf.flatMap((each) => {
     const one = schemaFor(each, root, value);

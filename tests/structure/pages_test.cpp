@@ -158,6 +158,52 @@ TEST(Pages, ThatSourcesAndMessagesNameExist) {
   EXPECT_GT(names, 200U);
 }
 
+/// The texts between backquotes.
+std::vector<std::string> code_of(const std::string& cell) {
+  static const std::regex code("`([^`]+)`");
+  std::vector<std::string> texts;
+  for (std::sregex_iterator at(cell.begin(), cell.end(), code), end; at != end; ++at)
+    texts.push_back((*at)[1]);
+  return texts;
+}
+
+/// The last word of `Kind::word`, `word` or `word()`; empty: the text is no name of C++ or TypeScript.
+std::string name_in(const std::string& code) {
+  static const std::regex name(R"((?:\w+::)*([A-Za-z_]\w*)(?:\(\))?)");
+  std::smatch found;
+  return std::regex_match(code, found, name) ? found[1].str() : "";
+}
+
+/// The text of a file, or of all files of a folder.
+std::string text_at(const std::string& place) {
+  const fs::path root = TESSERA_SOURCE_DIR;
+  if (!fs::is_directory(root / place)) return text_of(root / place);
+  std::string text;
+  for (const fs::path& file : files_below(place)) text += text_of(root / file);
+  return text;
+}
+
+TEST(Pages, TheAnswersToWhereWouldIChangeXNameWhatIsThere) {
+  static const std::regex row(R"(\| ([^|]*) ?\| ([^|]+) \| ([^|]+) \|)");
+  const std::string page = text_of(fs::path(TESSERA_SOURCE_DIR) / "docs/inside/architecture.md");
+  std::istringstream lines(page.substr(page.find("## Where would I change X?")));
+  std::size_t names = 0;
+  for (std::string line; std::getline(lines, line);) {
+    std::smatch cells;
+    if (!std::regex_match(line, cells, row)) continue;
+    for (const std::string& place : code_of(cells[2])) {
+      EXPECT_TRUE(fs::exists(fs::path(TESSERA_SOURCE_DIR) / place)) << line;
+      for (const std::string& code : code_of(cells[3])) {
+        const std::string name = name_in(code);
+        if (name.empty()) continue;
+        ++names;
+        EXPECT_TRUE(std::regex_search(text_at(place), std::regex("\\b" + name + "\\b"))) << line;
+      }
+    }
+  }
+  EXPECT_GT(names, 12U);
+}
+
 TEST(Pages, AreReadWithTheirHeadingsAndLinks) {
   const Page page = page_of(
       "# A `net`: what's in it\n[a](b.md#c)\n```\n# none\n[no](x)\n```\n## Next\n"

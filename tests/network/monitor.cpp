@@ -54,7 +54,7 @@ Monitor::Markings Monitor::each(Markings markings,
   return all;
 }
 
-/// Whatever the medium may do meanwhile, it may have done.
+/// Adds every marking that firings of the medium alone lead to.
 Monitor::Markings Monitor::with_medium(Markings markings) const {
   while (true) {
     const Markings more = markings | each(markings, [&](Marking marking, Markings& all) {

@@ -20,7 +20,7 @@ namespace tessera {
 /// reading; the value waits in `held_`. The token passes through the word, whose compare-and-swaps acquire
 /// and release, so the slot, `number_` and `from_` need no atomics.
 ///
-/// Threads: as NetworkEnd; serve, hear and next: the service's.
+/// Threads: as NetworkEnd; serve, hear and next are called by the thread of the service alone.
 class ReceivingEnd final : public NetworkEnd {
  public:
   ReceivingEnd(const LinkedChannel& channel, SharedChannel& word, const ValueEncoding& encoding,

@@ -19,7 +19,7 @@ namespace tessera {
 /// looked at `begun_`. If the subsystem has given up and begun another send meanwhile, then either `begun_`
 /// shows it, because the word that was read is one after t2, or the word has changed and the swap fails.
 ///
-/// Threads: as NetworkEnd; serve, hear and next: the service's.
+/// Threads: as NetworkEnd; serve, hear and next are called by the thread of the service alone.
 class SendingEnd final : public NetworkEnd {
  public:
   SendingEnd(const LinkedChannel& channel, SharedChannel& word, const ValueEncoding& encoding,

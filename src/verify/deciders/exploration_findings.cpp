@@ -18,7 +18,6 @@ using explore::Formula;
 using net::PlaceId;
 using net::TransitionId;
 
-/// good: the answer to the question of the search for which the property holds.
 Finding judged(const Found& found, Found::Kind good) {
   Finding finding;
   finding.states = found.states;
@@ -31,8 +30,6 @@ Finding judged(const Found& found, Found::Kind good) {
   return finding;
 }
 
-/// The limit of a search of little worth, in markings and not in time, so that the same run is shown on every
-/// machine. In a large net each marking is more work.
 static std::uint64_t few_markings(const net::Net& net) {
   constexpr std::uint64_t most = 50'000, fewest = 1'000, work = 100'000'000;
   return std::clamp(work / std::max<std::size_t>(net.transitions().size(), 1), fewest, most);
@@ -43,7 +40,6 @@ explore::Limits with_few_markings(const net::Net& net, explore::Limits limits) {
   return limits;
 }
 
-/// Names a behaviour that is never entered as the reason of a wait for what nobody ever does.
 void name_absences(std::vector<SubsystemAtEnd>& waits, const NetUnderAssumption& given) {
   if (!given.communication.structure) return;
   std::map<std::string, const ChannelFlow*> absences;
@@ -65,7 +61,6 @@ void name_absences(std::vector<SubsystemAtEnd>& waits, const NetUnderAssumption&
   }
 }
 
-/// Extends the run, whose violation is final, and adds the waits at its end.
 void explain(Finding& finding, const NetUnderAssumption& given, const explore::Budget& budget) {
   try {
     Explanation explanation = explained(given.abstract, finding.trace, budget);
@@ -77,7 +72,6 @@ void explain(Finding& finding, const NetUnderAssumption& given, const explore::B
   }
 }
 
-/// The finding about several goals. bad: the answer about one of them that is a violation.
 Finding judged_together(const std::vector<Found>& all, Found::Kind bad) {
   Finding finding;
   finding.kind = Finding::Kind::holds;
@@ -107,7 +101,6 @@ static std::optional<bool> holds_after(const net::Net& net, const std::vector<Tr
   return end ? std::optional(explore::holds(formula, compiled, *end)) : std::nullopt;
 }
 
-/// Leaves out the subsystems that have no influence on a marking in which the goal is true.
 void keep_causes(std::vector<TransitionId>& run, const net::Net& net, const Formula& goal) {
   std::vector<PlaceId> places;
   places_of(goal, places);
@@ -115,7 +108,6 @@ void keep_causes(std::vector<TransitionId>& run, const net::Net& net, const Form
   if (holds_after(net, kept, goal) == true) run = std::move(kept);
 }
 
-/// The same for a run after which the goal is out of reach: it is a marked place, or one of several.
 void keep_causes_of_loss(std::vector<TransitionId>& run, const net::Net& net, const Formula& goal,
                          const explore::Budget& budget) {
   const auto is_marked = [](const Formula& one) {
@@ -137,12 +129,10 @@ void keep_causes_of_loss(std::vector<TransitionId>& run, const net::Net& net, co
   if (holds_after(net, kept, goal) == false && never_again(net, kept, fills)) run = std::move(kept);
 }
 
-/// The goals were those of the question's subjects, one by one.
 void name_subjects(Finding& finding, const Question& question) {
   for (std::uint32_t& subject : finding.subjects) subject = question.subjects[subject];
 }
 
-/// The most telling of several answers, all of which have to be `yes`: a `no`, else an `unknown`.
 std::size_t worst_of(const std::vector<Found>& all) {
   const auto at = [&](Found::Kind kind) {
     return static_cast<std::size_t>(std::ranges::find(all, kind, &Found::kind) - all.begin());

@@ -21,7 +21,7 @@ namespace tessera::verify {
 void name_subjects(Finding& finding, const Question& question);
 
 /// Limits of a search of little worth. They count markings and not time, so that the same run is shown on
-/// every machine.
+/// every machine. In a large net each marking is more work, so the limit is lower.
 [[nodiscard]] explore::Limits with_few_markings(const net::Net& net, explore::Limits limits);
 
 /// Names a behaviour that is never entered, if it is the reason why a wait never ends.

@@ -10,12 +10,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
 #include <vector>
 
+#include "../eventually.hpp"
 #include "nets.hpp"
 #include "system/console.hpp"
 #include "test_system.hpp"
@@ -123,26 +125,32 @@ TEST(Service, GetsNoSignOfLifeWhileASubsystemStalls) {
   const Manager there;
   setenv("WATCHDOG_USEC", "30000", 1);
   TestSystem system;
-  Script stalls;
+  Script stalls, stalls_later;
   std::vector<std::string> before, meanwhile;
+  std::atomic<bool> first_is_told{false}, over{false};
   stalls.call = [&](ScriptState& state) {
     if (state.context.iteration < 20) return;
-    // Beats until the alarm is raised, and then none.
-    std::vector<std::string> seen;
-    const auto is_told = [&] {
-      const std::vector<std::string> more = there.all();
-      seen.insert(seen.end(), more.begin(), more.end());
-      return std::any_of(seen.begin(), seen.end(), [](const std::string& message) {
-        return message.find("stalls") != std::string::npos;
+    // Beats until the alarm is raised, and then none until the alarm of the other subsystem.
+    const auto until_told = [&](std::vector<std::string>& seen, const char* name) {
+      return eventually([&] {
+        const std::vector<std::string> more = there.all();
+        seen.insert(seen.end(), more.begin(), more.end());
+        return std::any_of(seen.begin(), seen.end(), [name](const std::string& message) {
+          return message.find("stalls") != std::string::npos && message.find(name) != std::string::npos;
+        });
       });
     };
-    for (int count = 0; count < 10'000 && !is_told(); ++count) usleep(1000);
-    before = seen;
-    usleep(200'000);
-    meanwhile = there.all();
+    EXPECT_TRUE(until_told(before, "robot.control"));
+    first_is_told = true;
+    EXPECT_TRUE(until_told(meanwhile, "robot.later"));
+    over = true;
     state.context.stop("enough");
   };
+  stalls_later.call = [&](ScriptState&) {
+    if (first_is_told) static_cast<void>(eventually([&] { return over.load(); }));
+  };
   system.add("robot.control", nets::alone, stalls, 5ms, 0ms, Kind::control, Policies{.watchdog = 20ms});
+  system.add("robot.later", nets::alone, stalls_later, 5ms, 0ms, Kind::control, Policies{.watchdog = 200ms});
   console::silence(true);
   static_cast<void>(run(system, steady(60s)));
   console::silence(false);

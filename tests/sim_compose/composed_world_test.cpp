@@ -1,7 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cmath>
 #include <set>
 #include <string>
@@ -123,16 +122,13 @@ TEST(Composition, TheSameInputGivesTheSameText) {
   EXPECT_EQ(one->mjcf, other->mjcf);
 }
 
-TEST(Composition, FiftyRoversAreQuicklyThereAndStandStill) {
+TEST(Composition, FiftyRoversAreOneWorld) {
   std::vector<sim::Placement> rovers;
   for (int i = 0; i < 50; ++i)
     rovers.push_back(placed("robot[" + std::to_string(i) + "]", model("rover.xml")));
   const auto on_grid = sim::on_grid({-4, -4, 0, 8, 0.6}, rovers);
   ASSERT_TRUE(on_grid) << on_grid.problem();
-  const auto start = std::chrono::steady_clock::now();
   const sim::ComposedWorld world = loaded(*on_grid);
-  // 0.1 s on an idle processor.
-  EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(10));
   const int actuators = 100, bodies_of_rover = 3;
   EXPECT_EQ(world.model->nu, actuators);
   EXPECT_EQ(world.model->nbody, 2 + 50 * bodies_of_rover);

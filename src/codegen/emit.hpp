@@ -22,7 +22,7 @@ namespace tessera::codegen {
 [[nodiscard]] File format_style();
 
 /// tessera::tables_version that the output is made for; the generated code states it.
-inline constexpr int tables_version_made = 4;
+inline constexpr int tables_version_made = 5;
 
 /// "robot.control.cpp": not "control.cpp", which is the user's, so that a breakpoint there means one line.
 [[nodiscard]] std::string source_name(const Unit& unit);

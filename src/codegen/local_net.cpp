@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <span>
 #include <string_view>
 #include <unordered_map>
+#include <utility>
 
 #include "codegen/cpp_text.hpp"
 #include "codegen/project.hpp"
-#include "tessera/transition_role.hpp"
+#include "tessera/net_roles.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -22,51 +24,18 @@ struct Parts {
     for (std::uint32_t id = 0; id < net.places().size(); ++id)
       if (const net::SubsystemId owner = net.places()[id].subsystem; owner.valid())
         places[owner].push_back({id});
+    number_in_memory.resize(net.places().size());
+    std::vector<std::uint32_t> count(net.parts().channels.size());
+    for (std::uint32_t id = 0; id < net.places().size(); ++id)
+      if (net.places()[id].fused()) number_in_memory[id] = count[net.places()[id].channel.value]++;
     for (std::uint32_t id = 0; id < net.transitions().size(); ++id)
       if (const net::SubsystemId owner = net.transitions()[id].subsystem; owner.valid())
         transitions[owner].push_back({id});
   }
   Numbered<net::SubsystemId, std::vector<PlaceId>> places;
   Numbered<net::SubsystemId, std::vector<TransitionId>> transitions;
+  std::vector<std::uint32_t> number_in_memory;  ///< per place: of a fused one in the memory of its channel
 };
-
-/// The local name of a transition that a subsystem executes.
-Step step_of(const net::Transition& transition) {
-  using Role = net::TransitionRole;
-  switch (transition.condition.kind) {
-    case net::Condition::Kind::go_on:
-      return Step::go_on;
-    case net::Condition::Kind::terminal:
-      return Step::terminal;
-    case net::Condition::Kind::error:
-      return Step::error;
-    case net::Condition::Kind::elapsed:
-      return Step::timeout;
-    case net::Condition::Kind::none:
-    case net::Condition::Kind::next:
-      break;
-  }
-  switch (transition.role) {
-    case Role::start:
-      return Step::start;
-    case Role::leave:
-      return Step::leave;
-    case Role::begin_sending:
-      return Step::begin_sending;
-    case Role::end_sending:
-      return Step::end_sending;
-    case Role::begin_receiving:
-      return Step::begin_receiving;
-    case Role::end_receiving:
-      return Step::end_receiving;
-    case Role::overwrite:
-      return Step::overwrite;
-    case Role::skip:
-      return Step::skip;
-    default:
-      return transition.block.valid() ? Step::transfer : Step::page;
-  }
-}
 
 /// Extracts the net of one instance.
 class Extraction {
@@ -74,6 +43,7 @@ class Extraction {
   Extraction(const net::Net& net, const spec::Model& model, const Parts& parts, spec::InstanceId instance)
       : net_(net),
         model_(model),
+        parts_(parts),
         places_(parts.places[instance]),
         transitions_(parts.transitions[instance]),
         prefix_(model.instance_path(instance).size() + 1),
@@ -81,18 +51,42 @@ class Extraction {
 
   LocalNet result() {
     find_ports();
-    for (const PlaceId id : places_) {
-      const std::string name(local(net_[id].name));
-      if (net_[id].is(net::Layer::subsystem, net::PlaceRole::input)) local_.in = name;
-      if (net_[id].is(net::Layer::subsystem, net::PlaceRole::output)) local_.out = name;
-      local_.places.push_back({name, net_[id].behaviour, operation(id)});
-    }
+    for (const PlaceId id : places_)
+      rows_.push_back({id, {std::string(local(net_[id].name)), net_[id].behaviour, operation(id)}});
+    for (const TransitionId id : transitions_) latch(id, net_[id].condition);
+    number_places();
     for (const TransitionId id : transitions_) add_transition(id);
     return std::move(local_);
   }
 
  private:
+  struct PlaceRow {
+    PlaceId id;
+    LocalNet::Place place;
+  };
+
   [[nodiscard]] std::string_view local(std::string_view name) const { return name.substr(prefix_); }
+
+  void number_places() {
+    std::vector<PlaceRow> ordered = rows_;
+    std::ranges::stable_sort(ordered, {}, [](const PlaceRow& row) {
+      const net::BehaviourId behaviour = row.place.behaviour;
+      return std::pair(behaviour.valid() ? behaviour.value + 1 : 0, row.place.does.empty());
+    });
+    numbers_.resize(rows_.size());
+    for (std::size_t number = 0; number < ordered.size(); ++number) {
+      const PlaceId id = ordered[number].id;
+      numbers_[index_of(id)] = number;
+      if (net_[id].is(net::Layer::subsystem, PlaceRole::input)) local_.in = number;
+      if (net_[id].is(net::Layer::subsystem, PlaceRole::output)) local_.out = number;
+      local_.places.push_back(std::move(ordered[number].place));
+    }
+  }
+
+  /// Places of one instance keep the order of the flat net, so their ids are sorted.
+  [[nodiscard]] std::size_t index_of(PlaceId id) const {
+    return static_cast<std::size_t>(std::ranges::lower_bound(places_, id) - places_.begin());
+  }
 
   /// A block touches the fused places of its channel. An input and an output of one name get told apart.
   void find_ports() {
@@ -116,12 +110,11 @@ class Extraction {
     return std::ranges::find(subsystem_.outputs, name, &spec::Field::name) != subsystem_.outputs.end();
   }
 
-  [[nodiscard]] const std::string& port(net::ChannelId channel, bool sends) const {
-    return std::ranges::find_if(local_.ports,
-                                [&](const LocalNet::Port& candidate) {
-                                  return candidate.channel == channel && candidate.sends == sends;
-                                })
-        ->name;
+  [[nodiscard]] std::size_t port(net::ChannelId channel, bool sends) const {
+    const auto found = std::ranges::find_if(local_.ports, [&](const LocalNet::Port& candidate) {
+      return candidate.channel == channel && candidate.sends == sends;
+    });
+    return static_cast<std::size_t>(found - local_.ports.begin());
   }
 
   [[nodiscard]] std::string operation(PlaceId id) const {
@@ -130,12 +123,10 @@ class Extraction {
       case net::Operation::Kind::none:
         return {};
       case net::Operation::Kind::transition_function:
-        return fmt::format("tessera::calls({})",
-                           string_literal(subsystem_.behaviours[place.operation.behaviour].name));
+        return fmt::format("tessera::calls({})", place.operation.behaviour.value);
       case net::Operation::Kind::next_iteration:
         if (!subsystem_.receive_first) return "tessera::counts()";
-        return fmt::format("tessera::begins({})",
-                           string_literal(subsystem_.behaviours[place.behaviour].name));
+        return fmt::format("tessera::begins({})", place.behaviour.value);
       case net::Operation::Kind::write:
         return transfer("writes", place.operation, true);
       case net::Operation::Kind::read:
@@ -149,7 +140,7 @@ class Extraction {
     // Each side of a channel between processes has a memory of its own, which is all that it sees.
     const bool crosses = model_.crosses_processes(model_.channels[operation.channel]);
     const std::string slot = crosses || operation.slot == 0 ? "" : fmt::format(", {}", operation.slot + 1);
-    return fmt::format("tessera::{}({}{})", what, string_literal(port(operation.channel, sends)), slot);
+    return fmt::format("tessera::{}({}{})", what, port(operation.channel, sends), slot);
   }
 
   void add_transition(TransitionId id) {
@@ -158,17 +149,30 @@ class Extraction {
     const bool sends = transition.block.valid() && net_.parts()[transition.block].sends;
     row.guard = guard(id, sends);
     row.role = role(id, sends);
-    for (const net::Arc& arc : net_.preset(id)) row.inputs.push_back(arc_end(arc.place, sends));
-    for (const net::Arc& arc : net_.postset(id)) row.outputs.push_back(arc_end(arc.place, sends));
-    latch(id, transition.condition);
+    row.inputs = ends(net_.preset(id), sends, row.in_words);
+    row.in_words += " -> ";
+    row.outputs = ends(net_.postset(id), sends, row.in_words);
     local_.transitions.push_back(std::move(row));
   }
 
-  [[nodiscard]] std::string arc_end(PlaceId id, bool sends) const {
-    const net::Place& place = net_[id];
-    if (!place.fused()) return std::string(local(place.name));
-    const std::size_t state = net_.parts()[place.channel].size() + 1;
-    return fmt::format("{}/{}", port(place.channel, sends), std::string_view(place.name).substr(state));
+  /// The ends of arcs, which are also added to `in_words` by their names.
+  [[nodiscard]] std::vector<std::string> ends(std::span<const net::Arc> arcs, bool sends,
+                                              std::string& in_words) const {
+    std::vector<std::string> all;
+    for (const net::Arc& arc : arcs) {
+      const net::Place& place = net_[arc.place];
+      if (!all.empty()) in_words += ", ";
+      if (!place.fused()) {
+        all.push_back(std::to_string(numbers_[index_of(arc.place)]));
+        in_words += local(place.name);
+        continue;
+      }
+      const std::size_t at = port(place.channel, sends);
+      all.push_back(fmt::format("tessera::memory({}, {})", at, parts_.number_in_memory[arc.place.value]));
+      in_words += local_.ports[at].name + '/';
+      in_words += std::string_view(place.name).substr(net_.parts()[place.channel].size() + 1);
+    }
+    return all;
   }
 
   [[nodiscard]] std::string guard(TransitionId id, bool sends) const {
@@ -186,20 +190,19 @@ class Extraction {
         return fmt::format("tessera::if_next({})", condition.entry.value());
       case net::Condition::Kind::elapsed:
         if (net_.channel_of(id).valid()) return "tessera::if_elapsed";
-        return fmt::format("tessera::if_elapsed_at({})", string_literal(port(condition.channel, sends)));
+        return fmt::format("tessera::if_elapsed_at({})", port(condition.channel, sends));
     }
     return {};
   }
 
   [[nodiscard]] std::string role(TransitionId id, bool sends) const {
     const net::Transition& transition = net_[id];
-    const Step step = step_of(transition);
     const net::BehaviourId behaviour =
-        step == Step::leave ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
-    std::string text = fmt::format("tessera::Step::{}", name_of(step));
-    if (behaviour.valid()) text += ", " + string_literal(subsystem_.behaviours[behaviour].name);
+        transition.role == Step::leave ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
+    std::string text = fmt::format("tessera::Step::{}", name_of(transition.role));
+    if (behaviour.valid()) text += fmt::format(", {}", behaviour.value);
     if (transition.block.valid())
-      text += ", " + string_literal(port(net_.parts()[transition.block].channel, sends));
+      text += fmt::format(", {}", port(net_.parts()[transition.block].channel, sends));
     return '{' + text + '}';
   }
 
@@ -211,20 +214,20 @@ class Extraction {
     if (!decides && condition.kind != Kind::next) return;
     for (const net::Arc& arc : net_.preset(id)) {
       if (net_[arc.place].fused()) continue;
-      // Places of one instance keep the order of the flat net, so their ids are sorted.
-      const auto found = std::ranges::lower_bound(places_, arc.place);
-      LocalNet::Place& place = local_.places[static_cast<std::size_t>(found - places_.begin())];
-      place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes",
-                               string_literal(subsystem_.behaviours[place.behaviour].name));
+      LocalNet::Place& place = rows_[index_of(arc.place)].place;
+      place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes", place.behaviour.value);
     }
   }
 
   const net::Net& net_;
   const spec::Model& model_;
+  const Parts& parts_;
   const std::vector<PlaceId>& places_;
   const std::vector<TransitionId>& transitions_;
   std::size_t prefix_;
   const spec::Subsystem& subsystem_;
+  std::vector<PlaceRow> rows_;        // in the order of the flat net
+  std::vector<std::size_t> numbers_;  // of these rows in the table
   LocalNet local_;
 };
 
@@ -234,10 +237,9 @@ std::string identity(const LocalNet& net) {
   for (const LocalNet::Port& port : net.ports) ((text += port.name) += port.sends ? '>' : '<') += '\n';
   for (const LocalNet::Place& place : net.places) (((text += place.name) += ' ') += place.does) += '\n';
   for (const LocalNet::Transition& transition : net.transitions) {
-    (((text += transition.name) += ' ') += transition.guard) += transition.role;
-    for (const std::string& place : transition.inputs) (text += ' ') += place;
-    text += " ->";
-    for (const std::string& place : transition.outputs) (text += ' ') += place;
+    ((((text += transition.name) += ' ') += transition.guard) += transition.role) += transition.in_words;
+    for (const std::vector<std::string>* side : {&transition.inputs, &transition.outputs})
+      for (const std::string& place : *side) (text += ' ') += place;
     text += '\n';
   }
   return text;
@@ -255,9 +257,9 @@ LocalNets take_apart(const verify::VerifiedNet& net, const spec::Model& model,
     std::unordered_map<std::string, std::uint32_t> known;
     for (const spec::InstanceId instance : unit.instances) {
       LocalNet local = Extraction(net.net(), model, parts, instance).result();
-      for (const LocalNet::Port& port : local.ports) {
-        ChannelPorts& ends = all.of_channel[port.channel];
-        (port.sends ? ends.from : ends.to) = port.name;
+      for (std::size_t port = 0; port < local.ports.size(); ++port) {
+        ChannelPorts& ends = all.of_channel[local.ports[port].channel];
+        (local.ports[port].sends ? ends.from : ends.to) = port;
       }
       const auto [variant, is_new] =
           known.emplace(identity(local), static_cast<std::uint32_t>(variants.nets.size()));

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -9,8 +10,8 @@
 
 namespace tessera::codegen {
 
-/// The part of the flat net that one subsystem executes, as in tessera::SubsystemNet: names do not include
-/// the path of the subsystem.
+/// The part of the flat net that one subsystem executes, as in tessera::SubsystemNet: rows are numbered in
+/// the order in which they stand here, and names do not include the path of the subsystem.
 struct LocalNet {
   struct Port {
     std::string name, buffer;
@@ -21,19 +22,20 @@ struct LocalNet {
   struct Place {
     std::string name;
     net::BehaviourId behaviour{};  ///< none: it belongs to the subsystem itself
-    std::string does{};            ///< C++: "tessera::calls(\"follow\")"; empty: nothing
+    std::string does{};            ///< C++: "tessera::calls(1)"; empty: nothing
   };
   struct Transition {
     std::string name;
     net::BehaviourId behaviour{};
-    std::vector<std::string> inputs{}, outputs{};
-    std::string guard{};  ///< C++: "tessera::if_next(1)"; empty: none
-    std::string role{};   ///< C++: "{tessera::Step::go_on, \"follow\"}"
+    std::vector<std::string> inputs{}, outputs{};  ///< C++: "4", "tessera::memory(0, 1)"
+    std::string guard{};                           ///< C++: "tessera::if_next(1)"; empty: none
+    std::string role{};                            ///< C++: "{tessera::Step::go_on, 1}"
+    std::string in_words{};                        ///< "follow.snd.in, motion/empty -> follow.snd.motion.2"
   };
   std::vector<Port> ports;
-  std::vector<Place> places;
+  std::vector<Place> places;  ///< behaviour by behaviour, in each those without operation last
   std::vector<Transition> transitions;
-  std::string in, out;  ///< places
+  std::size_t in = 0, out = 0;  ///< places
 };
 
 /// The nets that the instances of one unit execute. Most instances share one; those at the end of a fleet may
@@ -43,9 +45,9 @@ struct NetVariants {
   std::vector<std::uint32_t> of_instance;  ///< per instance of the unit, into nets
 };
 
-/// The two ends of a channel: for each the port of its block, or "" if no behaviour uses it.
+/// The two ends of a channel: for each the number of the port of its block; none: no behaviour uses it.
 struct ChannelPorts {
-  std::string from, to;
+  std::optional<std::size_t> from, to;
 };
 
 struct LocalNets {

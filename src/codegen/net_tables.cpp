@@ -15,12 +15,11 @@ namespace {
 struct Row {
   net::BehaviourId behaviour{};  ///< that it belongs to; none: the subsystem itself
   std::vector<std::string> cells;
+  std::string comment{};  ///< behind it
 };
 
-std::string list(const std::vector<std::string>& names) {
-  std::string out;
-  for (const std::string& name : names) out += (out.empty() ? "" : ", ") + string_literal(name);
-  return '{' + out + '}';
+std::string list(const std::vector<std::string>& ends) {
+  return fmt::format("{{{}}}", fmt::join(ends, ", "));
 }
 
 Row row(const LocalNet::Place& place) { return {place.behaviour, {string_literal(place.name), place.does}}; }
@@ -28,7 +27,8 @@ Row row(const LocalNet::Place& place) { return {place.behaviour, {string_literal
 Row row(const LocalNet::Transition& transition) {
   return {transition.behaviour,
           {string_literal(transition.name), list(transition.inputs), list(transition.outputs),
-           transition.guard.empty() ? "{}" : transition.guard, transition.role}};
+           transition.guard.empty() ? "{}" : transition.guard, transition.role},
+          transition.in_words};
 }
 
 Row row(const LocalNet::Port& port) {
@@ -73,25 +73,34 @@ std::string line(const Row& row, const Widths& widths) {
   const std::size_t last = cells_used(row) - 1;
   for (std::size_t cell = 0; cell < last; ++cell)
     out += fmt::format("{:<{}} ", row.cells[cell] + ',', widths[cell] + 1);
-  return out += row.cells[last] + "},\n";
+  const std::string end = row.cells[last] + "},";
+  if (row.comment.empty()) return out += end + '\n';
+  return out += fmt::format("{:<{}}  // {}\n", end, widths[last] + 2, row.comment);
 }
 
 std::string list_of(const Row& row) {
   return fmt::format("{{{}}}", fmt::join(std::span(row.cells).first(cells_used(row)), ", "));
 }
 
-/// Rows of a single cell share lines.
+/// Rows of a single cell share lines, with the comments of the first and the last.
 std::string packed(const std::vector<Row>& rows) {
-  std::string out, current;
+  std::string out, current, first, last;
+  const auto end_line = [&] {
+    if (current.empty()) return;
+    out += "   " + current;
+    if (!first.empty()) out += "  // " + (first == last ? first : first + " to " + last);
+    out += '\n';
+    current.clear();
+  };
   for (const Row& each : rows) {
     const std::string cell = fmt::format(" {{{}}},", each.cells.front());
-    if (!current.empty() && 3 + current.size() + cell.size() > column_limit) {
-      out += "   " + current + '\n';
-      current.clear();
-    }
+    if (3 + current.size() + cell.size() > column_limit) end_line();
+    if (current.empty()) first = each.comment;
+    last = each.comment;
     current += cell;
   }
-  return current.empty() ? out : out + "   " + current + '\n';
+  end_line();
+  return out;
 }
 
 std::string group_lines(Rows rows) {
@@ -160,8 +169,9 @@ std::string net_tables(const Project& project, const Unit& unit, const NetVarian
     std::vector<Row> ports;
     for (const LocalNet::Port& port : net.ports) ports.push_back(row(port));
     out += table(project, *unit.subsystem, "constexpr tessera::Port ports" + suffix, ports);
-    out += table(project, *unit.subsystem, "constexpr tessera::Place places" + suffix,
-                 grouped(net.places, *unit.subsystem));
+    std::vector<Row> places = grouped(net.places, *unit.subsystem);
+    for (std::size_t place = 0; place < places.size(); ++place) places[place].comment = std::to_string(place);
+    out += table(project, *unit.subsystem, "constexpr tessera::Place places" + suffix, places);
     // Not constexpr: GCC 12 rejects constant initializer_lists in aggregates.
     out += table(project, *unit.subsystem, "const tessera::Transition transitions" + suffix,
                  grouped(net.transitions, *unit.subsystem));
@@ -176,7 +186,7 @@ std::string net_definitions(const NetVariants& variants) {
     const std::string ports = variants.nets[variant].ports.empty() ? "{}" : "ports" + suffix;
     out += fmt::format(
         "const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}, {2}, {3}}};\n",
-        suffix, ports, string_literal(variants.nets[variant].in), string_literal(variants.nets[variant].out));
+        suffix, ports, variants.nets[variant].in, variants.nets[variant].out);
   }
   return out;
 }

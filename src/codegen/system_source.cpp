@@ -2,16 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "codegen/cpp_text.hpp"
 #include "codegen/driver_tables.hpp"
 #include "codegen/emit.hpp"
 #include "codegen/net_tables.hpp"
+#include "codegen/shared_tables.hpp"
 
 namespace tessera::codegen {
 namespace {
-
-using spec::Mode;
 
 constexpr std::array kinds{"control", "receptor", "effector"};
 constexpr std::array verdicts{"holds", "violated", "unknown"};
@@ -75,46 +75,29 @@ std::string instance_rows(const Project& project) {
   return fmt::to_string(fmt::join(rows, ""));
 }
 
-std::string memory_of(const spec::Model& model, const spec::Channel& channel) {
-  if (channel.model.valid()) return "models::" + model.models[channel.model].name;
-  if (model.crosses_processes(channel)) {
-    if (channel.send == Mode::blocking && !channel.send_timeout) return "tessera::networked_single";
-    const bool exchanged = channel.send != Mode::blocking && channel.receive != Mode::blocking;
-    return exchanged ? "tessera::networked_exchange" : "tessera::networked";
-  }
-  if (channel.send == Mode::blocking) return "tessera::acknowledged";
-  return channel.receive == Mode::blocking ? "tessera::buffered" : "tessera::asynchronous";
-}
-
-/// The shared places of the author's communication models.
-std::string models_table(const spec::Model& model) {
-  std::string rows;
-  for (const spec::CommunicationModel& one : model.models) {
-    std::string places;
-    for (const spec::SharedPlace& place : one.shared)
-      places += fmt::format("{}{{\"{}\", {}}}", places.empty() ? "" : ", ", place.name, place.tokens);
-    rows += fmt::format("[[maybe_unused]] constexpr tessera::FusedPlace {}[] = {{{}}};\n", one.name, places);
-  }
-  return rows.empty() ? rows : fmt::format("namespace models {{\n{}}}  // namespace models\n", rows);
-}
-
 /// A channel that no behaviour uses has no places and no row.
-std::string channel_rows(const spec::Model& model, const Numbered<spec::ChannelId, ChannelPorts>& ports) {
+std::string channel_rows(const spec::Model& model, const Numbered<spec::ChannelId, ChannelPorts>& ports,
+                         const SharedTables& tables) {
   std::string rows;
+  const auto end = [](spec::InstanceId instance, std::optional<std::size_t> port) {
+    return port ? fmt::format("{{{}, {}}}", instance.value, *port) : fmt::format("{{{}}}", instance.value);
+  };
   for (const spec::ChannelId at : model.channels.ids()) {
     const spec::Channel& channel = model.channels[at];
-    if (ports[at].from.empty() && ports[at].to.empty()) continue;
-    std::string times;
+    if (!ports[at].from && !ports[at].to) continue;
+    const SharedTables::Names& its = tables.of_channel[at];
     const std::uint32_t slots = channel.model.valid() ? model.models[channel.model].slots : 1;
-    const auto time = [](const std::optional<spec::Duration>& timeout) {
-      return ", " + duration(timeout.value_or(spec::Duration{0}));
-    };
-    if (channel.send_timeout || channel.receive_timeout || slots > 1) times = time(channel.send_timeout);
-    if (channel.receive_timeout || slots > 1) times += time(channel.receive_timeout);
-    if (slots > 1) times += fmt::format(", {}", slots);
-    rows += fmt::format("    {{\"{}\", {{{}, \"{}\"}}, {{{}, \"{}\"}}, {}{}}},\n",
-                        model.channel_name(channel), channel.from.instance.value, ports[at].from,
-                        channel.to.instance.value, ports[at].to, memory_of(model, channel), times);
+    const bool all = !its.medium.empty(), until_slots = all || slots > 1;
+    std::string more;
+    if (channel.send_timeout || channel.receive_timeout || until_slots)
+      more = ", " + duration(channel.send_timeout.value_or(spec::Duration{0}));
+    if (channel.receive_timeout || until_slots)
+      more += ", " + duration(channel.receive_timeout.value_or(spec::Duration{0}));
+    if (until_slots) more += fmt::format(", {}", slots);
+    if (all) more += ", " + its.medium;
+    rows += fmt::format("    {{\"{}\", {}, {}, {}{}}},\n", model.channel_name(channel),
+                        end(channel.from.instance, ports[at].from), end(channel.to.instance, ports[at].to),
+                        its.places, more);
   }
   return rows;
 }
@@ -207,6 +190,7 @@ File system_source(const Project& project, const Numbered<spec::ChannelId, Chann
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
   const DriverTables drivers = driver_tables(project);
+  const SharedTables shared = shared_tables(project.net.net());
   std::set<std::string> project_headers = drivers.headers;
   project_headers.insert(string_literal("subsystems.hpp"));
   return {"system.cpp",
@@ -224,13 +208,15 @@ namespace {{
 using namespace std::chrono_literals;
 
 // clang-format off
-{4}{5}
-{6}
+{5}
+{4}{6}
+{17}
 {7}{8}{9}
 {15}constexpr tessera::System whole{{
     .tables_version = {2}, .name = "{3}",
     .net_hash = "{10}", .verification_hash = "{11}",
     .verdicts = verdicts, .instances = instances, .channels = channels,
+    .system_page = &system_page, .agent_page = &agent_page,
     .real_drivers = {13}, .simulated_drivers = {14}{16}}};
 // clang-format on
 
@@ -241,14 +227,14 @@ const tessera::System& system() {{ return whole; }}
 }}  // namespace tessera_generated
 )",
                       project.banner(), include_block(project_headers), tables_version_made, model.system,
-                      models_table(model), table("Instance", "instances", instance_rows(project)),
-                      table("Channel", "channels", channel_rows(model, ports)), drivers.options,
+                      shared.channels, table("Instance", "instances", instance_rows(project)),
+                      table("Channel", "channels", channel_rows(model, ports, shared)), drivers.options,
                       driver_table("real_drivers", drivers.real) +
                           driver_table("simulated_drivers", drivers.simulated),
                       table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
                       report.verification_hash, drivers.classes, drivers.real.empty() ? "{}" : "real_drivers",
                       drivers.simulated.empty() ? "{}" : "simulated_drivers", process_tables(model),
-                      process_members(model))};
+                      process_members(model), shared.pages)};
 }
 
 File main_source(const Project& project) {

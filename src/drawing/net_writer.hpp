@@ -151,10 +151,7 @@ class NetWriter : public JsonWriter {
     });
   }
 
-  void role(net::TransitionRole role) {
-    const char* const name = net::name_of(role);
-    name == nullptr ? null() : value(std::string_view(name));
-  }
+  void role(Step role) { role == Step::other ? null() : value(name_of(role)); }
 
   void arcs(std::span<const net::Arc> arcs) {
     list(arcs, [&](const net::Arc& arc) {

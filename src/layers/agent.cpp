@@ -13,8 +13,8 @@ net::PageId draw_agent(Draft& draft, net::PageId parent, net::AgentId id) {
   for (const spec::DefinedSubsystemId subsystem : draft.model.definition_of(agent).subsystems.ids())
     subsystems.push_back(sheet.page(draw_subsystem(draft, sheet.id(), agent.instance(subsystem))));
   const std::uint32_t out = sheet.output();
-  sheet.transition(words::start, {in}, subsystems).role = net::TransitionRole::start;
-  sheet.transition(words::end, subsystems, {out}).role = net::TransitionRole::end;
+  sheet.transition(words::start, {in}, subsystems).role = Step::start_agent;
+  sheet.transition(words::end, subsystems, {out}).role = Step::end_agent;
   return sheet.finish(in, out);
 }
 

@@ -76,7 +76,6 @@ Ending ending(const spec::Behaviour& behaviour) {
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
                            net::BehaviourId id) {
   using net::Operation;
-  using net::TransitionRole;
   const spec::Subsystem& owner = draft.model.subsystem(subsystem);
   const spec::Behaviour& behaviour = owner.behaviours[id];
   Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, subsystem, behaviour.span);
@@ -98,14 +97,18 @@ net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId su
     return given.kind == spec::Condition::Kind::never ? behaviour.span : given.span;
   };
   sheet.transition(words::first_step, {in}, {early}).role =
-      receives_first ? TransitionRole::begin_receiving : TransitionRole::begin_sending;
+      receives_first ? Step::begin_receiving : Step::begin_sending;
   sheet.transition(words::second_step, {early}, {step}).role =
-      receives_first ? TransitionRole::end_receiving : TransitionRole::end_sending;
+      receives_first ? Step::end_receiving : Step::end_sending;
   sheet.transition(words::third_step, {step}, {late}).role =
-      receives_first ? TransitionRole::begin_sending : TransitionRole::begin_receiving;
-  sheet.transition(words::go_on, {late}, {in}, std::move(go_on));
-  sheet.transition(words::terminal, {late}, {out}, std::move(terminal)).span = where(behaviour.terminal);
-  sheet.transition(words::error, {late}, {out}, std::move(error)).span = where(behaviour.error);
+      receives_first ? Step::begin_sending : Step::begin_receiving;
+  sheet.transition(words::go_on, {late}, {in}, std::move(go_on)).role = Step::go_on;
+  net::PageTransition& ends = sheet.transition(words::terminal, {late}, {out}, std::move(terminal));
+  ends.role = Step::terminal;
+  ends.span = where(behaviour.terminal);
+  net::PageTransition& fails = sheet.transition(words::error, {late}, {out}, std::move(error));
+  fails.role = Step::error;
+  fails.span = where(behaviour.error);
   return sheet.finish(in, out);
 }
 

@@ -93,39 +93,39 @@ const CommunicationModel& model_of(const spec::Model& model, const spec::Channel
                   static_cast<std::size_t>(model.crosses_processes(channel)) << 4U];
 }
 
-net::PlaceRole role_of(const spec::SharedPlace& place) {
+PlaceRole role_of(const spec::SharedPlace& place) {
   struct Known {
     std::string_view name;
     std::uint32_t tokens;
-    net::PlaceRole role;
+    PlaceRole role;
   };
-  static const std::array<Known, 9> known{{{words::lock, 1, net::PlaceRole::lock},
-                                           {words::empty, 1, net::PlaceRole::empty},
-                                           {words::full, 0, net::PlaceRole::full},
-                                           {words::acknowledged, 0, net::PlaceRole::acknowledged},
-                                           {words::idle, 1, net::PlaceRole::idle},
-                                           {words::sent, 0, net::PlaceRole::sent},
-                                           {words::more, 0, net::PlaceRole::more},
-                                           {words::sent_memory, 1, net::PlaceRole::sent_memory},
-                                           {words::received_memory, 1, net::PlaceRole::received_memory}}};
+  static const std::array<Known, 9> known{{{words::lock, 1, PlaceRole::lock},
+                                           {words::empty, 1, PlaceRole::empty},
+                                           {words::full, 0, PlaceRole::full},
+                                           {words::acknowledged, 0, PlaceRole::acknowledged},
+                                           {words::idle, 1, PlaceRole::idle},
+                                           {words::sent, 0, PlaceRole::sent},
+                                           {words::more, 0, PlaceRole::more},
+                                           {words::sent_memory, 1, PlaceRole::sent_memory},
+                                           {words::received_memory, 1, PlaceRole::received_memory}}};
   const auto found = std::ranges::find(known, place.name, &Known::name);
-  return found != known.end() && found->tokens == place.tokens ? found->role : net::PlaceRole::none;
+  return found != known.end() && found->tokens == place.tokens ? found->role : PlaceRole::none;
 }
 
-net::PlaceRole role_of(const ModelSide::Place& place) {
-  return place.name == words::waiting ? net::PlaceRole::waiting : net::PlaceRole::none;
+PlaceRole role_of(const ModelSide::Place& place) {
+  return place.name == words::waiting ? PlaceRole::waiting : PlaceRole::none;
 }
 
-net::TransitionRole role_of(const spec::MediumTransition& transition) {
-  using Role = net::TransitionRole;
-  if (transition.name == words::replace) return Role::replace;
-  if (transition.name == words::deliver_older) return Role::deliver_older;
-  return transition.name == words::lose_older ? Role::lose_older : Role::deliver;
+Step role_of(const spec::MediumTransition& transition) {
+  if (transition.name == words::replace) return Step::replace;
+  if (transition.name == words::deliver_older) return Step::deliver_older;
+  return transition.name == words::lose_older ? Step::lose_older : Step::deliver;
 }
 
-net::TransitionRole role_of(const ModelSide::Transition& transition) {
-  if (transition.name == words::overwrite) return net::TransitionRole::overwrite;
-  return transition.name == words::skip ? net::TransitionRole::skip : net::TransitionRole::none;
+Step role_of(const ModelSide::Transition& transition) {
+  if (transition.elapsed) return Step::timeout;
+  if (transition.name == words::overwrite) return Step::overwrite;
+  return transition.name == words::skip ? Step::skip : Step::transfer;
 }
 
 }  // namespace tessera::layers

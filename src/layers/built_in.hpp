@@ -15,9 +15,9 @@ namespace tessera::layers {
 
 /// The role of an element of a communication model. Roles are those of the built-in models; a model of the
 /// author may have the same form. A shared place has a role only if it starts with the tokens of that role.
-[[nodiscard]] net::PlaceRole role_of(const spec::SharedPlace& place);
-[[nodiscard]] net::PlaceRole role_of(const spec::ModelSide::Place& place);
-[[nodiscard]] net::TransitionRole role_of(const spec::ModelSide::Transition& transition);
-[[nodiscard]] net::TransitionRole role_of(const spec::MediumTransition& transition);
+[[nodiscard]] PlaceRole role_of(const spec::SharedPlace& place);
+[[nodiscard]] PlaceRole role_of(const spec::ModelSide::Place& place);
+[[nodiscard]] Step role_of(const spec::ModelSide::Transition& transition);
+[[nodiscard]] Step role_of(const spec::MediumTransition& transition);
 
 }  // namespace tessera::layers

@@ -56,8 +56,7 @@ class BlockPen {
       : draft_(draft), sheet_(sheet), direction_(direction) {}
 
   /// Draws the side of the channel's model between the given input place and the output place it returns.
-  std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name,
-                     net::PlaceRole out_role) {
+  std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name, PlaceRole out_role) {
     sheet_.in_block(block.id);
     const spec::Channel& channel = draft_.model.channels[block.channel];
     const spec::CommunicationModel& model = model_of(draft_.model, channel);
@@ -115,7 +114,7 @@ net::PageId draw_chain(Sheet& sheet, BlockPen& pen, const std::vector<Block>& bl
     const bool last = &block == &blocks.back();
     at =
         pen.draw(block, at, last ? std::string(words::output) : block.name + "." + std::string(words::output),
-                 last ? net::PlaceRole::output : net::PlaceRole::none);
+                 last ? PlaceRole::output : PlaceRole::none);
   }
   return sheet.finish(in, at);
 }
@@ -126,18 +125,18 @@ net::PageId draw_side_by_side(Sheet& sheet, BlockPen& pen, const std::vector<Blo
   for (const Block& block : blocks) {
     starts.push_back(sheet.place(block.name + "." + std::string(words::input)));
     ends.push_back(
-        pen.draw(block, starts.back(), block.name + "." + std::string(words::output), net::PlaceRole::none));
+        pen.draw(block, starts.back(), block.name + "." + std::string(words::output), PlaceRole::none));
   }
   const std::uint32_t out = sheet.output();
-  sheet.transition(words::fork, {in}, starts);
-  sheet.transition(words::join, ends, {out});
+  sheet.transition(words::fork, {in}, starts).role = Step::page;
+  sheet.transition(words::join, ends, {out}).role = Step::page;
   return sheet.finish(in, out);
 }
 
 net::PageId draw_nothing(Sheet& sheet) {
   const std::uint32_t in = sheet.input();
   const std::uint32_t out = sheet.output();
-  sheet.transition(words::pass, {in}, {out});
+  sheet.transition(words::pass, {in}, {out}).role = Step::page;
   return sheet.finish(in, out);
 }
 

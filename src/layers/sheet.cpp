@@ -43,18 +43,18 @@ Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string nam
   page_.span = span;
 }
 
-std::uint32_t Sheet::place(std::string_view name, net::Operation operation, net::PlaceRole role) {
+std::uint32_t Sheet::place(std::string_view name, net::Operation operation, PlaceRole role) {
   page_.nodes.push_back({.name = std::string(name), .operation = operation, .role = role, .block = block_});
   return static_cast<std::uint32_t>(page_.nodes.size() - 1);
 }
 
 std::uint32_t Sheet::input(net::Operation operation, std::uint32_t tokens) {
-  const std::uint32_t node = place(words::input, operation, net::PlaceRole::input);
+  const std::uint32_t node = place(words::input, operation, PlaceRole::input);
   page_.nodes[node].tokens = tokens;
   return node;
 }
 
-std::uint32_t Sheet::output() { return place(words::output, {}, net::PlaceRole::output); }
+std::uint32_t Sheet::output() { return place(words::output, {}, PlaceRole::output); }
 
 std::uint32_t Sheet::page(net::PageId page) {
   const std::uint32_t node = place(draft_.net.pages[page.value].name);

@@ -30,8 +30,7 @@ class Sheet {
         net::Span span);
 
   /// Each returns the index of the new node.
-  std::uint32_t place(std::string_view name, net::Operation operation = {},
-                      net::PlaceRole role = net::PlaceRole::none);
+  std::uint32_t place(std::string_view name, net::Operation operation = {}, PlaceRole role = PlaceRole::none);
   std::uint32_t input(net::Operation operation = {}, std::uint32_t tokens = 0);
   std::uint32_t output();
   std::uint32_t page(net::PageId page);

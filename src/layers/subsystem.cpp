@@ -89,7 +89,7 @@ net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id
     behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), id, behaviour)));
   const std::uint32_t out = sheet.output();
 
-  sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = net::TransitionRole::start;
+  sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = Step::start;
   for (const spec::BehaviourId index : subsystem.behaviours.ids()) {
     const spec::Behaviour& behaviour = subsystem.behaviours[index];
     const auto conditions = initial_conditions(behaviour);
@@ -100,7 +100,7 @@ net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id
       const std::uint32_t to = next.behaviour.valid() ? behaviours[next.behaviour] : out;
       net::PageTransition& drawn = sheet.transition(name, {behaviours[index]}, {to}, conditions[entry]);
       drawn.span = next.span;
-      drawn.role = net::TransitionRole::leave;
+      drawn.role = Step::leave;
     }
   }
   return sheet.finish(in, out);

@@ -42,8 +42,8 @@ net::PageId draw_system(Draft& draft) {
   for (const spec::AgentId agent : draft.model.agents.ids())
     agents.push_back(sheet.page(draw_agent(draft, sheet.id(), agent)));
   const std::uint32_t out = sheet.output();
-  sheet.transition(words::start, {in}, agents).role = net::TransitionRole::start;
-  sheet.transition(words::end, agents, {out}).role = net::TransitionRole::end;
+  sheet.transition(words::start, {in}, agents).role = Step::start_system;
+  sheet.transition(words::end, agents, {out}).role = Step::end_system;
   for (const spec::ChannelId channel : draft.model.channels.ids()) draw_medium_of(draft, sheet, channel);
   return sheet.finish(in, out);
 }

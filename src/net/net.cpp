@@ -1,19 +1,8 @@
 #include "net/net.hpp"
 
 #include <algorithm>
-#include <array>
 
 namespace tessera::net {
-
-const char* name_of(TransitionRole role) {
-  // In the order of the enumerators.
-  constexpr std::array<const char*, 17> names{
-      nullptr,           "start",         "end",        "leave", "begin_sending", "end_sending",
-      "begin_receiving", "end_receiving", "overwrite",  "skip",  "no_successor",  "deliver",
-      "replace",         "deliver_older", "lose_older", "cut",   "cut_back"};
-  static_assert(names.size() == static_cast<std::size_t>(TransitionRole::cut_back) + 1);
-  return names[static_cast<std::size_t>(role)];
-}
 
 std::string HierarchicalNet::path(PageId page) const {
   std::vector<const std::string*> names;

@@ -10,6 +10,7 @@
 
 #include "diagnostics/diagnostics.hpp"
 #include "net/ids.hpp"
+#include "tessera/net_roles.hpp"
 
 /// Petri nets: the hierarchical net of the five layers, and the flat net it stands for.
 namespace tessera::net {
@@ -76,62 +77,8 @@ struct Condition {
   }
 };
 
-// ------------------------------------------------------------------------------------------ roles
-
-/// The role of a place in the five layers. Programs ask for the role; the name is for people.
-enum class PlaceRole : std::uint8_t {
-  none,          ///< no role, or a net that was not made from a specification
-  input,         ///< of its page
-  output,        ///< of its page
-  waiting,       ///< of a block: until the value is acknowledged
-  no_successor,  ///< a behaviour was left and no initial condition held: see verify::abstract_net
-  // The memory of a channel, of the form that the built-in models have:
-  lock,          ///< both sides are non-blocking: neither uses the memory now
-  empty,         ///< no value
-  full,          ///< a value that has not been read
-  acknowledged,  ///< a value was read, and the sender does not know it yet
-  // The memory of a channel between processes, besides `empty` and `full` of the receiver:
-  idle,             ///< no value is on the way
-  sent,             ///< the newest value is on the way, alone
-  more,             ///< the newest value and older ones are on the way
-  sent_memory,      ///< both sides are non-blocking: the sender does not use its memory now
-  received_memory,  ///< the same of the receiver
-  link,             ///< it still works: see verify::abstract_net
-  link_back         ///< the same of the link that carries acknowledgements
-};
-
-/// Has only a channel between processes a place of this role?
-[[nodiscard]] constexpr bool is_networked(PlaceRole role) {
-  return role >= PlaceRole::idle && role <= PlaceRole::received_memory;
-}
-
-/// The role of a transition in the five layers, besides its condition.
-enum class TransitionRole : std::uint8_t {
-  none,
-  start,  ///< enters the page: starts its agents, its subsystems, or its first behaviour
-  end,    ///< leaves the page
-  leave,  ///< of a subsystem: an entry of `next` of the behaviour it takes from is taken
-  // These belong to a behaviour. Its other transitions have conditions of their own kinds.
-  begin_sending,    ///< the transition function has been calculated: t1, or t3 with `receive: first`
-  end_sending,      ///< t2; with `receive: first` one of t4, t5 and t6 ends the sending
-  begin_receiving,  ///< t3, or t1 with `receive: first`
-  end_receiving,    ///< t2, only with `receive: first`: the transition function is about to run
-  overwrite,        ///< of a block: replaces a value that has not been read
-  skip,             ///< on a block: no value to read
-  no_successor,     ///< a behaviour is left and no initial condition holds
-  // The medium of a channel between processes; these belong to no subsystem:
-  deliver,        ///< the newest value arrives
-  replace,        ///< it arrives and overwrites one that has not been read
-  deliver_older,  ///< an older value arrives
-  lose_older,     ///< the older values never arrive
-  cut,            ///< the link fails for ever: see verify::abstract_net
-  cut_back        ///< the same of the link that carries acknowledgements
-};
-
-/// The name of the enumerator; nullptr: none.
-[[nodiscard]] const char* name_of(TransitionRole role);
-
-[[nodiscard]] constexpr bool is_of_medium(TransitionRole role) { return role >= TransitionRole::deliver; }
+using tessera::PlaceRole;
+using tessera::Step;
 
 /// The meaning of the numbers of a net's elements: the agents, subsystems, channels and blocks of the net.
 /// Empty for a net that was not made from a specification.
@@ -185,7 +132,7 @@ struct PageTransition {
   std::vector<std::uint32_t> outputs{};
   Condition condition{};
   Span span{};  ///< of the specification
-  TransitionRole role = TransitionRole::none;
+  Step role = Step::other;
   BlockId block{};
 };
 
@@ -253,7 +200,7 @@ struct Transition {
   PageId page{};
   SubsystemId subsystem{};
   Span span{};
-  TransitionRole role = TransitionRole::none;
+  Step role = Step::other;
   AgentId agent{};          ///< in the layers below the system
   BehaviourId behaviour{};  ///< in the subsystem; from the behaviour layer down
   BlockId block{};

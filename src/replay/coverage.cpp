@@ -109,11 +109,11 @@ struct Reachable {
 };
 
 /// Texts for transitions whose names are not clear.
-const char* meaning_of(net::TransitionRole role) {
+const char* meaning_of(Step role) {
   switch (role) {
-    case net::TransitionRole::overwrite:
+    case Step::overwrite:
       return "overwrites an unread value";
-    case net::TransitionRole::skip:
+    case Step::skip:
       return "there is nothing to read";
     default:
       return "";
@@ -228,7 +228,7 @@ class Measure {
     Group& group = place.fused() ? channels_ : group_of(place);
     count(group, group.places, marked_[index], {Missing::Kind::place, place.name, "", place.span});
     const bool enters =
-        group.kind != Group::Kind::behaviour || place.is(net::Layer::behaviour, net::PlaceRole::input);
+        group.kind != Group::Kind::behaviour || place.is(net::Layer::behaviour, PlaceRole::input);
     if (enters && marked_[index]) group.reached = true;
   }
 

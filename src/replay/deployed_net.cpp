@@ -14,7 +14,7 @@ using net::TransitionId;
 
 namespace {
 
-bool holds_role(const net::Net& net, std::span<const Arc> arcs, net::PlaceRole role) {
+bool holds_role(const net::Net& net, std::span<const Arc> arcs, PlaceRole role) {
   return std::ranges::any_of(arcs, [&](const Arc& arc) { return net[arc.place].role == role; });
 }
 
@@ -43,8 +43,8 @@ void DeployedNet::find_channels(const ProcessMap& processes) {
     const net::Place& place = net_.places()[index];
     if (!place.fused()) continue;
     Channel& channel = channels_[place.channel.value];
-    channel.networked = channel.networked || net::is_networked(place.role);
-    channel.exchange = channel.exchange || place.role == net::PlaceRole::sent_memory;
+    channel.networked = channel.networked || is_networked(place.role);
+    channel.exchange = channel.exchange || place.role == PlaceRole::sent_memory;
     bits_[index] = 1U << channel.places.size();
     channel.places.push_back({index});
   }
@@ -58,9 +58,9 @@ DeployedNet::Move DeployedNet::move_of(TransitionId id) const {
 }
 
 ChannelStep DeployedNet::step_of(TransitionId id) const {
-  const auto takes = [&](net::PlaceRole role) { return holds_role(net_, net_.preset(id), role); };
-  const auto gives = [&](net::PlaceRole role) { return holds_role(net_, net_.postset(id), role); };
-  using Role = net::PlaceRole;
+  const auto takes = [&](PlaceRole role) { return holds_role(net_, net_.preset(id), role); };
+  const auto gives = [&](PlaceRole role) { return holds_role(net_, net_.postset(id), role); };
+  using Role = PlaceRole;
   if (takes(Role::sent_memory)) return ChannelStep::begins_write;
   if (gives(Role::sent_memory)) return ChannelStep::writes;
   if (takes(Role::received_memory)) return ChannelStep::begins_read;
@@ -81,15 +81,14 @@ void DeployedNet::find_transitions(const ProcessMap& processes) {
     Transition& transition = transitions_[index];
     transition.channel = net_.channel_of(id);
     if (drawn.agent.valid()) transition.process = processes.of_agents[drawn.agent];
-    if (drawn.layer == net::Layer::system && drawn.role == net::TransitionRole::start) start_ = id;
+    if (drawn.role == Step::start_system) start_ = id;
     if (!transition.channel.valid() || !channels_[transition.channel.value].networked) {
       // `timeout` uses no shared place, and is one end of a wait all the same.
-      const bool ends_wait =
-          drawn.block.valid() && holds_role(net_, net_.preset(id), net::PlaceRole::waiting);
+      const bool ends_wait = drawn.block.valid() && holds_role(net_, net_.preset(id), PlaceRole::waiting);
       if (!ends_wait || !(*this)[net_.parts()[drawn.block].channel].networked) continue;
       transition.channel = net_.parts()[drawn.block].channel;
     }
-    if (net::is_of_medium(drawn.role)) {
+    if (is_of_medium(drawn.role)) {
       channels_[transition.channel.value].medium.push_back(move_of(id));
       continue;
     }

@@ -1,7 +1,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <regex>
 #include <string>
+#include <vector>
 
 #include "generated.hpp"
 
@@ -52,8 +54,7 @@ TEST(LocalNet, AnInputAndAnOutputOfOneNameAreDifferentPorts) {
               HasSubstr("{\"snd.token\", tessera::Side::send,    \"token\"},\n"));
   EXPECT_THAT(generated["walker.control.cpp"],
               HasSubstr("{\"rcv.token\", tessera::Side::receive, \"token\"},\n"));
-  EXPECT_THAT(generated["system.cpp"],
-              HasSubstr("{0, \"snd.token\"}, {1, \"rcv.token\"}, tessera::asynchronous},\n"));
+  EXPECT_THAT(generated["system.cpp"], HasSubstr("{0, 0}, {1, 1}, memory_channel},\n"));
 }
 
 TEST(LocalNet, OfASubsystemThatReceivesFirstBeginsWithItsReceive) {
@@ -62,15 +63,14 @@ TEST(LocalNet, OfASubsystemThatReceivesFirstBeginsWithItsReceive) {
   const Generated generated = generate(text);
   std::string table = generated["walker.control.cpp"];
   for (std::size_t at = table.find("  "); at != std::string::npos; at = table.find("  ")) table.erase(at, 1);
-  for (const char* row :
-       {R"({"walk.in", tessera::begins("walk")})", R"({"walk.2", tessera::calls("walk")})",
-        R"({"walk.snd.out", tessera::decides("walk")})",
-        R"({"walk.t1", {"walk.in"}, {"walk.rcv.in"}, {}, {tessera::Step::begin_receiving, "walk"}})",
-        R"({"walk.t2", {"walk.rcv.out"}, {"walk.2"}, {}, {tessera::Step::end_receiving, "walk"}})",
-        R"({"walk.t3", {"walk.2"}, {"walk.snd.in"}, {}, {tessera::Step::begin_sending, "walk"}})",
-        R"({"walk.t4", {"walk.snd.out"}, {"walk.in"}, tessera::if_go_on, {tessera::Step::go_on, "walk"}})",
-        R"({"walk.t5", {"walk.snd.out"}, {"walk.out"}, tessera::if_terminal, )",
-        R"({"walk.t6", {"walk.snd.out"}, {"walk.out"}, tessera::if_error, )"})
+  for (const char* row : {R"({"walk.in", tessera::begins(0)})", R"({"walk.2", tessera::calls(0)})",
+                          R"({"walk.snd.out", tessera::decides(0)})",
+                          R"({tessera::Step::begin_receiving, 0}}, // walk.in -> walk.rcv.in)",
+                          R"({tessera::Step::end_receiving, 0}}, // walk.rcv.out -> walk.2)",
+                          R"({tessera::Step::begin_sending, 0}}, // walk.2 -> walk.snd.in)",
+                          R"(tessera::if_go_on, {tessera::Step::go_on, 0}}, // walk.snd.out -> walk.in)",
+                          R"({tessera::Step::terminal, 0}}, // walk.snd.out -> walk.out)",
+                          R"({tessera::Step::error, 0}}, // walk.snd.out -> walk.out)"})
     EXPECT_THAT(table, HasSubstr(row));
   EXPECT_THAT(table, Not(HasSubstr("counts()")));
 }
@@ -78,8 +78,7 @@ TEST(LocalNet, OfASubsystemThatReceivesFirstBeginsWithItsReceive) {
 TEST(LocalNet, EachChannelOfAnOutputHasItsPort) {
   const Generated generated = generate(fleet(3, true));
   EXPECT_THAT(generated["base.control.cpp"], HasSubstr("{\"order#3\", tessera::Side::send, \"order\"},\n"));
-  EXPECT_THAT(generated["system.cpp"],
-              HasSubstr("{3, \"order#3\"}, {2, \"order\"}, tessera::asynchronous},\n"));
+  EXPECT_THAT(generated["system.cpp"], HasSubstr("{3, 2}, {2, 2}, memory_channel},\n"));
 }
 
 TEST(LocalNet, AChannelThatNobodyUsesHasNoRow) {
@@ -88,10 +87,31 @@ TEST(LocalNet, AChannelThatNobodyUsesHasNoRow) {
       std::string(text).replace(text.find("walk: {}"), 8, "walk: { send: [], receive: [token] }");
   const Generated generated = generate(unused);
   EXPECT_THAT(generated["system.cpp"],
-              HasSubstr("\"robot[0].control.token->robot[1].control.token\", {0, \"\"}, {1, "));
+              HasSubstr("\"robot[0].control.token->robot[1].control.token\", {0}, {1, "));
   const std::string nothing =
       std::string(text).replace(text.find("walk: {}"), 8, "walk: { send: [], receive: [] }");
   EXPECT_THAT(generate(nothing)["system.cpp"], Not(HasSubstr("robot[0].control.token->")));
+}
+
+/// The numbers of a row of the transitions mean the places of which its comment speaks.
+TEST(LocalNet, RowsNameTheirPlacesByNumber) {
+  const Generated generated = generate_file(line_follower_spec);
+  const std::string& source = generated["robot.control.cpp"];
+  std::vector<std::string> places;
+  static const std::regex place(R"re(\{"([\w.]+)"(?:, +tessera::\w+\([^)]*\))?\},)re");
+  const std::size_t first = source.find("tessera::Place places"), end = source.find("};", first);
+  const std::string table = source.substr(first, end - first);
+  for (std::sregex_iterator at(table.begin(), table.end(), place), none; at != none; ++at)
+    places.push_back((*at)[1]);
+  ASSERT_EQ(places.size(), 20U);
+  static const std::regex row(
+      R"re(\{"[\w.]+", +\{(\d+)[^}]*\}, +\{(\d+)[^}]*\}, .*// ([\w.]+)[^>]*-> ([\w.]+))re");
+  std::size_t rows = 0;
+  for (std::sregex_iterator at(source.begin(), source.end(), row), none; at != none; ++at, ++rows) {
+    EXPECT_EQ(places.at(std::stoul((*at)[1])), (*at)[3]) << (*at)[0];
+    EXPECT_EQ(places.at(std::stoul((*at)[2])), (*at)[4]) << (*at)[0];
+  }
+  EXPECT_EQ(rows, 26U);
 }
 
 TEST(LocalNet, EveryPlaceAndTransitionOfASubsystemIsInItsTables) {

@@ -140,7 +140,7 @@ TEST(Networked, TheMediumBelongsToNoSubsystemAndTouchesOneChannel) {
   std::size_t medium = 0;
   for (std::uint32_t index = 0; index < deployed.flat.transitions().size(); ++index) {
     const net::Transition& transition = deployed.flat.transitions()[index];
-    if (!net::is_of_medium(transition.role)) continue;
+    if (!is_of_medium(transition.role)) continue;
     ++medium;
     EXPECT_FALSE(transition.subsystem.valid());
     EXPECT_TRUE(deployed.flat.channel_of({index}).valid());

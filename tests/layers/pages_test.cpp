@@ -57,9 +57,9 @@ TEST(Pages, OfASubsystemThatReceivesFirstHaveTheSameBlocksInAnotherOrder) {
   const net::Page& follow = built.pages.pages[built.pages.find("robot.control.follow").value];
   EXPECT_EQ(follow.nodes[follow.input].operation.kind, net::Operation::Kind::next_iteration);
   EXPECT_EQ(follow.nodes[2].operation, (net::Operation{net::Operation::Kind::transition_function, {1}}));
-  EXPECT_EQ(follow.transitions[0].role, net::TransitionRole::begin_receiving);
-  EXPECT_EQ(follow.transitions[1].role, net::TransitionRole::end_receiving);
-  EXPECT_EQ(follow.transitions[2].role, net::TransitionRole::begin_sending);
+  EXPECT_EQ(follow.transitions[0].role, Step::begin_receiving);
+  EXPECT_EQ(follow.transitions[1].role, Step::end_receiving);
+  EXPECT_EQ(follow.transitions[2].role, Step::begin_sending);
   for (const char* page : {"robot.control.follow.snd", "robot.control.follow.rcv", "robot.motor.drive"})
     EXPECT_EQ(transitions_of(built.pages, page), transitions_of(usual.pages, page));
   EXPECT_EQ(built.net.places().size(), usual.net.places().size());

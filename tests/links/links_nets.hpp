@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tessera/tables.hpp"
+#include "named_net.hpp"
 
 /// Nets of single subsystems at channels between processes, as src/layers/networked.cpp draws them, each with
 /// one behaviour "run" and one port "x".

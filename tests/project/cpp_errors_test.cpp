@@ -138,7 +138,7 @@ class CppErrors : public Folder {
     const std::string project = (folder_ / "project").string(), source = TESSERA_SOURCE_DIR;
     return "LC_ALL=C.UTF-8 g++ -std=c++20 -DFMT_SHARED -Wall -Wextra -Wno-unused-parameter -I" +
            generated_.folder.string() + " -I" + project + "/src -I" + source + "/runtime/include -I" +
-           source + "/recording/include";
+           source + "/recording/include -I" + source + "/vocabulary/include";
   }
   static project::Exit shell(const std::string& line) { return project::capture({"sh", "-c", line}); }
 

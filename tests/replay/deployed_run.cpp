@@ -249,7 +249,7 @@ Recording simulated_run(const Deployed& system, std::size_t firings, std::mt1993
   Noted noted;
   for (std::size_t step = 0; step < firings && walker.step(fired, noted); ++step) {
     const net::Transition& transition = system.net[fired];
-    if (net::is_of_medium(transition.role)) continue;
+    if (is_of_medium(transition.role)) continue;
     const TransitionId named = any_of_group(system.net, fired, random);
     Event event{.time_ns = static_cast<std::int64_t>(step) * 1000, .subject = named.value};
     event.version = system.net.channel_of(named).valid() ? noted.version : 0;

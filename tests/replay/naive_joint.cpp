@@ -180,7 +180,7 @@ class AllOrders {
       }
       if (all_done) return true;
       for (std::uint32_t index = 0; index < net_.transitions().size(); ++index) {
-        if (!net::is_of_medium(net_.transitions()[index].role) || !net::enabled(net_, {index}, tokens))
+        if (!is_of_medium(net_.transitions()[index].role) || !net::enabled(net_, {index}, tokens))
           continue;
         auto next = std::pair(at, tokens);
         net::fire(net_, {index}, next.second);

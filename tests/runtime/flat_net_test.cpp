@@ -11,13 +11,13 @@
 namespace tessera::testing {
 namespace {
 
-constexpr Place tiny_places[] = {{"in"}, {"out"}};
-const Transition tiny_send[] = {{"t", {"in", "x/empty"}, {"out", "x/full"}}};
-const Transition tiny_receive[] = {{"t", {"in", "x/full"}, {"out", "x/empty"}, if_elapsed}};
+constexpr named::Place tiny_places[] = {{"in"}, {"out"}};
+const named::Transition tiny_send[] = {{"t", {"in", "x/empty"}, {"out", "x/full"}}};
+const named::Transition tiny_receive[] = {{"t", {"in", "x/full"}, {"out", "x/empty"}, if_elapsed}};
 constexpr Port send_port[] = {{"x", Side::send, "x"}};
 constexpr Port receive_port[] = {{"x", Side::receive, "x"}};
-const SubsystemNet sender{{}, send_port, tiny_places, tiny_send};
-const SubsystemNet receiver{{}, receive_port, tiny_places, tiny_receive};
+const SubsystemNet sender = numbered({}, send_port, tiny_places, tiny_send);
+const SubsystemNet receiver = numbered({}, receive_port, tiny_places, tiny_receive);
 
 TEST(FlatNet, IsTheSubsystemsTheirChannelsAndTheUpperLayers) {
   TestSystem system;

@@ -107,8 +107,8 @@ std::uint64_t copies_of_a_run(RunOptions::Clock clock) {
        []() -> std::unique_ptr<Subsystem> { return std::make_unique<Camera>(); }, 1ms},
       {"robot", "viewer", Kind::control, &nets::b_receiver,
        []() -> std::unique_ptr<Subsystem> { return std::make_unique<Viewer>(); }}};
-  const Channel channels[] = {{"robot.camera.x->robot.viewer.x", {0, "x"}, {1, "x"}, buffered}};
-  System system{tables_version, "images", "", "", {}, instances, channels, {}, {}};
+  const Channel channels[] = {{"robot.camera.x->robot.viewer.x", {0, 0}, {1, 0}, buffered}};
+  System system{tables_version, "images", "", "", {}, instances, channels, &system_page, &agent_page, {}, {}};
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   RunOptions options = simulated(60s);

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "tessera/tables.hpp"
+#include "named_net.hpp"
 
 /// Nets of single subsystems for the tests, each with one behaviour "run" unless said otherwise.
 namespace tessera::testing::nets {

@@ -20,18 +20,17 @@ const std::span<const FusedPlace> two_channels[] = {buffered, buffered};
   return error;
 }
 
-TEST(Plan, NamesWhatDoesNotResolve) {
+TEST(Plan, TellsWhichNumberDoesNotExist) {
   const std::initializer_list<Place> ends{{"in"}, {"out"}};
-  EXPECT_EQ(complaint(ends, {{"t", {"in"}, {"nowhere"}}}), "no place is named 'nowhere'");
-  EXPECT_EQ(complaint(ends, {{"t", {"in", "z/full"}, {"out"}}}), "no port is named 'z'");
-  EXPECT_EQ(complaint(ends, {{"t", {"in", "x/ack"}, {"out"}}}), "'t': its channel has no place 'x/ack'");
-  EXPECT_EQ(complaint(ends, {{"t", {"in", "x/full"}, {"out", "y/full"}}}), "'t' touches two channels");
-  EXPECT_EQ(complaint(ends, {{"t", {"x/full"}, {"out"}}}), "'t' takes from no place of its subsystem");
-  EXPECT_EQ(complaint(ends, {{"t", {"in"}, {"out"}, if_error}}), "no place decides the condition of 't'");
-  EXPECT_EQ(complaint(ends, {{"t", {"in"}, {"out"}, if_elapsed}}), "'t' waits for the timeout of no channel");
-  EXPECT_EQ(complaint({{"in"}, {"in"}, {"out"}}, {}), "'in' is declared twice");
-  EXPECT_EQ(complaint({{"in"}}, {}), "no place is named 'out'");
-  EXPECT_EQ(complaint({{"in"}, {"out", calls("work")}}, {}), "no behaviour is named 'work'");
+  EXPECT_EQ(complaint(ends, {{"t", {0}, {2}}}), "there is no place 2");
+  EXPECT_EQ(complaint(ends, {{"t", {0, memory(2, 1)}, {1}}}), "there is no port 2");
+  EXPECT_EQ(complaint(ends, {{"t", {0, memory(0, 2)}, {1}}}), "'t': its channel has no place 2");
+  EXPECT_EQ(complaint(ends, {{"t", {0, memory(0, 1)}, {1, memory(1, 1)}}}), "'t' touches two channels");
+  EXPECT_EQ(complaint(ends, {{"t", {memory(0, 1)}, {1}}}), "'t' takes from no place of its subsystem");
+  EXPECT_EQ(complaint(ends, {{"t", {0}, {1}, if_error}}), "no place decides the condition of 't'");
+  EXPECT_EQ(complaint(ends, {{"t", {0}, {1}, if_elapsed}}), "'t' waits for the timeout of no channel");
+  EXPECT_EQ(complaint({{"in"}}, {}), "there is no place 1");
+  EXPECT_EQ(complaint({{"in"}, {"out", calls(0)}}, {}), "there is no behaviour 0");
   const std::span<const FusedPlace> one_missing[] = {buffered, {}};
   EXPECT_EQ(complaint(ends, {}, one_missing), "port 'y' has no channel");
 }

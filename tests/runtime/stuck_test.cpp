@@ -30,30 +30,30 @@ constexpr Port sends_x[] = {{"x", Side::send, "x"}};
 constexpr Port relays[] = {{"x", Side::receive, "x"}, {"y", Side::send, "y"}};
 
 // Sends x in `first`, and no value in `second`, from which no way leads back.
-constexpr Place leaver_places[] = {
+constexpr named::Place leaver_places[] = {
     {"in"}, {"out"}, BEHAVIOUR_PLACES("first"), BEHAVIOUR_PLACES("second"), SEND_PLACES("first", "x")};
-const Transition leaver_transitions[] = {ENTER("first"),
-                                         BEHAVIOUR_TRANSITIONS("first"),
-                                         NB_SEND("first", "x", "first.snd.in", "first.snd.out"),
-                                         NO_RECEIVE("first"),
-                                         BEHAVIOUR_TRANSITIONS("second"),
-                                         NO_SEND("second"),
-                                         NO_RECEIVE("second"),
-                                         NEXT("first", 0, "second"),
-                                         NEXT("second", 0, "second")};
-const SubsystemNet leaver{first_second, sends_x, leaver_places, leaver_transitions};
+const named::Transition leaver_transitions[] = {ENTER("first"),
+                                                BEHAVIOUR_TRANSITIONS("first"),
+                                                NB_SEND("first", "x", "first.snd.in", "first.snd.out"),
+                                                NO_RECEIVE("first"),
+                                                BEHAVIOUR_TRANSITIONS("second"),
+                                                NO_SEND("second"),
+                                                NO_RECEIVE("second"),
+                                                NEXT("first", 0, "second"),
+                                                NEXT("second", 0, "second")};
+const SubsystemNet leaver = numbered(first_second, sends_x, leaver_places, leaver_transitions);
 
 // Sends y, blocking, then receives x, blocking.
-constexpr Place relay_places[] = {{"in"},
-                                  {"out"},
-                                  BEHAVIOUR_PLACES("run"),
-                                  SEND_PLACES("run", "y"),
-                                  WAIT_PLACE("run", "y"),
-                                  RECEIVE_PLACES("run", "x")};
-const Transition relay_transitions[] = {ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NEXT_END("run", 0),
-                                        B_SEND("run", "y", "run.snd.in", "run.snd.out"),
-                                        B_RECEIVE_ACK("run", "x", "run.rcv.in", "run.rcv.out")};
-const SubsystemNet relay{run_only, relays, relay_places, relay_transitions};
+constexpr named::Place relay_places[] = {{"in"},
+                                         {"out"},
+                                         BEHAVIOUR_PLACES("run"),
+                                         SEND_PLACES("run", "y"),
+                                         WAIT_PLACE("run", "y"),
+                                         RECEIVE_PLACES("run", "x")};
+const named::Transition relay_transitions[] = {ENTER("run"), BEHAVIOUR_TRANSITIONS("run"), NEXT_END("run", 0),
+                                               B_SEND("run", "y", "run.snd.in", "run.snd.out"),
+                                               B_RECEIVE_ACK("run", "x", "run.rcv.in", "run.rcv.out")};
+const SubsystemNet relay = numbered(run_only, relays, relay_places, relay_transitions);
 
 /// Ends, or goes on to its other behaviour, after so many iterations; 0: never.
 [[nodiscard]] Script for_iterations(std::uint64_t count) {

@@ -149,6 +149,11 @@ std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script 
   return index;
 }
 
+End TestSystem::end_of(std::uint32_t instance, std::string_view port) const {
+  if (port.empty()) return {instance};
+  return {instance, named::number_of(instances_[instance].net->ports, port)};
+}
+
 void TestSystem::connect(std::uint32_t from, std::string_view out_port, std::uint32_t to,
                          std::string_view in_port, std::span<const FusedPlace> places, Duration send_timeout,
                          Duration receive_timeout, std::uint16_t slots) {
@@ -157,8 +162,8 @@ void TestSystem::connect(std::uint32_t from, std::string_view out_port, std::uin
   };
   names_.push_back(std::make_unique<std::string>(path(from) + '.' + std::string(out_port) + "->" + path(to) +
                                                  '.' + std::string(in_port)));
-  channels_.push_back(
-      {*names_.back(), {from, out_port}, {to, in_port}, places, send_timeout, receive_timeout, slots});
+  channels_.push_back({*names_.back(), end_of(from, out_port), end_of(to, in_port), places, send_timeout,
+                       receive_timeout, slots, medium_of(places)});
 }
 
 void TestSystem::deploy(std::vector<std::uint32_t> process_of, Duration liveliness) {
@@ -171,8 +176,9 @@ void TestSystem::deploy(std::vector<std::uint32_t> process_of, Duration liveline
 }
 
 const System& TestSystem::system() {
-  system_ = {tables_version, "test",   "",         "verification", {}, instances_, channels_,
-             drivers_,       drivers_, processes_, process_of_,    0,  liveliness_};
+  system_ = {tables_version, "test",      "",       "verification", {},         instances_,  channels_,
+             &system_page,   &agent_page, drivers_, drivers_,       processes_, process_of_, 0,
+             liveliness_};
   hash_ = net_of(system_).hash();
   system_.net_hash = hash_;
   return system_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "../file_bytes.hpp"
+#include "named_net.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/tables.hpp"
@@ -77,6 +78,9 @@ class TestSystem {
  private:
   std::vector<std::unique_ptr<std::string>> names_;
   std::vector<Instance> instances_;
+  /// port: its name; empty: the end is not used.
+  [[nodiscard]] End end_of(std::uint32_t instance, std::string_view port) const;
+
   std::vector<Channel> channels_;
   std::vector<CppDriver> drivers_;
   std::vector<Process> processes_;

@@ -154,7 +154,7 @@ TEST(Stories, NameTheBehaviourThatKeepsAReaderFromBeingEntered) {
   // b starts, and then does not matter: a is stuck whatever b does.
   const net::Net net = abstract_net(all.net);
   for (const net::TransitionId id : property.trace)
-    if (net[id].subsystem.valid() && net[id].role != net::TransitionRole::start) {
+    if (net[id].subsystem.valid() && net[id].role != Step::start) {
       EXPECT_EQ(net.parts()[net[id].subsystem].path, "a.control");
     }
   EXPECT_EQ(

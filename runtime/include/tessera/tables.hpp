@@ -7,16 +7,17 @@
 #include <string_view>
 
 #include "tessera/device.hpp"
-#include "tessera/net_words.hpp"
+#include "tessera/net_roles.hpp"
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
-#include "tessera/transition_role.hpp"
 
 /// The net of a generated controller: constant tables, read once at start. Generated code includes this
-/// file and states which version of it was used.
+/// file and states which version of it was used. Rows name each other by number, from 0: behaviours, ports and
+/// places by their positions in the tables of their subsystem. Names are for people: recordings, drawings, and
+/// the hash of the net.
 namespace tessera {
 
-inline constexpr int tables_version = 4;
+inline constexpr int tables_version = 5;
 
 /// The operation that a token starts when it arrives in a place. The last two are no operations of the net:
 /// they evaluate conditions when the token arrives, and store which of the conditional transitions
@@ -32,32 +33,35 @@ struct Does {
     decide,
     route
   } kind = Kind::nothing;
-  std::string_view subject;  ///< behaviour (call, begin, decide, route) or port (write, read)
-  std::uint16_t slot = 1;    ///< of the channel's memory, from 1 (write, read)
+  std::uint16_t subject = 0;  ///< behaviour (call, begin, decide, route) or port (write, read)
+  std::uint16_t slot = 1;     ///< of the channel's memory, from 1 (write, read)
 };
-[[nodiscard]] constexpr Does calls(std::string_view behaviour) { return {Does::Kind::call, behaviour}; }
-[[nodiscard]] constexpr Does counts() { return {Does::Kind::count, {}}; }
-[[nodiscard]] constexpr Does begins(std::string_view behaviour) { return {Does::Kind::begin, behaviour}; }
-[[nodiscard]] constexpr Does writes(std::string_view port, std::uint16_t slot = 1) {
+[[nodiscard]] constexpr Does calls(std::uint16_t behaviour) { return {Does::Kind::call, behaviour}; }
+[[nodiscard]] constexpr Does counts() { return {Does::Kind::count}; }
+[[nodiscard]] constexpr Does begins(std::uint16_t behaviour) { return {Does::Kind::begin, behaviour}; }
+[[nodiscard]] constexpr Does writes(std::uint16_t port, std::uint16_t slot = 1) {
   return {Does::Kind::write, port, slot};
 }
-[[nodiscard]] constexpr Does reads(std::string_view port, std::uint16_t slot = 1) {
+[[nodiscard]] constexpr Does reads(std::uint16_t port, std::uint16_t slot = 1) {
   return {Does::Kind::read, port, slot};
 }
-[[nodiscard]] constexpr Does decides(std::string_view behaviour) { return {Does::Kind::decide, behaviour}; }
-[[nodiscard]] constexpr Does routes(std::string_view behaviour) { return {Does::Kind::route, behaviour}; }
+[[nodiscard]] constexpr Does decides(std::uint16_t behaviour) { return {Does::Kind::decide, behaviour}; }
+[[nodiscard]] constexpr Does routes(std::uint16_t behaviour) { return {Does::Kind::route, behaviour}; }
+
+/// Instead of the number of a behaviour or port: there is none.
+inline constexpr std::uint16_t nobody = UINT16_MAX;
 
 /// When an enabled transition may fire.
 struct Guard {
   enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
   std::uint16_t entry = 0;  ///< index into `next`, from 0
-  std::string_view
-      port{};  ///< elapsed: the port with the timeout; empty: that of the channel that the transition touches
+  /// elapsed: the port with the timeout; nobody: that of the channel that the transition touches
+  std::uint16_t port = nobody;
 };
 inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal},
     if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed};
 [[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
-[[nodiscard]] constexpr Guard if_elapsed_at(std::string_view port) { return {Guard::Kind::elapsed, 0, port}; }
+[[nodiscard]] constexpr Guard if_elapsed_at(std::uint16_t port) { return {Guard::Kind::elapsed, 0, port}; }
 
 /// A place of a subsystem. Its name lacks the path of the subsystem ("follow.snd.motion.2").
 struct Place {
@@ -68,15 +72,30 @@ struct Place {
 /// The role of a transition in recordings.
 struct TableRole {
   Step step = Step::other;
-  std::string_view behaviour{};  ///< the behaviour that it belongs to, or leaves
-  std::string_view port{};       ///< the port of its block
+  std::uint16_t behaviour = nobody;  ///< the behaviour that it belongs to, or leaves
+  std::uint16_t port = nobody;       ///< the port of its block
 };
 
-/// inputs and outputs name places of the subsystem ("in"), or fused places of a channel as
-/// "port/place" ("motion/full").
+/// An end of an arc: a place of the subsystem, or one of the memory of the channel behind a port.
+class ArcEnd {
+ public:
+  constexpr ArcEnd(std::uint16_t place) : place_(place) {}  // NOLINT(google-explicit-constructor)
+  constexpr ArcEnd(std::uint16_t port, std::uint16_t place) : port_(port), place_(place) {}
+
+  [[nodiscard]] constexpr bool is_shared() const { return port_ != nobody; }
+  [[nodiscard]] constexpr std::uint16_t port() const { return port_; }
+  /// Into the places of the subsystem, or of the channel.
+  [[nodiscard]] constexpr std::uint16_t place() const { return place_; }
+
+ private:
+  std::uint16_t port_ = nobody, place_;
+};
+/// A place of the memory of the channel behind a port.
+[[nodiscard]] constexpr ArcEnd memory(std::uint16_t port, std::uint16_t place) { return {port, place}; }
+
 struct Transition {
   std::string_view name;
-  std::initializer_list<std::string_view> inputs, outputs;
+  std::initializer_list<ArcEnd> inputs, outputs;
   Guard guard{};
   TableRole role{};
 };
@@ -101,7 +120,7 @@ struct SubsystemNet {
   std::span<const Port> ports;
   std::span<const Place> places;
   std::span<const Transition> transitions;
-  std::string_view in = "in", out = "out";  ///< the places where its token enters and leaves
+  std::uint16_t in = 0, out = 1;  ///< the places where its token enters and leaves
 };
 
 enum class Kind : std::uint8_t { control, receptor, effector };
@@ -141,72 +160,64 @@ struct Instance {
   Policies policies{};
 };
 
-/// A name of a place: a text of the tables, or one of the words. Words get their values when a program is
-/// linked, and tables are constants of the compiler: they must not depend on the order in which sources are
-/// initialised.
-class PlaceName {
- public:
-  constexpr PlaceName(const char* text) : text_(text) {}              // NOLINT(google-explicit-constructor)
-  constexpr PlaceName(std::string_view text) : text_(text) {}         // NOLINT(google-explicit-constructor)
-  constexpr PlaceName(const std::string_view* word) : word_(word) {}  // NOLINT(google-explicit-constructor)
-  operator std::string_view() const { return word_ == nullptr ? text_ : *word_; }  // NOLINT
-
- private:
-  std::string_view text_;
-  const std::string_view* word_ = nullptr;
-};
-
 /// A place of the memory of a channel.
 struct FusedPlace {
-  /// See net::PlaceRole. none: only the name is known.
-  enum class Role : std::uint8_t {
-    none,
-    lock,
-    empty,
-    full,
-    acknowledged,
-    idle,
-    sent,
-    more,
-    sent_memory,
-    received_memory
-  };
-  PlaceName name;
-  std::uint32_t tokens;
-  Role role = Role::none;
+  std::string_view name;
+  std::uint32_t tokens = 0;
+  PlaceRole role = PlaceRole::none;
 };
-namespace shared_places {
-using Role = FusedPlace::Role;
-inline constexpr FusedPlace lock{&words::lock, 1, Role::lock}, empty{&words::empty, 1, Role::empty},
-    full{&words::full, 0, Role::full}, acknowledged{&words::acknowledged, 0, Role::acknowledged},
-    idle{&words::idle, 1, Role::idle}, sent{&words::sent, 0, Role::sent}, more{&words::more, 0, Role::more},
-    sent_memory{&words::sent_memory, 1, Role::sent_memory},
-    received_memory{&words::received_memory, 1, Role::received_memory};
-}  // namespace shared_places
-inline constexpr FusedPlace asynchronous[] = {shared_places::lock};
-inline constexpr FusedPlace buffered[] = {shared_places::empty, shared_places::full};
-inline constexpr FusedPlace acknowledged[] = {shared_places::empty, shared_places::full,
-                                              shared_places::acknowledged};
-// The places of channels between processes (docs/use/fleets.md). The last list is for a sender that waits without
-// a timeout.
-inline constexpr FusedPlace networked_exchange[] = {shared_places::sent_memory,
-                                                    shared_places::received_memory};
-inline constexpr FusedPlace networked[] = {shared_places::idle, shared_places::sent, shared_places::more,
-                                           shared_places::empty, shared_places::full};
-inline constexpr FusedPlace networked_single[] = {shared_places::idle, shared_places::sent,
-                                                  shared_places::empty, shared_places::full};
+
+/// A transition of the medium of a channel between processes. Its ends are places of the channel's memory.
+struct MediumTransition {
+  std::string_view name;
+  Step step;
+  std::initializer_list<std::uint16_t> inputs, outputs;
+};
 
 struct End {
-  std::uint32_t instance;  ///< into System::instances
-  std::string_view port;   ///< empty: no behaviour of that instance uses the channel
+  std::uint32_t instance;       ///< into System::instances
+  std::uint16_t port = nobody;  ///< nobody: no behaviour of that instance uses the channel
+
+  [[nodiscard]] constexpr bool is_used() const { return port != nobody; }
 };
 
 struct Channel {
   std::string_view name;  ///< "robot.control.motion->robot.motor.velocity"
   End from, to;
-  std::span<const FusedPlace> places;
+  std::span<const FusedPlace> places;            ///< channels of one kind share them
   Duration send_timeout{0}, receive_timeout{0};  ///< zero: waits for ever
   std::uint16_t slots{1};                        ///< values that the memory holds
+  std::span<const MediumTransition> medium{};    ///< only between processes
+
+  [[nodiscard]] constexpr bool is_used() const { return from.is_used() || to.is_used(); }
+};
+
+/// An end of an arc of a page above the subsystems: a place of the page, or the place where each page in it is
+/// entered or left.
+struct PageEnd {
+  enum class Kind : std::uint8_t { own, entries, exits } kind = Kind::own;
+  std::uint16_t place = 0;
+  constexpr PageEnd(std::uint16_t own) : place(own) {}              // NOLINT(google-explicit-constructor)
+  constexpr PageEnd(Kind of_pages_below) : kind(of_pages_below) {}  // NOLINT(google-explicit-constructor)
+};
+/// Of each page below.
+inline constexpr PageEnd::Kind entries = PageEnd::Kind::entries, exits = PageEnd::Kind::exits;
+
+struct PagePlace {
+  std::string_view name;
+  std::uint32_t tokens = 0;
+};
+struct PageTransition {
+  std::string_view name;
+  Step step;
+  std::initializer_list<PageEnd> inputs, outputs;
+};
+
+/// The net of the system, or of each of its agents. Their pages look the same for any number of pages in them.
+struct UpperPage {
+  std::span<const PagePlace> places;
+  std::span<const PageTransition> transitions;
+  std::uint16_t in = 0, out = 1;  ///< the places where its token enters and leaves
 };
 
 /// A driver that the user wrote in C++; exactly one of the two makers is set.
@@ -240,6 +251,8 @@ struct System {
   std::span<const VerifiedProperty> verdicts;
   std::span<const Instance> instances;  ///< agent by agent
   std::span<const Channel> channels;
+  const UpperPage* system_page;                  ///< its pages below are those of the agents
+  const UpperPage* agent_page;                   ///< its pages below are the nets of the agent's instances
   std::span<const CppDriver> real_drivers;       ///< of the robot's devices
   std::span<const CppDriver> simulated_drivers;  ///< replace them in a simulated run
   std::span<const Process> processes{};          ///< empty: all agents are in one

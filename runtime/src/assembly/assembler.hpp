@@ -70,13 +70,8 @@ class Assembler {
   }
 
   bool bind() {
-    for (const Instance& instance : system_.instances) {
-      const auto index = static_cast<std::uint32_t>(parts_.size());
+    for (std::uint32_t index = 0; index < system_.instances.size(); ++index)
       bind(parts_.emplace_back(), index);
-      ports_.emplace_back();
-      for (std::uint32_t port = 0; port < instance.net->ports.size(); ++port)
-        ports_.back().emplace(instance.net->ports[port].name, port);
-    }
     return true;
   }
 
@@ -119,31 +114,29 @@ class Assembler {
   }
 
   bool link(const Channel& channel, const End& end, const End& other, Side side) {
-    if (end.port.empty()) return true;
+    if (!end.is_used()) return true;
     if (end.instance >= parts_.size()) return fail(fmt::format("channel {} ends nowhere", channel.name));
     SubsystemParts& parts = parts_[end.instance];
-    const auto found = ports_[end.instance].find(end.port);
-    if (found == ports_[end.instance].end() || parts.instance->net->ports[found->second].side != side)
-      return fail(fmt::format("{} has no port '{}' for channel {}", parts.path, end.port, channel.name));
-    PortLink& link = parts.ports[found->second];
-    channel_of_[end.instance][found->second] = &channel;
+    const std::span<const Port> ports = parts.instance->net->ports;
+    if (end.port >= ports.size() || ports[end.port].side != side)
+      return fail(fmt::format("{} has no port {} for channel {}", parts.path, end.port, channel.name));
+    PortLink& link = parts.ports[end.port];
+    channel_of_[end.instance][end.port] = &channel;
     link.side = side;
     link.timeout = side == Side::send ? channel.send_timeout : channel.receive_timeout;
-    if (!other.port.empty()) link.peer = {other.instance};
-    return find_buffer(parts, parts.instance->net->ports[found->second], link);
+    if (other.is_used()) link.peer = {other.instance};
+    return find_buffer(parts, ports[end.port], link);
   }
 
   /// The other end is in another process, of which this one knows only the name.
   void link_remote(const End& end, const End& other) {
-    if (end.port.empty()) return;
+    if (!end.is_used()) return;
     PortLink& link = port_of(end);
     link.peer = {};
     link.remote = part_.whole->processes[part_.whole->process_of[other.instance]].name;
   }
 
-  [[nodiscard]] PortLink& port_of(const End& end) {
-    return parts_[end.instance].ports[ports_[end.instance].at(end.port)];
-  }
+  [[nodiscard]] PortLink& port_of(const End& end) { return parts_[end.instance].ports[end.port]; }
 
   bool find_buffer(const SubsystemParts& parts, const Port& port, PortLink& link) {
     const auto find = [&](const auto& buffers) {
@@ -260,7 +253,7 @@ class Assembler {
   bool make_networked(std::uint32_t index, Side side, network::Incarnation incarnation) {
     const Channel& channel = system_.channels[index];
     const End& end = side == Side::send ? channel.from : channel.to;
-    if (end.port.empty()) return true;
+    if (!end.is_used()) return true;
     const CarriedValue value{value_size(end, side), encoding_of(end, side), value_type(end, side)};
     if (value.encoding == nullptr)
       return fail(fmt::format("channel {} crosses processes, and values of its type have no fixed size",
@@ -291,8 +284,8 @@ class Assembler {
     if (sent != 0 && received != 0 && sent != received)
       return fail(fmt::format("channel {}: its ends have values of different sizes", channel.name));
     std::unique_ptr<SharedChannel>& word = assembly_.channels[index].of_sender;
-    const ValueType* const type = channel.from.port.empty() ? value_type(channel.to, Side::receive)
-                                                            : value_type(channel.from, Side::send);
+    const ValueType* const type = !channel.from.is_used() ? value_type(channel.to, Side::receive)
+                                                          : value_type(channel.from, Side::send);
     word = std::make_unique<SharedChannel>(initial_marking(channel.places), std::max(sent, received),
                                            std::max<std::size_t>(channel.slots, 1), type);
     if (!connect(channel.from, Side::send, *word) || !connect(channel.to, Side::receive, *word))
@@ -316,32 +309,32 @@ class Assembler {
 
   /// 0: that end is not used.
   [[nodiscard]] std::size_t value_size(const End& end, Side side) const {
-    if (end.port.empty()) return 0;
+    if (!end.is_used()) return 0;
     const SubsystemParts& parts = parts_[end.instance];
-    const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
+    const std::uint32_t buffer = parts.ports[end.port].buffer;
     return side == Side::send ? parts.bindings.outputs[buffer].size : parts.bindings.inputs[buffer].size;
   }
 
   /// nullptr: values of that type have no fixed size. Precondition: the end is used.
   [[nodiscard]] const ValueEncoding* encoding_of(const End& end, Side side) const {
     const SubsystemParts& parts = parts_[end.instance];
-    const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
+    const std::uint32_t buffer = parts.ports[end.port].buffer;
     return side == Side::send ? parts.bindings.outputs[buffer].encoding
                               : parts.bindings.inputs[buffer].encoding;
   }
 
   /// nullptr: bytes, or the end is not used.
   [[nodiscard]] const ValueType* value_type(const End& end, Side side) const {
-    if (end.port.empty()) return nullptr;
+    if (!end.is_used()) return nullptr;
     const SubsystemParts& parts = parts_[end.instance];
-    const std::uint32_t buffer = parts.ports[ports_[end.instance].at(end.port)].buffer;
+    const std::uint32_t buffer = parts.ports[end.port].buffer;
     return side == Side::send ? parts.bindings.outputs[buffer].type : parts.bindings.inputs[buffer].type;
   }
 
   /// false: an operation of that end uses a slot that the channel does not have.
   bool connect(const End& end, Side side, SharedChannel& word) {
-    if (end.port.empty()) return true;
-    const std::uint32_t port = ports_[end.instance].at(end.port);
+    if (!end.is_used()) return true;
+    const std::uint32_t port = end.port;
     parts_[end.instance].ports[port].channel = &word;
     word.connect(side, waker_, end.instance, plans_[end.instance]->ports[port].needs);
     return has_its_slots(end.instance, port);
@@ -390,10 +383,9 @@ class Assembler {
   const Clock& clock_;
   Waker* waker_;
   std::string& error_;
-  std::vector<SubsystemParts> parts_;                             // per instance
-  std::vector<std::map<std::string_view, std::uint32_t>> ports_;  // per instance: by name
-  std::vector<std::vector<const Channel*>> channel_of_;           // per instance and port
-  std::vector<std::shared_ptr<const Plan>> plans_;                // per instance
+  std::vector<SubsystemParts> parts_;                    // per instance
+  std::vector<std::vector<const Channel*>> channel_of_;  // per instance and port
+  std::vector<std::shared_ptr<const Plan>> plans_;       // per instance
   FlatNet net_;
 };
 

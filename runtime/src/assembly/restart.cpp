@@ -21,7 +21,7 @@ bool RestartingAssembler::restart(std::uint32_t process, network::Incarnation in
 }
 
 bool RestartingAssembler::is_in(const End& end, std::uint32_t process) const {
-  return !end.port.empty() && system_.process_of[end.instance] == process;
+  return end.is_used() && system_.process_of[end.instance] == process;
 }
 
 bool RestartingAssembler::make_subsystems(std::uint32_t process) {

@@ -14,10 +14,10 @@ namespace tessera {
 /// Threads: the driver's.
 class UpperLayers {
  public:
-  /// agents: those that run here; numbers: their numbers in the net. of_system: they are all agents, and the
-  /// transitions of the system fire.
-  UpperLayers(const std::vector<AgentSpan>& agents, std::vector<std::uint32_t> numbers, bool of_system,
-              RecordingLane* lane);
+  /// agents: those that run here; numbers: their numbers in the whole system. of_system: they are all agents,
+  /// and the transitions of the system fire.
+  UpperLayers(const System& whole, const std::vector<AgentSpan>& agents,
+              const std::vector<std::uint32_t>& numbers, bool of_system, RecordingLane* lane);
 
   /// Fires t_in of the system and of every agent. Then every subsystem may be entered.
   void enter(Time now);
@@ -38,7 +38,9 @@ class UpperLayers {
   void fire(std::uint32_t transition, Time now);
   std::vector<std::uint32_t> agent_of_;  // per instance
   std::vector<std::uint32_t> left_;      // per agent: subsystems that have not ended
-  std::vector<std::uint32_t> numbers_;   // per agent
+  // Into FlatNet::transitions, per agent and of the system.
+  std::vector<std::uint32_t> starts_, ends_;
+  std::uint32_t system_starts_, system_ends_;
   bool of_system_;
   std::uint32_t agents_left_;
   std::vector<std::uint32_t> size_;  // per agent: subsystems

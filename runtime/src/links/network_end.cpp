@@ -8,8 +8,6 @@
 namespace tessera {
 namespace {
 
-using PlaceRole = FusedPlace::Role;
-
 [[nodiscard]] std::uint16_t bit_of(std::span<const FusedPlace> places, PlaceRole role) {
   for (std::size_t place = 0; place < places.size(); ++place)
     if (places[place].role == role) return static_cast<std::uint16_t>(1U << place);
@@ -19,11 +17,11 @@ using PlaceRole = FusedPlace::Role;
 /// A blocking sender waits until the receiver's slot is empty.
 [[nodiscard]] bool blocks(const System& whole, const Channel& channel) {
   const auto empty = std::ranges::find(channel.places, PlaceRole::empty, &FusedPlace::role);
-  if (channel.from.port.empty() || empty == channel.places.end()) return false;
-  const std::string awaited = fmt::format("{}/{}", channel.from.port, empty->name);
+  if (!channel.from.is_used() || empty == channel.places.end()) return false;
+  const auto awaited = static_cast<std::uint16_t>(empty - channel.places.begin());
   for (const Transition& transition : whole.instances[channel.from.instance].net->transitions)
-    for (const std::string_view place : transition.inputs)
-      if (place == awaited) return true;
+    for (const ArcEnd end : transition.inputs)
+      if (end.port() == channel.from.port && end.place() == awaited) return true;
   return false;
 }
 

@@ -2,12 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <array>
+#include <algorithm>
+#include <initializer_list>
 #include <optional>
-#include <unordered_map>
+#include <span>
 
 #include "tessera/net_hash.hpp"
-#include "tessera/net_words.hpp"
 #include "tessera/recording.hpp"
 
 namespace tessera {
@@ -31,158 +31,179 @@ namespace {
   return "";
 }
 
+/// Puts the flat net together: the pages above the subsystems, the memory of channels, the nets of the
+/// subsystems, and the media, each as its table has it.
 class Rebuilding {
  public:
   explicit Rebuilding(const System& system) : system_(system), agents_(agents_of(system)) {}
 
   FlatNet result() {
-    add_upper_places();
+    find_channels();
+    const std::uint32_t of_system = add_places(*system_.system_page, "");
+    std::vector<std::uint32_t> of_agents;
+    for (const AgentSpan& agent : agents_)
+      of_agents.push_back(add_places(*system_.agent_page, std::string(agent.name) + '.'));
     add_fused_places();
-    ports_.resize(system_.instances.size());
-    for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel)
-      for (const End& end : {system_.channels[channel].from, system_.channels[channel].to})
-        if (!end.port.empty()) ports_[end.instance].emplace(end.port, channel);
-    for (std::uint32_t instance = 0; instance < system_.instances.size(); ++instance) add_instance(instance);
-    close_upper_layers();
-    add_media();
+    for (const Instance& instance : system_.instances) add_places(instance);
+
+    const UpperPage& page = *system_.agent_page;
+    Below below;
+    for (const std::uint32_t first : of_agents) below.add(first + page.in, first + page.out);
+    add_transitions(*system_.system_page, "", of_system, below);
+    for (std::size_t agent = 0; agent < agents_.size(); ++agent)
+      add_transitions(page, std::string(agents_[agent].name) + '.', of_agents[agent],
+                      instances_of(agents_[agent]));
+    for (std::uint32_t index = 0; index < system_.instances.size(); ++index) add_transitions(index);
+    for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel) add_medium(channel);
     return std::move(net_);
   }
 
  private:
-  /// Adds the places and transitions that carry the values of a channel between processes
-  /// (src/layers/networked.cpp).
-  void add_media() {
-    struct Delivery {
-      std::string_view name;
-      Step step;
-      std::array<FusedPlace::Role, 2> takes, gives;
-    };
-    using enum FusedPlace::Role;
-    const Delivery deliver{words::deliver, Step::deliver, {sent, empty}, {idle, full}};
-    const std::array beyond_one{
-        Delivery{words::replace, Step::replace, {sent, full}, {idle, full}},
-        Delivery{words::deliver_older, Step::deliver_older, {more, empty}, {more, full}},
-        Delivery{words::lose_older, Step::lose_older, {more, none}, {sent, none}}};
-    for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel) {
-      const Channel& its = system_.channels[channel];
-      if (!system_.is_networked(its) || (its.from.port.empty() && its.to.port.empty())) continue;
-      if (!fused(channel, idle)) continue;  // both sides are non-blocking: nothing joins them
-      const auto add = [&](const Delivery& step) {
-        FlatNet::FlatTransition flat{fmt::format("{}.{}", its.name, step.name), system_instance, {}, {}, "",
-                                     {.step = step.step, .channel = channel}};
-        for (const FusedPlace::Role place : step.takes)
-          if (const auto found = fused(channel, place)) flat.inputs.push_back(*found);
-        for (const FusedPlace::Role place : step.gives)
-          if (const auto found = fused(channel, place)) flat.outputs.push_back(*found);
-        net_.transitions.push_back(std::move(flat));
-      };
-      add(deliver);
-      if (fused(channel, more))
-        for (const Delivery& step : beyond_one) add(step);
+  /// The places where the pages below are entered and left.
+  struct Below {
+    std::vector<std::uint32_t> entries, exits;
+    void add(std::uint32_t in, std::uint32_t out) {
+      entries.push_back(in);
+      exits.push_back(out);
     }
+  };
+
+  [[nodiscard]] Below instances_of(const AgentSpan& agent) const {
+    Below below;
+    for (std::uint32_t instance = agent.first; instance < agent.end; ++instance)
+      below.add(first_place_[instance] + system_.instances[instance].net->in,
+                first_place_[instance] + system_.instances[instance].net->out);
+    return below;
   }
 
-  [[nodiscard]] std::optional<std::uint32_t> fused(std::uint32_t channel, FusedPlace::Role role) const {
-    if (role == FusedPlace::Role::none) return std::nullopt;
-    const std::span<const FusedPlace> places = system_.channels[channel].places;
-    for (std::uint32_t place = 0; place < places.size(); ++place)
-      if (places[place].role == role) return fused_[channel] + place;
-    return std::nullopt;
+  void find_channels() {
+    for (const Instance& instance : system_.instances)
+      channel_of_.emplace_back(instance.net->ports.size(), static_cast<std::uint32_t>(nobody));
+    for (std::uint32_t channel = 0; channel < system_.channels.size(); ++channel)
+      for (const End& end : {system_.channels[channel].from, system_.channels[channel].to})
+        if (end.is_used() && end.port < channel_of_[end.instance].size())
+          channel_of_[end.instance][end.port] = channel;
   }
 
-  std::uint32_t add_place(std::string name, std::uint32_t tokens = 0) {
-    net_.places.push_back({std::move(name), tokens});
-    return static_cast<std::uint32_t>(net_.places.size() - 1);
+  /// Returns the number of the first.
+  std::uint32_t add_places(const UpperPage& page, const std::string& prefix) {
+    const auto first = static_cast<std::uint32_t>(net_.places.size());
+    for (const PagePlace& place : page.places)
+      net_.places.push_back({prefix + std::string(place.name), place.tokens});
+    return first;
   }
 
-  [[nodiscard]] static FlatNet::FlatTransition above(std::string name, Step step,
-                                                     std::vector<std::uint32_t> inputs,
-                                                     std::vector<std::uint32_t> outputs) {
-    return {std::move(name), system_instance, std::move(inputs), std::move(outputs), "", {.step = step}};
-  }
-
-  /// Layers 1 and 2: an input (one token in that of the system) and an output, a start and an end.
-  void add_upper_places() {
-    net_.transitions.push_back(
-        above(std::string(words::start), Step::start_system, {add_place(std::string(words::input), 1)}, {}));
-    net_.transitions.push_back(
-        above(std::string(words::end), Step::end_system, {}, {add_place(std::string(words::output))}));
-    for (const AgentSpan& agent : agents_) {
-      const std::string prefix = std::string(agent.name) + '.';
-      const std::uint32_t in = add_place(prefix + std::string(words::input));
-      const std::uint32_t out = add_place(prefix + std::string(words::output));
-      net_.transitions[0].outputs.push_back(in);
-      net_.transitions[1].inputs.push_back(out);
-      net_.transitions.push_back(above(prefix + std::string(words::start), Step::start_agent, {in}, {}));
-      net_.transitions.push_back(above(prefix + std::string(words::end), Step::end_agent, {}, {out}));
-    }
+  void add_places(const Instance& instance) {
+    first_place_.push_back(static_cast<std::uint32_t>(net_.places.size()));
+    const std::string prefix = prefix_of(instance);
+    for (const Place& place : instance.net->places) net_.places.push_back({prefix + std::string(place.name)});
   }
 
   void add_fused_places() {
     for (const Channel& channel : system_.channels) {
       fused_.push_back(static_cast<std::uint32_t>(net_.places.size()));
-      if (channel.from.port.empty() && channel.to.port.empty()) continue;  // no behaviour uses it
+      if (!channel.is_used()) continue;
       for (const FusedPlace& place : channel.places)
-        add_place(fmt::format("{}.{}", channel.name, place.name), place.tokens);
+        net_.places.push_back({fmt::format("{}.{}", channel.name, place.name), place.tokens});
     }
   }
 
-  void add_instance(std::uint32_t index) {
-    const Instance& instance = system_.instances[index];
-    const std::string prefix = fmt::format("{}.{}.", instance.agent, instance.name);
-    std::unordered_map<std::string_view, std::uint32_t> places;
-    for (const Place& place : instance.net->places)
-      places.emplace(place.name, add_place(prefix + std::string(place.name)));
-    in_.push_back(places.contains(instance.net->in) ? places.at(instance.net->in) : 0);
-    out_.push_back(places.contains(instance.net->out) ? places.at(instance.net->out) : 0);
+  void add_transitions(const UpperPage& page, const std::string& prefix, std::uint32_t first,
+                       const Below& below) {
+    const auto ends = [&](std::initializer_list<PageEnd> all) {
+      std::vector<std::uint32_t> places;
+      for (const PageEnd end : all) {
+        const std::vector<std::uint32_t>& all_below =
+            end.kind == PageEnd::Kind::entries ? below.entries : below.exits;
+        if (end.kind == PageEnd::Kind::own)
+          places.push_back(first + end.place);
+        else
+          places.insert(places.end(), all_below.begin(), all_below.end());
+      }
+      return places;
+    };
+    for (const PageTransition& transition : page.transitions)
+      net_.transitions.push_back({prefix + std::string(transition.name),
+                                  system_instance,
+                                  ends(transition.inputs),
+                                  ends(transition.outputs),
+                                  "",
+                                  {.step = transition.step}});
+  }
 
+  void add_transitions(std::uint32_t index) {
+    const Instance& instance = system_.instances[index];
+    const std::string prefix = prefix_of(instance);
     net_.first_of_instance.push_back(static_cast<std::uint32_t>(net_.transitions.size()));
-    for (const Transition& transition : instance.net->transitions) {
-      FlatNet::FlatTransition flat{
-          prefix + std::string(transition.name), index, {}, {}, guard_text(transition.guard),
-          role_of(index, transition.role)};
-      for (std::string_view name : transition.inputs) add_end(index, places, name, flat.inputs);
-      for (std::string_view name : transition.outputs) add_end(index, places, name, flat.outputs);
-      net_.transitions.push_back(std::move(flat));
-    }
+    for (const Transition& transition : instance.net->transitions)
+      net_.transitions.push_back({prefix + std::string(transition.name), index,
+                                  ends_of(index, transition.inputs), ends_of(index, transition.outputs),
+                                  guard_text(transition.guard), role_of(index, transition.role)});
+  }
+
+  void add_medium(std::uint32_t channel) {
+    const Channel& its = system_.channels[channel];
+    if (!its.is_used()) return;
+    const auto ends = [&](std::initializer_list<std::uint16_t> all) {
+      std::vector<std::uint32_t> places;
+      for (const std::uint16_t place : all) places.push_back(fused_[channel] + place);
+      return places;
+    };
+    for (const MediumTransition& transition : its.medium)
+      net_.transitions.push_back({fmt::format("{}.{}", its.name, transition.name),
+                                  system_instance,
+                                  ends(transition.inputs),
+                                  ends(transition.outputs),
+                                  "",
+                                  {.step = transition.step, .channel = channel}});
+  }
+
+  [[nodiscard]] static std::string prefix_of(const Instance& instance) {
+    return fmt::format("{}.{}.", instance.agent, instance.name);
+  }
+
+  /// nullopt: no channel is behind that port.
+  [[nodiscard]] std::optional<std::uint32_t> channel_behind(std::uint32_t instance,
+                                                            std::uint16_t port) const {
+    const std::vector<std::uint32_t>& channels = channel_of_[instance];
+    if (port >= channels.size() || channels[port] == nobody) return std::nullopt;
+    return channels[port];
   }
 
   [[nodiscard]] TransitionRole role_of(std::uint32_t instance, const TableRole& role) const {
-    TransitionRole made{.step = role.step, .behaviour = std::string(role.behaviour)};
-    if (const auto port = ports_[instance].find(role.port); port != ports_[instance].end())
-      made.channel = port->second;
+    const std::span<const Behaviour> behaviours = system_.instances[instance].net->behaviours;
+    TransitionRole made{.step = role.step, .channel = channel_behind(instance, role.port)};
+    if (role.behaviour < behaviours.size()) made.behaviour = behaviours[role.behaviour].name;
     return made;
   }
 
-  void add_end(std::uint32_t instance, const std::unordered_map<std::string_view, std::uint32_t>& places,
-               std::string_view name, std::vector<std::uint32_t>& ends) const {
-    const std::size_t slash = name.find('/');
-    if (slash == std::string_view::npos) {
-      if (const auto found = places.find(name); found != places.end()) ends.push_back(found->second);
-      return;
-    }
-    const auto port = ports_[instance].find(name.substr(0, slash));
-    if (port == ports_[instance].end()) return;
-    const std::span<const FusedPlace> fused = system_.channels[port->second].places;
-    for (std::uint32_t place = 0; place < fused.size(); ++place)
-      if (fused[place].name == name.substr(slash + 1)) ends.push_back(fused_[port->second] + place);
-  }
-
-  void close_upper_layers() {
-    for (std::size_t agent = 0; agent < agents_.size(); ++agent)
-      for (std::uint32_t instance = agents_[agent].first; instance < agents_[agent].end; ++instance) {
-        net_.transitions[2 + 2 * agent].outputs.push_back(in_[instance]);
-        net_.transitions[3 + 2 * agent].inputs.push_back(out_[instance]);
+  [[nodiscard]] std::vector<std::uint32_t> ends_of(std::uint32_t instance,
+                                                   std::initializer_list<ArcEnd> all) const {
+    std::vector<std::uint32_t> places;
+    for (const ArcEnd end : all) {
+      if (!end.is_shared()) {
+        if (end.place() < system_.instances[instance].net->places.size())
+          places.push_back(first_place_[instance] + end.place());
+      } else if (const auto channel = channel_behind(instance, end.port())) {
+        if (end.place() < system_.channels[*channel].places.size())
+          places.push_back(fused_[*channel] + end.place());
       }
+    }
+    return places;
   }
 
   const System& system_;
   std::vector<AgentSpan> agents_;
   FlatNet net_;
-  std::vector<std::uint32_t> fused_;  // per channel: its first fused place
-  std::vector<std::unordered_map<std::string_view, std::uint32_t>> ports_;  // per instance: port -> channel
-  std::vector<std::uint32_t> in_, out_;                                     // per instance
+  std::vector<std::uint32_t> first_place_;              // per instance
+  std::vector<std::uint32_t> fused_;                    // per channel: its first fused place
+  std::vector<std::vector<std::uint32_t>> channel_of_;  // per instance and port; nobody: none
 };
+
+[[nodiscard]] std::uint32_t position(const UpperPage& page, Step step) {
+  const auto found = std::ranges::find(page.transitions, step, &PageTransition::step);
+  return static_cast<std::uint32_t>(found - page.transitions.begin());
+}
 
 }  // namespace
 
@@ -208,6 +229,16 @@ std::vector<AgentSpan> agents_of(const System& system) {
     agents.back().end = instance + 1;
   }
   return agents;
+}
+
+std::uint32_t system_transition(const System& system, Step step) {
+  return position(*system.system_page, step);
+}
+
+std::uint32_t agent_transition(const System& system, std::uint32_t agent, Step step) {
+  const auto above = static_cast<std::uint32_t>(system.system_page->transitions.size());
+  const auto each = static_cast<std::uint32_t>(system.agent_page->transitions.size());
+  return above + agent * each + position(*system.agent_page, step);
 }
 
 FlatNet net_of(const System& system) { return Rebuilding(system).result(); }

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "tessera/tables.hpp"
+#include "tessera/transition_role.hpp"
 
 namespace tessera {
 
@@ -24,8 +25,8 @@ struct FlatNet {
     TransitionRole role{};  ///< its channel: into System::channels
   };
   std::vector<FlatPlace> places;
-  /// t_in, t_out of the system; then those of the agents; then, per instance, in the order of its table; then
-  /// the transitions of the network between processes, per channel.
+  /// Those of the system's page; then, per agent, those of its page; then, per instance, in the order of its
+  /// table; then those of the media, per channel.
   std::vector<FlatTransition> transitions;
   std::vector<std::uint32_t> first_of_instance;  ///< into transitions
 
@@ -39,8 +40,12 @@ struct AgentSpan {
 };
 [[nodiscard]] std::vector<AgentSpan> agents_of(const System& system);
 
-/// Every name in the tables must resolve (Plan checks that). An end of an arc that does not resolve is
-/// left out, so that the hash differs.
+/// The numbers of the transitions above the subsystems, in FlatNet::transitions.
+[[nodiscard]] std::uint32_t system_transition(const System& system, Step step);
+[[nodiscard]] std::uint32_t agent_transition(const System& system, std::uint32_t agent, Step step);
+
+/// Every number in the tables must exist (Plan checks that). An end of an arc that does not is left out, so
+/// that the hash differs.
 [[nodiscard]] FlatNet net_of(const System& system);
 
 }  // namespace tessera

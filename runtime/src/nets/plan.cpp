@@ -3,24 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <unordered_map>
+#include <string_view>
 
 #include "nets/shared_channel.hpp"
 #include "tessera/channel_limits.hpp"
 
 namespace tessera {
 namespace {
-
-using Index = std::unordered_map<std::string_view, std::uint32_t>;
-
-template <class Rows>
-[[nodiscard]] Index index_by_name(const Rows& rows, std::string& error) {
-  Index index;
-  for (const auto& row : rows)
-    if (!index.emplace(row.name, static_cast<std::uint32_t>(index.size())).second)
-      error = fmt::format("'{}' is declared twice", row.name);
-  return index;
-}
 
 [[nodiscard]] Outcome outcome_of(Guard::Kind kind) {
   return kind == Guard::Kind::error      ? Outcome::error
@@ -35,15 +24,12 @@ class Compilation {
 
   std::optional<Plan> result() {
     error_.clear();
-    places_ = index_by_name(net_.places, error_);
-    behaviours_ = index_by_name(net_.behaviours, error_);
-    ports_ = index_by_name(net_.ports, error_);
     plan_.ports.resize(net_.ports.size());
     check_ports();
     for (const Place& place : net_.places) add(place);
     for (const Transition& transition : net_.transitions) add(transition);
-    plan_.in = resolve(places_, net_.in, "place");
-    plan_.out = resolve(places_, net_.out, "place");
+    plan_.in = checked(net_.in, net_.places.size(), "place");
+    plan_.out = checked(net_.out, net_.places.size(), "place");
     if (!error_.empty()) return std::nullopt;
     index_leaving();
     return std::move(plan_);
@@ -54,10 +40,9 @@ class Compilation {
     if (error_.empty()) error_ = std::move(text);
   }
 
-  std::uint32_t resolve(const Index& index, std::string_view name, std::string_view what) {
-    const auto found = index.find(name);
-    if (found != index.end()) return found->second;
-    fail(fmt::format("no {} is named '{}'", what, name));
+  std::uint16_t checked(std::uint16_t number, std::size_t count, std::string_view what) {
+    if (number < count) return number;
+    fail(fmt::format("there is no {} {}", what, number));
     return 0;
   }
 
@@ -82,11 +67,11 @@ class Compilation {
       case Does::Kind::call:
       case Does::Kind::decide:
       case Does::Kind::route:
-        entry.subject = static_cast<std::uint16_t>(resolve(behaviours_, place.does.subject, "behaviour"));
+        entry.subject = checked(place.does.subject, net_.behaviours.size(), "behaviour");
         break;
       case Does::Kind::write:
       case Does::Kind::read:
-        entry.subject = static_cast<std::uint16_t>(resolve(ports_, place.does.subject, "port"));
+        entry.subject = checked(place.does.subject, net_.ports.size(), "port");
         if (place.does.slot == 0) fail(fmt::format("'{}': slots count from 1", place.name));
         entry.slot = static_cast<std::uint16_t>(place.does.slot - 1);
         break;
@@ -99,10 +84,11 @@ class Compilation {
     entry.index = static_cast<std::uint32_t>(plan_.transitions.size());
     entry.guard = {transition.guard.kind, transition.guard.entry};
     entry.inputs = static_cast<std::uint32_t>(plan_.arcs.size());
-    for (std::string_view name : transition.inputs) add_end(transition, name, entry, entry.taken);
+    for (const ArcEnd end : transition.inputs) add_end(transition, end, entry, entry.taken);
     entry.outputs = static_cast<std::uint32_t>(plan_.arcs.size());
-    for (std::string_view name : transition.outputs) add_end(transition, name, entry, entry.produced);
-    if (!transition.guard.port.empty()) entry.port = {resolve(ports_, transition.guard.port, "port")};
+    for (const ArcEnd end : transition.outputs) add_end(transition, end, entry, entry.produced);
+    if (transition.guard.port != nobody)
+      entry.port = {checked(transition.guard.port, net_.ports.size(), "port")};
     entry.end = static_cast<std::uint32_t>(plan_.arcs.size());
     if (entry.inputs == entry.outputs)
       fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
@@ -117,26 +103,19 @@ class Compilation {
     plan_.transitions.push_back(entry);
   }
 
-  /// One end of an arc: "place", or "port/place" of a channel.
-  void add_end(const Transition& transition, std::string_view name, Plan::TransitionEntry& entry,
-               std::uint16_t& bits) {
-    const std::size_t slash = name.find('/');
-    if (slash == std::string_view::npos) {
-      plan_.arcs.push_back(resolve(places_, name, "place"));
+  void add_end(const Transition& transition, ArcEnd end, Plan::TransitionEntry& entry, std::uint16_t& bits) {
+    if (!end.is_shared()) {
+      plan_.arcs.push_back(checked(end.place(), net_.places.size(), "place"));
       return;
     }
-    const Plan::PortId port{resolve(ports_, name.substr(0, slash), "port")};
+    const Plan::PortId port{checked(end.port(), net_.ports.size(), "port")};
     if (!error_.empty()) return;
     if (entry.port.valid() && entry.port != port)
       fail(fmt::format("'{}' touches two channels", transition.name));
     entry.port = port;
-    const std::span<const FusedPlace> fused = fused_[port.value];
-    const auto found = std::find_if(fused.begin(), fused.end(), [&](const FusedPlace& place) {
-      return place.name == name.substr(slash + 1);
-    });
-    if (found == fused.end())
-      return fail(fmt::format("'{}': its channel has no place '{}'", transition.name, name));
-    bits = static_cast<std::uint16_t>(bits | 1U << (found - fused.begin()));
+    if (end.place() >= fused_[port.value].size())
+      return fail(fmt::format("'{}': its channel has no place {}", transition.name, end.place()));
+    bits = static_cast<std::uint16_t>(bits | 1U << end.place());
   }
 
   void find_latch(const Transition& transition, Plan::TransitionEntry& entry) {
@@ -200,7 +179,6 @@ class Compilation {
   const SubsystemNet& net_;
   std::span<const std::span<const FusedPlace>> fused_;
   std::string& error_;
-  Index places_, behaviours_, ports_;
   Plan plan_;
 };
 

@@ -11,7 +11,7 @@
 
 namespace tessera {
 
-/// The net of a subsystem, prepared for firing: names resolved to indices, arcs in compressed rows. Instances
+/// The net of a subsystem, prepared for firing: arcs in compressed rows, shared places as bits. Instances
 /// with the same tables share one. It is immutable, and can be moved but not copied.
 struct Plan {
   using PlaceId = Id<struct PlanPlaceTag>;
@@ -82,7 +82,7 @@ struct Plan {
 
 /// fused: per port of the net, the fused places of the channel behind it.
 ///
-/// Errors: a name that the tables do not declare, a transition that touches two channels or takes from no
+/// Errors: a number that the tables do not declare, a transition that touches two channels or takes from no
 ///         place of the subsystem, more than most_shared_places fused places: nullopt and `error`.
 [[nodiscard]] std::optional<Plan> compile(const SubsystemNet& net,
                                           std::span<const std::span<const FusedPlace>> fused,

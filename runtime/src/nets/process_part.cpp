@@ -33,7 +33,7 @@ void take_channels(ProcessPart& part, const std::vector<std::uint32_t>& number_h
     Channel channel = whole.channels[index];
     if (!part.has(channel.from.instance) && !part.has(channel.to.instance)) continue;
     for (End* const end : {&channel.from, &channel.to})
-      *end = part.has(end->instance) ? End{number_here[end->instance], end->port} : End{0, {}};
+      *end = part.has(end->instance) ? End{number_here[end->instance], end->port} : End{0};
     part.channels.push_back(index);
     part.own_channels.push_back(channel);
   }

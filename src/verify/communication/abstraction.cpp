@@ -46,13 +46,13 @@ void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
   const net::Place from = net[exit];
   net::Place lost = from;
   lost.name = from.name + ".none";
-  lost.role = net::PlaceRole::no_successor;
+  lost.role = PlaceRole::no_successor;
   lost.tokens = 0;
   lost.operation = {};
   const PlaceId to = net.add(std::move(lost));
   net::Transition none;
   none.name = from.name + std::string(words::no_successor);
-  none.role = net::TransitionRole::no_successor;
+  none.role = Step::no_successor;
   none.agent = from.agent;
   none.behaviour = from.behaviour;
   none.condition = {.kind = Condition::Kind::next, .truth = Condition::Truth::free, .text = "none holds"};
@@ -71,9 +71,8 @@ class Links {
 
   /// The link that a transition needs; invalid: none.
   PlaceId needed_by(const net::Net& net, TransitionId id) {
-    const net::TransitionRole role = net[id].role;
-    const bool delivers = role == net::TransitionRole::deliver || role == net::TransitionRole::replace ||
-                          role == net::TransitionRole::deliver_older;
+    const Step role = net[id].role;
+    const bool delivers = role == Step::deliver || role == Step::replace || role == Step::deliver_older;
     if (!delivers && !acknowledges(net, id)) return {};
     const auto [link, added] = links_.emplace(std::pair(net.channel_of(id), !delivers), PlaceId{});
     if (added) {
@@ -82,7 +81,7 @@ class Links {
           .tokens = 1,
           .layer = net::Layer::communication,
           .channel = net.channel_of(id)};
-      place.role = delivers ? net::PlaceRole::link : net::PlaceRole::link_back;
+      place.role = delivers ? PlaceRole::link : PlaceRole::link_back;
       link->second = to_.add(std::move(place));
     }
     return link->second;
@@ -93,7 +92,7 @@ class Links {
     for (const auto& [of, link] : links_) {
       net::Transition cut;
       cut.name = to_.parts()[of.first] + std::string(of.second ? words::cut_back : words::cut);
-      cut.role = of.second ? net::TransitionRole::cut_back : net::TransitionRole::cut;
+      cut.role = of.second ? Step::cut_back : Step::cut;
       to_.add(std::move(cut), std::vector<Arc>{{link, 1}}, {});
     }
   }
@@ -101,11 +100,11 @@ class Links {
  private:
   /// A blocking sender learns over the network that its value was taken.
   static bool acknowledges(const net::Net& net, TransitionId id) {
-    const auto has = [&](net::PlaceRole role) {
+    const auto has = [&](PlaceRole role) {
       return std::ranges::any_of(net.preset(id), [&](const Arc& arc) { return net[arc.place].role == role; });
     };
     return net[id].subsystem.valid() && net[id].condition.kind == Condition::Kind::none &&
-           has(net::PlaceRole::idle) && has(net::PlaceRole::empty);
+           has(PlaceRole::idle) && has(PlaceRole::empty);
   }
 
   net::Net& to_;
@@ -148,7 +147,7 @@ std::vector<bool> last_transitions(const net::Net& net) {
     if (!net[id].subsystem.valid() || !possible(net, id)) continue;
     last[index] = std::ranges::any_of(net.postset(id), [&](const Arc& arc) {
       const net::Place& place = net[arc.place];
-      return place.is(net::Layer::subsystem, net::PlaceRole::output) && !left[arc.place.value];
+      return place.is(net::Layer::subsystem, PlaceRole::output) && !left[arc.place.value];
     });
   }
   return last;
@@ -157,8 +156,7 @@ std::vector<bool> last_transitions(const net::Net& net) {
 }  // namespace
 
 bool is_deployed(const net::Net& net) {
-  return std::ranges::any_of(net.places(),
-                             [](const net::Place& place) { return net::is_networked(place.role); });
+  return std::ranges::any_of(net.places(), [](const net::Place& place) { return is_networked(place.role); });
 }
 
 bool possible(const net::Net& net, net::TransitionId id) {

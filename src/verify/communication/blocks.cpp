@@ -12,21 +12,21 @@ using net::PlaceId;
 /// Which part of its channel's memory a fused place is; 0: none that we know.
 std::uint8_t memory_of(const net::Place& place) {
   switch (place.role) {
-    case net::PlaceRole::lock:
-    case net::PlaceRole::sent_memory:
-    case net::PlaceRole::received_memory:
+    case PlaceRole::lock:
+    case PlaceRole::sent_memory:
+    case PlaceRole::received_memory:
       return free_to_use;
-    case net::PlaceRole::empty:
+    case PlaceRole::empty:
       return empty;
-    case net::PlaceRole::full:
+    case PlaceRole::full:
       return full;
-    case net::PlaceRole::acknowledged:
+    case PlaceRole::acknowledged:
       return acknowledged;
-    case net::PlaceRole::idle:
+    case PlaceRole::idle:
       return idle;
-    case net::PlaceRole::sent:
+    case PlaceRole::sent:
       return sent;
-    case net::PlaceRole::more:
+    case PlaceRole::more:
       return more;
     default:
       return 0;
@@ -179,7 +179,7 @@ Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 
     if (!place.fused()) continue;
     if (acknowledges_.size() <= place.channel.value) acknowledges_.resize(place.channel.value + 1, false);
     networked_.resize(acknowledges_.size(), false);
-    if (net::is_networked(place.role)) networked_[place.channel.value] = true;
+    if (is_networked(place.role)) networked_[place.channel.value] = true;
     if (memory_of(place) == acknowledged) acknowledges_[place.channel.value] = true;
   }
   std::vector<std::pair<PlaceId, Step>> found;

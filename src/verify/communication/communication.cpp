@@ -44,7 +44,7 @@ class SubsystemReader {
 
   /// The index of the behaviour that starts at the place.
   std::optional<std::uint32_t> behaviour_at(PlaceId place) {
-    if (!net_[place].is(net::Layer::behaviour, net::PlaceRole::input)) return std::nullopt;
+    if (!net_[place].is(net::Layer::behaviour, PlaceRole::input)) return std::nullopt;
     const auto [entry, added] = numbers_.emplace(place, static_cast<std::uint32_t>(entries_.size()));
     if (added) entries_.push_back(place);
     return entry->second;
@@ -183,7 +183,7 @@ class Start {
     for (std::uint32_t place = 0; place < tokens_.size(); ++place)
       if (!net.places()[place].fused()) tokens_[place] = net.places()[place].tokens;
     for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
-      if (!net.transitions()[index].subsystem.valid() && !net::is_of_medium(net.transitions()[index].role))
+      if (!net.transitions()[index].subsystem.valid() && !is_of_medium(net.transitions()[index].role))
         upper_.push_back({index});
     // Parents come before children, so one pass in order starts everything.
     for (const net::TransitionId id : upper_)
@@ -222,8 +222,8 @@ class Channels {
         flows_(steps.channel_count()),
         exchanges_(steps.channel_count(), false) {
     for (const net::Place& place : steps.net().places())
-      if (place.role == net::PlaceRole::lock || place.role == net::PlaceRole::sent_memory ||
-          place.role == net::PlaceRole::received_memory)
+      if (place.role == PlaceRole::lock || place.role == PlaceRole::sent_memory ||
+          place.role == PlaceRole::received_memory)
         exchanges_[place.channel.value] = true;
   }
 
@@ -282,7 +282,7 @@ std::string stray_transition(const net::Net& net, const Steps& steps) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
     if (net[id].subsystem.valid()) continue;
-    if (net::is_of_medium(net[id].role)) {
+    if (is_of_medium(net[id].role)) {
       if (!joins_one_channel(net, id)) return "'" + net[id].name + "' joins more than one channel";
       continue;
     }

@@ -78,7 +78,7 @@ class Explainer {
     std::vector<TransitionId> last;
     for (const TransitionId id : waits.transitions(subsystem))
       for (const net::Arc& arc : net_.postset(id))
-        if (net_[arc.place].is(net::Layer::subsystem, net::PlaceRole::output)) last.push_back(id);
+        if (net_[arc.place].is(net::Layer::subsystem, PlaceRole::output)) last.push_back(id);
     return last;
   }
 

@@ -27,8 +27,7 @@ struct Deed {
 };
 
 bool touches_wait(const net::Net& net, std::span<const Arc> arcs) {
-  return std::ranges::any_of(arcs,
-                             [&](const Arc& arc) { return net[arc.place].role == net::PlaceRole::waiting; });
+  return std::ranges::any_of(arcs, [&](const Arc& arc) { return net[arc.place].role == PlaceRole::waiting; });
 }
 
 class Teller {
@@ -63,17 +62,16 @@ class Teller {
   [[nodiscard]] Deed between(TransitionId id) const {
     Deed deed;
     deed.transition = net_[id].name.substr(subsystem(id).size() + 1);
-    if (net_[id].role == net::TransitionRole::no_successor) {
+    if (net_[id].role == Step::no_successor) {
       deed.text = "leaves a behaviour, and none of its initial conditions holds";
       return deed;
     }
     const net::Place& to = net_[net_.postset(id).front().place];
-    if (to.is(net::Layer::subsystem, net::PlaceRole::output)) {
+    if (to.is(net::Layer::subsystem, PlaceRole::output)) {
       deed.text = "ends";
     } else {
       deed.behaviour = behaviour_name(to.subsystem, to.behaviour);
-      deed.text =
-          (net_[id].role == net::TransitionRole::start ? "starts in " : "goes on to ") + deed.behaviour;
+      deed.text = (net_[id].role == Step::start ? "starts in " : "goes on to ") + deed.behaviour;
     }
     return deed;
   }
@@ -93,7 +91,7 @@ class Teller {
 
   void communicate(TransitionId id, Deed& deed) const {
     const std::string buffer = deed.block.valid() ? net_.parts()[deed.block].name : std::string();
-    const bool overwrites = net_[id].role == net::TransitionRole::overwrite;
+    const bool overwrites = net_[id].role == Step::overwrite;
     if (net_[id].condition.kind == Condition::Kind::elapsed) {
       deed.text = "waits for " + buffer + " until its timeout" + fate_of_value(id);
       return;
@@ -110,22 +108,22 @@ class Teller {
       }
     }
     const bool sends = std::ranges::any_of(net_.postset(id), [&](const Arc& arc) {
-      return net_[arc.place].role == net::PlaceRole::sent || net_[arc.place].role == net::PlaceRole::more;
+      return net_[arc.place].role == PlaceRole::sent || net_[arc.place].role == PlaceRole::more;
     });
     if (sends) deed.alone = "sends " + buffer;
     if (touches_wait(net_, net_.preset(id))) deed.text = "is acknowledged";
-    if (net_[id].role == net::TransitionRole::skip) deed.text = "finds nothing new in " + buffer;
+    if (net_[id].role == Step::skip) deed.text = "finds nothing new in " + buffer;
     deed.then_waits = touches_wait(net_, net_.postset(id));
   }
 
   /// The end of a wait over a network: what becomes of the value, which the sender does not know.
   [[nodiscard]] std::string fate_of_value(TransitionId id) const {
-    const auto takes = [&](net::PlaceRole role) {
+    const auto takes = [&](PlaceRole role) {
       return std::ranges::any_of(net_.preset(id),
                                  [&](const Arc& arc) { return net_[arc.place].role == role; });
     };
-    if (takes(net::PlaceRole::sent) || takes(net::PlaceRole::more)) return ", and the value never arrives";
-    if (takes(net::PlaceRole::idle)) return ", and the value is called back unread";
+    if (takes(PlaceRole::sent) || takes(PlaceRole::more)) return ", and the value never arrives";
+    if (takes(PlaceRole::idle)) return ", and the value is called back unread";
     return "";
   }
 
@@ -192,7 +190,7 @@ std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
   std::string system;
   std::vector<std::string> starts, ends;
   for (const TransitionId id : run) {
-    const bool enters = net[id].role == net::TransitionRole::start;
+    const bool enters = is_start(net[id].role);
     if (!net[id].agent.valid())
       system += (system.empty() ? "the system " : " and ") + std::string(enters ? "starts" : "ends");
     else
@@ -214,25 +212,24 @@ std::string upper_text(const net::Net& net, std::span<const TransitionId> run) {
 
 /// The transitions of the network between processes.
 std::string medium_text(const net::Net& net, std::span<const TransitionId> run) {
-  using Role = net::TransitionRole;
   std::string text;
   for (const TransitionId id : run) {
     const std::string& channel = net.parts()[net.channel_of(id)];
     std::string one;
     switch (net[id].role) {
-      case Role::deliver:
+      case Step::deliver:
         one = "delivers " + channel;
         break;
-      case Role::replace:
+      case Step::replace:
         one = "delivers " + channel + " over a value that was not read";
         break;
-      case Role::deliver_older:
+      case Step::deliver_older:
         one = "delivers an older value of " + channel;
         break;
-      case Role::lose_older:
+      case Step::lose_older:
         one = "loses the older values of " + channel + " on the way";
         break;
-      case Role::cut_back:
+      case Step::cut_back:
         one = "is cut for acknowledgements of " + channel;
         break;
       default:
@@ -251,9 +248,9 @@ std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& r
   std::vector<Act> acts;
   for (std::size_t first = 0, end = 0; first < run.size(); first = end) {
     const net::SubsystemId subsystem = net[run[first]].subsystem;
-    const bool medium = net::is_of_medium(net[run[first]].role);
+    const bool medium = is_of_medium(net[run[first]].role);
     const auto same = [&](TransitionId id) {
-      return net[id].subsystem == subsystem && net::is_of_medium(net[id].role) == medium;
+      return net[id].subsystem == subsystem && is_of_medium(net[id].role) == medium;
     };
     for (end = first; end < run.size() && same(run[end]);) ++end;
     const std::span<const TransitionId> part = std::span(run).subspan(first, end - first);

@@ -228,9 +228,7 @@ std::vector<std::vector<std::size_t>> followers(const net::Net& net, const Run& 
 Run grouped(const net::Net& net, const Run& run) {
   std::vector<std::size_t> waiting_for;
   const std::vector<std::vector<std::size_t>> after = followers(net, run, waiting_for);
-  const auto rank = [&](std::size_t at) {
-    return net[run[at]].role == net::TransitionRole::no_successor ? 1 : 0;
-  };
+  const auto rank = [&](std::size_t at) { return net[run[at]].role == Step::no_successor ? 1 : 0; };
   std::map<net::SubsystemId, std::set<std::pair<int, std::size_t>>> ready;  // by subsystem
   std::set<std::tuple<int, std::size_t, net::SubsystemId>> order;
   const auto offer = [&](std::size_t at) {

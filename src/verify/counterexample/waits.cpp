@@ -13,9 +13,9 @@ using net::TransitionId;
 }  // namespace
 
 Waits::Good Waits::good_of(const net::Place& place) const {
-  if (place.role == net::PlaceRole::full) return Good::value;
+  if (place.role == PlaceRole::full) return Good::value;
   if (place.fused() && crosses(place)) return Good::acknowledgement;
-  return place.role == net::PlaceRole::acknowledged ? Good::acknowledgement : Good::memory;
+  return place.role == PlaceRole::acknowledged ? Good::acknowledgement : Good::memory;
 }
 
 /// Over a network a value arrives if its sender sends it, and it was taken if its receiver has an empty slot.
@@ -24,9 +24,8 @@ bool Waits::is_given(std::uint32_t place, const net::Arc& arc) const {
   const net::Place& given = net_[arc.place];
   if (!wanted.fused() || !crosses(wanted)) return arc.place.value == place;
   if (given.channel != wanted.channel) return false;
-  if (good_of(wanted) == Good::value)
-    return given.role == net::PlaceRole::sent || given.role == net::PlaceRole::more;
-  return given.role == net::PlaceRole::empty;
+  if (good_of(wanted) == Good::value) return given.role == PlaceRole::sent || given.role == PlaceRole::more;
+  return given.role == PlaceRole::empty;
 }
 
 std::string Waits::cut_at(const net::Place& place) const {
@@ -35,7 +34,7 @@ std::string Waits::cut_at(const net::Place& place) const {
   for (std::uint32_t link = 0; link < tokens_.size(); ++link) {
     const net::Place& one = net_.places()[link];
     if (one.channel != place.channel || tokens_[link] > 0) continue;
-    if (one.role == net::PlaceRole::link || (back && one.role == net::PlaceRole::link_back))
+    if (one.role == PlaceRole::link || (back && one.role == PlaceRole::link_back))
       return ", and the network is cut";
   }
   return {};
@@ -47,7 +46,7 @@ Waits::Waits(const net::Net& net, std::vector<std::uint32_t> tokens)
       transitions_(net.parts().subsystems.size()),
       networked_(net.parts().channels.size(), false) {
   for (const net::Place& place : net.places())
-    if (net::is_networked(place.role)) networked_[place.channel.value] = true;
+    if (is_networked(place.role)) networked_[place.channel.value] = true;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::Transition& transition = net.transitions()[index];
     if (transition.subsystem.value >= transitions_.size() ||
@@ -71,11 +70,11 @@ void Waits::note_tokens() {
     if (tokens_[place] == 0) continue;
     const net::Place& given = net_.places()[place];
     if (given.subsystem.value < acts_.size() && !given.fused() &&
-        !given.is(net::Layer::subsystem, net::PlaceRole::output))
+        !given.is(net::Layer::subsystem, PlaceRole::output))
       acts_[given.subsystem.value] = true;
     // It has not ended if it has never begun: its agent is still to start it.
-    system_not_begun = system_not_begun || given.is(net::Layer::system, net::PlaceRole::input);
-    if (given.is(net::Layer::agent, net::PlaceRole::input)) not_begun.insert(given.agent);
+    system_not_begun = system_not_begun || given.is(net::Layer::system, PlaceRole::input);
+    if (given.is(net::Layer::agent, PlaceRole::input)) not_begun.insert(given.agent);
   }
   for (std::uint32_t index = 0; index < acts_.size(); ++index)
     if (system_not_begun || not_begun.contains(net_.parts()[net::SubsystemId{index}].agent))
@@ -104,7 +103,7 @@ std::vector<SubsystemAtEnd> Waits::waits_of(net::SubsystemId subsystem) const {
   }
   for (std::uint32_t place = 0; place < tokens_.size(); ++place)
     if (tokens_[place] > 0 && net_.places()[place].subsystem == subsystem &&
-        net_.places()[place].role == net::PlaceRole::no_successor)
+        net_.places()[place].role == PlaceRole::no_successor)
       all.push_back({.state = SubsystemAtEnd::State::no_successor,
                      .path = name(subsystem),
                      .behaviour = behaviour_left(place),

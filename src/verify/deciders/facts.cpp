@@ -142,13 +142,13 @@ std::vector<std::uint32_t> Facts::subjects(Question::Kind kind, Assume assume) {
     for (std::uint32_t page = 0; page < subject_.pages->pages.size(); ++page) all.push_back(page);
   if (kind == Question::Kind::live_behaviours)
     for (std::uint32_t place = 0; place < subject_.net.places().size(); ++place)
-      if (subject_.net.places()[place].is(net::Layer::behaviour, net::PlaceRole::input)) all.push_back(place);
+      if (subject_.net.places()[place].is(net::Layer::behaviour, PlaceRole::input)) all.push_back(place);
   return all;
 }
 
 net::PlaceId final_place(const net::Net& net) {
   for (std::uint32_t place = 0; place < net.places().size(); ++place)
-    if (net.places()[place].is(net::Layer::system, net::PlaceRole::output)) return {place};
+    if (net.places()[place].is(net::Layer::system, PlaceRole::output)) return {place};
   return {};
 }
 

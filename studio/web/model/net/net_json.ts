@@ -54,17 +54,26 @@ export interface PageTransition {
   inputs: number[];
   outputs: number[];
   condition: Condition | null;
-  /** Its role besides its condition; null: none. */
+  /** Its role in the five layers; null: none. */
   role:
+    | "start_system"
+    | "end_system"
+    | "start_agent"
+    | "end_agent"
     | "start"
-    | "end"
     | "leave"
     | "begin_sending"
     | "end_sending"
     | "begin_receiving"
     | "end_receiving"
+    | "go_on"
+    | "terminal"
+    | "error"
+    | "page"
+    | "transfer"
     | "overwrite"
     | "skip"
+    | "timeout"
     | "deliver"
     | "replace"
     | "deliver_older"

@@ -103,7 +103,8 @@ TEST(Structure, ModulesIncludeWhatTheTableNames) {
     folders[module_of(row.name)] = {row.cells.begin(), row.cells.end()};
 
   std::size_t files = 0;
-  for (const char* folder : {"src", "vocabulary", "recording", "network", "runtime", "sim", "ros2", "studio/server", "cli"})
+  for (const char* folder :
+       {"src", "vocabulary", "recording", "network", "runtime", "sim", "ros2", "studio/server", "cli"})
     for (const fs::path& file : sources(folder, cpp)) {
       ++files;
       const std::string module = module_of(file);
@@ -152,7 +153,8 @@ TEST(Structure, FoldersOfAModuleIncludeOnlyFoldersBeforeThem) {
 
 TEST(Structure, FilesAndFoldersAreSmall) {
   std::map<fs::path, std::size_t> in_folder;
-  for (const char* folder : {"src", "vocabulary", "recording", "network", "runtime", "sim", "ros2", "studio", "cli"})
+  for (const char* folder :
+       {"src", "vocabulary", "recording", "network", "runtime", "sim", "ros2", "studio", "cli"})
     for (const fs::path& file : sources(folder, {".cpp", ".hpp", ".ts", ".tsx", ".css"})) {
       if (file.string().find("/dist/") != std::string::npos) continue;
       const std::string text = read(root / file);

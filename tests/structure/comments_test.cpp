@@ -109,8 +109,9 @@ bool is_left_out(const fs::path& folder) {
 
 TEST(Comments, BeginTheirSentencesWithTheSubject) {
   std::size_t comments = 0;
-  for (const char* folder : {"benchmarks", "cli", "cmake", "editors", "examples", "network", "recording",
-                             "ros2", "runtime", "scripts", "sim", "src", "studio", "tests", "vocabulary"}) {
+  for (const char* folder :
+       {"benchmarks", "cli", "cmake", "editors", "examples", "executor", "network", "recording", "ros2",
+        "runtime", "scripts", "sim", "src", "studio", "tests", "vocabulary"}) {
     const fs::path root = fs::path(TESSERA_SOURCE_DIR) / folder;
     for (auto at = fs::recursive_directory_iterator(root); at != fs::recursive_directory_iterator(); ++at) {
       if (at->is_directory() && is_left_out(at->path())) at.disable_recursion_pending();

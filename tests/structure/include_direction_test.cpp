@@ -79,11 +79,11 @@ std::string module_of(const fs::path& file) {
   return part->string();
 }
 
-/// "tessera/..." are the public headers of three modules.
+/// "tessera/..." are the public headers of four modules.
 std::string module_of_include(const std::string& include) {
   const std::string first = include.substr(0, include.find('/'));
   if (first != "tessera") return first;
-  for (const char* module : {"vocabulary", "recording"})
+  for (const char* module : {"vocabulary", "executor", "recording"})
     if (fs::exists(root / module / "include" / include)) return module;
   return "runtime";
 }
@@ -103,8 +103,8 @@ TEST(Structure, ModulesIncludeWhatTheTableNames) {
     folders[module_of(row.name)] = {row.cells.begin(), row.cells.end()};
 
   std::size_t files = 0;
-  for (const char* folder :
-       {"src", "vocabulary", "recording", "network", "runtime", "sim", "ros2", "studio/server", "cli"})
+  for (const char* folder : {"src", "vocabulary", "executor", "recording", "network", "runtime", "sim",
+                             "ros2", "studio/server", "cli"})
     for (const fs::path& file : sources(folder, cpp)) {
       ++files;
       const std::string module = module_of(file);
@@ -154,7 +154,7 @@ TEST(Structure, FoldersOfAModuleIncludeOnlyFoldersBeforeThem) {
 TEST(Structure, FilesAndFoldersAreSmall) {
   std::map<fs::path, std::size_t> in_folder;
   for (const char* folder :
-       {"src", "vocabulary", "recording", "network", "runtime", "sim", "ros2", "studio", "cli"})
+       {"src", "vocabulary", "executor", "recording", "network", "runtime", "sim", "ros2", "studio", "cli"})
     for (const fs::path& file : sources(folder, {".cpp", ".hpp", ".ts", ".tsx", ".css"})) {
       if (file.string().find("/dist/") != std::string::npos) continue;
       const std::string text = read(root / file);

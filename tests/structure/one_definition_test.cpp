@@ -46,8 +46,8 @@ TEST(OneDefinition, TheReaderOfHeadersFindsTypes) {
 
 TEST(OneDefinition, NoTwoHeadersDefineATypeOfTheSameName) {
   std::map<std::string, fs::path> defined;
-  for (const char* module :
-       {"cli", "network", "recording", "ros2", "runtime", "sim", "src", "studio/server", "vocabulary"})
+  for (const char* module : {"cli", "executor", "network", "recording", "ros2", "runtime", "sim", "src",
+                             "studio/server", "vocabulary"})
     for (const auto& entry : fs::recursive_directory_iterator(fs::path(TESSERA_SOURCE_DIR) / module)) {
       if (entry.path().extension() != ".hpp") continue;
       std::ifstream stream(entry.path(), std::ios::binary);

@@ -82,11 +82,10 @@ void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view wha
 /// The place of the token while that behaviour's transition function runs.
 std::string_view Operations::place_of_call(std::uint16_t behaviour) const {
   const SubsystemNet& net = *parts_.instance->net;
-  const std::string_view name = net.behaviours[behaviour].name;
   const auto place = std::find_if(net.places.begin(), net.places.end(), [&](const Place& one) {
-    return one.does.kind == Does::Kind::call && one.does.subject == name;
+    return one.does.kind == Does::Kind::call && one.does.subject == behaviour;
   });
-  return place == net.places.end() ? name : place->name;
+  return place == net.places.end() ? net.behaviours[behaviour].name : place->name;
 }
 
 // -------------------------------------------------------------------------------------------- calls

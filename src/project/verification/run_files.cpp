@@ -150,7 +150,7 @@ json scenario_json(const net::Net& net, const verify::Report& report,
   json firings = json::array();
   for (const net::TransitionId id : property.trace) {
     const net::Transition& transition = its_net[id];
-    if (transition.role == Step::no_successor)
+    if (transition.role == tessera::Step::no_successor)
       firings.push_back(
           {{"name", transition.name}, {"none_holds", its_net.parts()[transition.subsystem].path}});
     else

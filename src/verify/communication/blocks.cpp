@@ -45,7 +45,7 @@ struct Move {
 bool moves_are(const Steps& steps, PlaceId from, net::ChannelId channel, std::span<const Move> expected) {
   const auto found = steps.from(from);
   if (found.size() != expected.size()) return false;
-  return std::ranges::all_of(found, [&](const Step& step) {
+  return std::ranges::all_of(found, [&](const TokenStep& step) {
     const net::Condition& condition = steps.net()[step.id].condition;
     const bool elapsed = condition.kind == net::Condition::Kind::elapsed;
     if (!elapsed && condition.kind != net::Condition::Kind::none) return false;
@@ -63,7 +63,7 @@ class Match {
   std::optional<Block> result() {
     const auto starts = steps_.from(in_);
     // Every block has a transition into its working place, which carries the operation.
-    const auto start = std::ranges::find_if(starts, [&](const Step& step) {
+    const auto start = std::ranges::find_if(starts, [&](const TokenStep& step) {
       if (!step.to.valid()) return false;
       const Operation::Kind kind = steps_.net()[step.to].operation.kind;
       return kind == Operation::Kind::write || kind == Operation::Kind::read;
@@ -112,8 +112,9 @@ class Match {
     const bool several = moves(work_, {{wait, idle, sent}, {wait, sent, more}, {wait, more, more}});
     if (!moves(in_, {{work_, 0, 0}}) || (!one_at_most && !several)) return std::nullopt;
     const auto after = steps_.from(wait);
-    const auto taken = std::ranges::find_if(
-        after, [](const Step& step) { return step.takes == (idle | empty) && step.gives == (idle | empty); });
+    const auto taken = std::ranges::find_if(after, [](const TokenStep& step) {
+      return step.takes == (idle | empty) && step.gives == (idle | empty);
+    });
     if (taken == after.end())
       return several ? std::optional(block(Side::send, false, false, wait)) : std::nullopt;
     const PlaceId out = taken->to;
@@ -157,7 +158,7 @@ std::optional<Block> own_block_at(const Steps& steps, PlaceId in) {
   std::vector<PlaceId> reached{in};
   for (std::size_t at = 0; at < reached.size(); ++at) {
     bool left = false;
-    for (const Step& step : steps.from(reached[at])) {
+    for (const TokenStep& step : steps.from(reached[at])) {
       if (steps.net()[step.id].block != id) continue;
       const bool foreign = step.channel.valid() && step.channel != block.communication.channel;
       if (foreign || !step.from.valid() || !step.to.valid()) return std::nullopt;
@@ -182,11 +183,11 @@ Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 
     if (is_networked(place.role)) networked_[place.channel.value] = true;
     if (memory_of(place) == acknowledged) acknowledges_[place.channel.value] = true;
   }
-  std::vector<std::pair<PlaceId, Step>> found;
+  std::vector<std::pair<PlaceId, TokenStep>> found;
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
     if (!net[id].subsystem.valid()) continue;
-    const std::optional<Step> step = read(id);
+    const std::optional<TokenStep> step = read(id);
     if (!step) {
       stray_ = id;
       continue;
@@ -201,8 +202,8 @@ Steps::Steps(const net::Net& net) : net_(net), starts_(net.places().size() + 1, 
   for (const auto& [place, step] : found) steps_[next[place.value]++] = step;
 }
 
-std::optional<Step> Steps::read(net::TransitionId id) {
-  Step step{.id = id, .from = {}, .to = {}};
+std::optional<TokenStep> Steps::read(net::TransitionId id) {
+  TokenStep step{.id = id, .from = {}, .to = {}};
   const auto gather = [&](std::span<const net::Arc> arcs, PlaceId& own, std::uint8_t& memory) {
     std::size_t owned = 0;
     for (const net::Arc& arc : arcs) {

@@ -22,7 +22,7 @@ enum Memory : std::uint8_t {
 };
 
 /// A transition of one subsystem. It uses places of this subsystem, and of the memory of at most one channel.
-struct Step {
+struct TokenStep {
   net::TransitionId id;
   net::PlaceId from, to;              ///< invalid if there are several: a fork or a join
   net::ChannelId channel{};           ///< none: it uses no memory
@@ -35,7 +35,7 @@ class Steps {
  public:
   explicit Steps(const net::Net& net);
 
-  [[nodiscard]] std::span<const Step> from(net::PlaceId place) const {
+  [[nodiscard]] std::span<const TokenStep> from(net::PlaceId place) const {
     return std::span(steps_).subspan(starts_[place.value], starts_[place.value + 1] - starts_[place.value]);
   }
   [[nodiscard]] const net::Net& net() const { return net_; }
@@ -50,10 +50,10 @@ class Steps {
   }
 
  private:
-  std::optional<Step> read(net::TransitionId id);
+  std::optional<TokenStep> read(net::TransitionId id);
 
   const net::Net& net_;
-  std::vector<Step> steps_;
+  std::vector<TokenStep> steps_;
   std::vector<std::uint32_t> starts_;
   std::vector<bool> acknowledges_;  // per channel
   std::vector<bool> networked_;     // the same

@@ -90,7 +90,7 @@ class SubsystemReader {
     if (fork.size() != 1 || !fork.front().from.valid() || fork.front().channel.valid()) return std::nullopt;
     if (net_[fork.front().id].condition.kind != Condition::Kind::none) return std::nullopt;
     Stage stage;
-    std::optional<Step> join;
+    std::optional<TokenStep> join;
     for (const net::Arc& branch : net_.postset(fork.front().id)) {
       const std::optional<Block> block = block_at(steps_, branch.place);
       if (!block) return std::nullopt;
@@ -108,7 +108,7 @@ class SubsystemReader {
   }
 
   [[nodiscard]] bool is_end(PlaceId at) const {
-    return std::ranges::any_of(steps_.from(at), [&](const Step& step) {
+    return std::ranges::any_of(steps_.from(at), [&](const TokenStep& step) {
       const Condition::Kind kind = net_[step.id].condition.kind;
       return kind == Condition::Kind::go_on || kind == Condition::Kind::terminal ||
              kind == Condition::Kind::error;
@@ -125,7 +125,7 @@ class SubsystemReader {
   /// t4, t5 and t6.
   bool read_end(std::uint32_t number, PlaceId at) {
     std::optional<PlaceId> left;
-    for (const Step& step : steps_.from(at)) {
+    for (const TokenStep& step : steps_.from(at)) {
       const Condition& condition = net_[step.id].condition;
       if (!step.from.valid() || !step.to.valid() || step.channel.valid())
         return fail("ends in an unknown way", at), false;
@@ -149,7 +149,7 @@ class SubsystemReader {
   bool read_next(std::uint32_t number, PlaceId out) {
     BehaviourFlow& behaviour = flow_.behaviours[number];
     behaviour.complete = false;
-    for (const Step& step : steps_.from(out)) {
+    for (const TokenStep& step : steps_.from(out)) {
       const Condition& condition = net_[step.id].condition;
       if (!step.from.valid() || !step.to.valid() || step.channel.valid() ||
           (condition.kind != Condition::Kind::none && condition.kind != Condition::Kind::next))

@@ -1,4 +1,4 @@
-#include "nets/net_machine.hpp"
+#include "executor/net_machine.hpp"
 
 #include <fmt/core.h>
 
@@ -309,12 +309,11 @@ bool NetMachine::some_condition_is_false() const {
 
 void NetMachine::call_attention(std::uint32_t bits) {
   attention_.fetch_or(bits, std::memory_order_release);
-  wake_.wake();
+  attention_.notify_one();
 }
 
 void NetMachine::sleep_until_attention() {
-  const std::uint32_t ticket = wake_.ticket();
-  if (attention_.load(std::memory_order_acquire) == 0) wake_.sleep(ticket, -1);
+  attention_.wait(0, std::memory_order_acquire);
 }
 
 void NetMachine::fault_by(std::exception_ptr thrown, const char* what, const std::string& name) {

@@ -1,4 +1,4 @@
-#include "nets/worker_pool.hpp"
+#include "executor/worker_pool.hpp"
 
 #include <utility>
 

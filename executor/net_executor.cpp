@@ -2,7 +2,7 @@
 
 #include <utility>
 
-#include "nets/net_machine.hpp"
+#include "executor/net_machine.hpp"
 
 namespace tessera {
 

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "nets/firing_program.hpp"
-#include "nets/turns.hpp"
-#include "nets/worker_pool.hpp"
-#include "system/waker.hpp"
+#include "executor/firing_program.hpp"
+#include "executor/turns.hpp"
+#include "executor/worker_pool.hpp"
 #include "tessera/net_executor.hpp"
 
 namespace tessera {
@@ -100,7 +99,6 @@ class NetMachine {
   bool faulted_ = false;
   std::string fault_;
   std::atomic<std::uint32_t> attention_{0};
-  WakeWord wake_;
   std::unique_ptr<WorkerPool> workers_;  // the last member, so that its threads end first
 };
 

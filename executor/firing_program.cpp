@@ -1,4 +1,4 @@
-#include "nets/firing_program.hpp"
+#include "executor/firing_program.hpp"
 
 #include <fmt/core.h>
 

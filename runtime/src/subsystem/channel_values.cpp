@@ -33,17 +33,18 @@ ChannelValues::ChannelValues(const SubsystemParts& parts, const RunControl& cont
   if (!parts_.effectors.empty()) find_received_inputs();
 }
 
-/// A place that reads belongs to the behaviour that its name begins with: "follow.rcv.line.in".
+/// A transition into a place that reads says which behaviour receives.
 void ChannelValues::find_received_inputs() {
   const SubsystemNet& net = *parts_.instance->net;
   received_.resize(net.behaviours.size());
-  for (const Place& place : net.places) {
-    if (place.does.kind != Does::Kind::read) continue;
-    const std::string_view owner = place.name.substr(0, place.name.find('.'));
-    for (std::size_t behaviour = 0; behaviour < net.behaviours.size(); ++behaviour)
-      for (std::size_t port = 0; port < net.ports.size(); ++port)
-        if (net.behaviours[behaviour].name == owner && net.ports[port].name == place.does.subject)
-          received_[behaviour].push_back(parts_.ports[port].buffer);
+  for (const Transition& transition : net.transitions) {
+    if (transition.role.behaviour >= received_.size()) continue;
+    std::vector<std::uint32_t>& inputs = received_[transition.role.behaviour];
+    for (const ArcEnd end : transition.outputs) {
+      if (end.is_shared() || net.places[end.place()].does.kind != Does::Kind::read) continue;
+      const std::uint32_t input = parts_.ports[net.places[end.place()].does.subject].buffer;
+      if (std::ranges::find(inputs, input) == inputs.end()) inputs.push_back(input);
+    }
   }
 }
 

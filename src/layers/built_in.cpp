@@ -28,13 +28,14 @@ CommunicationModel exchange() {
   return model;
 }
 
-void draw_send(CommunicationModel& model, bool blocks, bool timeout) {
+void draw_send(CommunicationModel& model, bool blocks, bool timeout, bool again) {
   SidePen pen(model, model.send);
   pen.place(words::transfer, 0);
   if (blocks) pen.place(words::waiting);
   pen.transition(words::begin_transfer, {words::input, words::empty}, {words::transfer});
+  // A value that may be read again may have been read before.
   if (!blocks)
-    pen.transition(words::overwrite, {words::input, words::full}, {words::transfer});  // overwrites
+    pen.transition(again ? words::replace : words::overwrite, {words::input, words::full}, {words::transfer});
   if (!blocks) return pen.transition(words::end_transfer, {words::transfer}, {words::output, words::full});
   pen.transition(words::end_transfer, {words::transfer}, {words::waiting, words::full});
   pen.transition(words::take_acknowledgement, {words::waiting, words::acknowledged}, {words::output});
@@ -42,16 +43,17 @@ void draw_send(CommunicationModel& model, bool blocks, bool timeout) {
     pen.transition(words::timeout, {words::waiting, words::full}, {words::output, words::empty}, true);
 }
 
-void draw_receive(CommunicationModel& model, bool sender_blocks, bool blocks, bool timeout) {
+void draw_receive(CommunicationModel& model, bool sender_blocks, Mode mode, bool timeout) {
   SidePen pen(model, model.receive);
   pen.place(words::transfer, 0);
   pen.transition(words::begin_transfer, {words::input, words::full}, {words::transfer});
   if (sender_blocks)
     pen.transition(words::end_transfer, {words::transfer},
                    {words::output, words::empty, words::acknowledged});
-  else
-    pen.transition(words::end_transfer, {words::transfer}, {words::output, words::empty});
-  if (!blocks)
+  else  // blocking_once: the value stays, so that no receive after the first one waits
+    pen.transition(words::end_transfer, {words::transfer},
+                   {words::output, mode == Mode::blocking_once ? words::full : words::empty});
+  if (mode == Mode::non_blocking)
     pen.transition(words::skip, {words::input, words::empty}, {words::output, words::empty});
   else if (timeout)
     pen.transition(words::timeout, {words::input, words::empty}, {words::output, words::empty}, true);
@@ -62,22 +64,39 @@ CommunicationModel hand_over(Mode send, Mode receive, bool send_timeout, bool re
   CommunicationModel model;
   model.shared = {{std::string(words::empty), 1, {}}, {std::string(words::full), 0, {}}};
   if (sender_blocks) model.shared.push_back({std::string(words::acknowledged), 0, {}});
-  draw_send(model, sender_blocks, send_timeout);
-  draw_receive(model, sender_blocks, receive == Mode::blocking, receive_timeout);
+  draw_send(model, sender_blocks, send_timeout, receive == Mode::blocking_once);
+  draw_receive(model, sender_blocks, receive, receive_timeout);
   return model;
 }
 
-/// By modes and timeouts, those within a process first.
-std::array<CommunicationModel, 32> all_built_in() {
-  std::array<CommunicationModel, 32> all;
-  for (std::size_t index = 0; index < 16; ++index) {
-    const Mode send{static_cast<std::uint8_t>(index & 1U)},
-        receive{static_cast<std::uint8_t>(index >> 1U & 1U)};
-    const bool send_blocks = send == Mode::blocking, receive_blocks = receive == Mode::blocking;
-    const bool send_timeout = (index & 4U) != 0, receive_timeout = (index & 8U) != 0;
-    all[index] =
-        send_blocks || receive_blocks ? hand_over(send, receive, send_timeout, receive_timeout) : exchange();
-    all[16 + index] = networked({send_blocks, send_timeout}, {receive_blocks, receive_timeout});
+struct Form {
+  Mode send, receive;
+  bool send_timeout, receive_timeout;
+  bool crosses;  ///< its ends are in different processes
+};
+
+constexpr std::size_t modes = static_cast<std::size_t>(Mode::blocking_once) + 1, forms = modes * modes * 8;
+
+[[nodiscard]] std::size_t number_of(const Form& form) {
+  std::size_t number = static_cast<std::size_t>(form.send) * modes + static_cast<std::size_t>(form.receive);
+  for (const bool part : {form.send_timeout, form.receive_timeout, form.crosses}) number = number * 2 + part;
+  return number;
+}
+
+[[nodiscard]] CommunicationModel drawn(const Form& form) {
+  const bool send_blocks = form.send == Mode::blocking, receive_blocks = form.receive != Mode::non_blocking;
+  if (form.crosses)
+    return networked({send_blocks, form.send_timeout}, {receive_blocks, form.receive_timeout});
+  if (!send_blocks && !receive_blocks) return exchange();
+  return hand_over(form.send, form.receive, form.send_timeout, form.receive_timeout);
+}
+
+[[nodiscard]] std::array<CommunicationModel, forms> all_built_in() {
+  std::array<CommunicationModel, forms> all;
+  for (std::size_t number = 0; number < forms; ++number) {
+    const Form form{Mode(number / 8 / modes), Mode(number / 8 % modes), (number & 4U) != 0,
+                    (number & 2U) != 0, (number & 1U) != 0};
+    all[number_of(form)] = drawn(form);
   }
   return all;
 }
@@ -85,12 +104,10 @@ std::array<CommunicationModel, 32> all_built_in() {
 }  // namespace
 
 const CommunicationModel& model_of(const spec::Model& model, const spec::Channel& channel) {
-  static const std::array<CommunicationModel, 32> built_in = all_built_in();
+  static const std::array<CommunicationModel, forms> built_in = all_built_in();
   if (channel.model.valid()) return model.models[channel.model];
-  return built_in[static_cast<std::size_t>(channel.send) | static_cast<std::size_t>(channel.receive) << 1U |
-                  static_cast<std::size_t>(channel.send_timeout.has_value()) << 2U |
-                  static_cast<std::size_t>(channel.receive_timeout.has_value()) << 3U |
-                  static_cast<std::size_t>(model.crosses_processes(channel)) << 4U];
+  return built_in[number_of({channel.send, channel.receive, channel.send_timeout.has_value(),
+                             channel.receive_timeout.has_value(), model.crosses_processes(channel)})];
 }
 
 PlaceRole role_of(const spec::SharedPlace& place) {

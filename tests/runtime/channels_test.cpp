@@ -153,6 +153,26 @@ TEST(Channel, AReceiveTimeoutSaysSoAndLeavesTheValue) {
   EXPECT_EQ(seen, (std::vector<Seen>{before, received, waited, waited, waited, received, waited}));
 }
 
+/// blocking_once: after the first value no receive waits, and each reads the newest one.
+TEST(Channel, AReceiverThatWaitsOnceReadsTheNewestValueFromThenOn) {
+  TestSystem system;
+  std::vector<Seen> seen;
+  Script receiver;
+  receiver.call = [&](ScriptState& state) {
+    seen.push_back({state.x.timed_out, state.x.fresh, state.x.valid, state.x.value()});
+  };
+  Script sender;
+  sender.call = [sent = 0](ScriptState& state) mutable { state.out_x = ++sent; };
+  const auto b = system.add("robot.b", nets::once_receiver, receiver, 20ms);
+  const auto a = system.add("robot.a", nets::nb_sender, sender, 50ms);
+  system.connect(a, "x", b, "x", buffered, 0ms, 30ms);
+  EXPECT_FALSE(run(system, simulated(115ms)).failed);
+  // Sent at 0, 50 and 100. A call computes with the value that was received after the call before.
+  const Seen before{false, false, false, 0}, first{false, true, true, 1}, again{false, false, true, 1},
+      second{false, true, true, 2}, second_again{false, false, true, 2};
+  EXPECT_EQ(seen, (std::vector<Seen>{before, first, again, again, second, second_again}));
+}
+
 TEST(Channel, ASendTimeoutSaysSoUntilTheNextAcknowledgement) {
   TestSystem system;
   std::vector<bool> timed_out;

@@ -51,6 +51,10 @@ const named::Transition b_send_timed[] = {SENDER, B2(B_SEND, SND), B2(B_SEND_TIM
 const named::Transition b_receive[] = {RECEIVER, B2(B_RECEIVE, RCV)};
 const named::Transition b_receive_timed[] = {RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_TIMEOUT, RCV)};
 const named::Transition nb_receive[] = {RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_SKIP, RCV)};
+const named::Transition once_receive[] = {RECEIVER,
+                                          {"run.rcv.x.t1", {"run.rcv.in", "x/full"}, {"run.rcv.x.2"}},
+                                          {"run.rcv.x.t2", {"run.rcv.x.2"}, {"run.rcv.out", "x/full"}},
+                                          B2(RECEIVE_TIMEOUT, RCV)};
 const named::Transition b_receive_ack[] = {RECEIVER, B2(B_RECEIVE_ACK, RCV)};
 const named::Transition b_receive_ack_timed[] = {RECEIVER, B2(B_RECEIVE_ACK, RCV), B2(RECEIVE_TIMEOUT, RCV)};
 const named::Transition nb_receive_ack[] = {RECEIVER, B2(B_RECEIVE_ACK, RCV), B2(RECEIVE_SKIP, RCV)};
@@ -199,6 +203,7 @@ const SubsystemNet b_sender = numbered(run_only, sends_x, waiting_sender_places,
 const SubsystemNet b_sender_timed = numbered(run_only, sends_x, waiting_sender_places, b_send_timed);
 const SubsystemNet b_receiver = numbered(run_only, receives_x, receiver_places, b_receive);
 const SubsystemNet b_receiver_timed = numbered(run_only, receives_x, receiver_places, b_receive_timed);
+const SubsystemNet once_receiver = numbered(run_only, receives_x, receiver_places, once_receive);
 const SubsystemNet nb_receiver = numbered(run_only, receives_x, receiver_places, nb_receive);
 const SubsystemNet b_receiver_ack = numbered(run_only, receives_x, receiver_places, b_receive_ack);
 const SubsystemNet b_receiver_ack_timed =

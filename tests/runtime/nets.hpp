@@ -13,6 +13,7 @@ extern const SubsystemNet b_sender, b_sender_timed;
 extern const SubsystemNet
     nb_sender_persistent;  ///< after an error or a terminal condition it goes on with "run"
 extern const SubsystemNet b_receiver, b_receiver_timed, nb_receiver;  ///< from a non-blocking sender
+extern const SubsystemNet once_receiver;  ///< from a non-blocking one: waits for the first value only, timed
 extern const SubsystemNet b_receiver_ack, b_receiver_ack_timed, nb_receiver_ack;  ///< from a blocking one
 extern const SubsystemNet parallel_sender;  ///< blocking, "x" and "y" at once
 extern const SubsystemNet async_relay;      ///< receives and sends "x", NB -> NB

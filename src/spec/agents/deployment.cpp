@@ -277,16 +277,24 @@ class DeploymentReader {
     model_.deployment = std::move(deployment_);
   }
 
-  /// A model of the author says how two sides share one memory; over a network there are two.
+  /// A model of the author says how two sides share one memory, and `blocking_once` reads it again; over a
+  /// network there are two.
   void check_models() {
     std::map<std::uint32_t, bool> told;  // per line: a channel of fleets is reported once
     for (const Channel& channel : model_.channels) {
-      if (!channel.model.valid() || !model_.crosses_processes(channel)) continue;
+      const bool once = channel.receive == Mode::blocking_once;
+      if ((!channel.model.valid() && !once) || !model_.crosses_processes(channel)) continue;
       if (!told.emplace(channel.span.line, true).second) continue;
-      out_.error("E316", channel.span,
-                 "a channel between processes cannot have the communication model " +
-                     in_quotes(model_.models[channel.model].name),
-                 "its sides share one memory: put both agents into one process, or use `send` and `receive`");
+      if (once)
+        out_.error(
+            "E242", channel.span, "a channel between processes cannot have 'receive: blocking_once'",
+            "its sides share one memory: put both agents into one process, or write receive: blocking");
+      else
+        out_.error(
+            "E316", channel.span,
+            "a channel between processes cannot have the communication model " +
+                in_quotes(model_.models[channel.model].name),
+            "its sides share one memory: put both agents into one process, or use `send` and `receive`");
     }
   }
 

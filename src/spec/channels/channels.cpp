@@ -75,8 +75,9 @@ class ChannelReader {
     if (const Entry* model = section.find("model")) {
       read_model(section, *model, channel);
     } else {
-      channel.send = read_mode(section.find("send"));
-      channel.receive = read_mode(section.find("receive"));
+      channel.send = read_mode(section.find("send"), {"non_blocking", "blocking"});
+      channel.receive = read_mode(section.find("receive"), {"non_blocking", "blocking", "blocking_once"});
+      check_modes(section, channel);
       read_timeouts(section, channel);
     }
     join(from, to, channel);
@@ -96,19 +97,28 @@ class ChannelReader {
     return split_path(text, begin, end - begin, out_);
   }
 
-  Mode read_mode(const Entry* entry) {
+  /// words: of the modes, in the order of the enumerators.
+  Mode read_mode(const Entry* entry, const std::vector<std::string>& words) {
     if (entry == nullptr) return Mode::non_blocking;
-    const Node* text =
-        text_of(*entry->value, entry->span, in_quotes(entry->key), out_, "write blocking or non_blocking");
-    if (text == nullptr || text->text == "non_blocking") return Mode::non_blocking;
-    if (text->text != "blocking") {
-      out_.error("E104", text->span,
-                 in_quotes(entry->key) + " must be blocking or non_blocking, not " + in_quotes(text->text),
-                 text->text == "first" || text->text == "last"
-                     ? "'receive: " + text->text + "' belongs to a subsystem, beside 'rate'"
-                     : did_you_mean(text->text, {"blocking", "non_blocking"}));
-    }
+    std::string all = words.back();
+    for (std::size_t left = words.size() - 1; left-- > 0;)
+      all = words[left] + (left + 2 == words.size() ? " or " : ", ") + all;
+    const Node* text = text_of(*entry->value, entry->span, in_quotes(entry->key), out_, "write " + all);
+    if (text == nullptr) return Mode::non_blocking;
+    const auto found = std::ranges::find(words, text->text);
+    if (found != words.end()) return static_cast<Mode>(found - words.begin());
+    out_.error("E104", text->span,
+               in_quotes(entry->key) + " must be " + all + ", not " + in_quotes(text->text),
+               text->text == "first" || text->text == "last"
+                   ? "'receive: " + text->text + "' belongs to a subsystem, beside 'rate'"
+                   : did_you_mean(text->text, words));
     return Mode::blocking;
+  }
+
+  void check_modes(const Section& section, const Channel& channel) {
+    if (channel.receive != Mode::blocking_once || channel.send != Mode::blocking) return;
+    out_.error("E241", section.find("send")->span, "'send: blocking' beside 'receive: blocking_once'",
+               "a value that may be read again is never taken: leave out 'send', or write receive: blocking");
   }
 
   void read_model(const Section& section, const Entry& entry, Channel& channel) {
@@ -166,7 +176,7 @@ class ChannelReader {
                      std::string(key == "send_timeout" ? "send" : "receive") + ": blocking");
     };
     const bool sends = channel.send == Mode::blocking;
-    const bool receives = channel.receive == Mode::blocking;
+    const bool receives = channel.receive != Mode::non_blocking;
     needs_blocking("timeout", sends || receives, "neither side blocks");
     needs_blocking("send_timeout", sends, "the sender does not block");
     needs_blocking("receive_timeout", receives, "the receiver does not block");

@@ -270,7 +270,8 @@ struct Instance {
 
 // ---------------------------------------------------------------------------------------------- channels
 
-enum class Mode : std::uint8_t { non_blocking, blocking };
+/// blocking_once: a receiver waits for the first value; then it reads the newest one, new or not.
+enum class Mode : std::uint8_t { non_blocking, blocking, blocking_once };
 
 struct ChannelEnd {
   InstanceId instance;

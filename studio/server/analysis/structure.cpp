@@ -180,7 +180,8 @@ Json channel_json(const spec::Model& model, spec::ChannelId id) {
   const spec::Channel& channel = model.channels[id];
   const Known from = instance(model, channel.from.instance), to = instance(model, channel.to.instance);
   if (from.subsystem == nullptr || to.subsystem == nullptr) return nullptr;
-  const auto mode = [](spec::Mode one) { return one == spec::Mode::blocking ? "blocking" : "non_blocking"; };
+  constexpr std::array modes{"non_blocking", "blocking", "blocking_once"};
+  const auto mode = [&](spec::Mode one) { return modes[static_cast<std::size_t>(one)]; };
   const spec::CommunicationModel* own = at(model.models, channel.model);
   return {{"id", id.value},
           {"from", from.path + "." + name_at(from.subsystem->outputs, channel.from.buffer)},

@@ -12,7 +12,7 @@ export interface ChannelLook {
   stuck: ReadonlySet<number>;
 }
 
-const blocks = ({ send, receive, model }: Channel) => send === "blocking" || receive === "blocking" || model !== "";
+const blocks = ({ send, receive, model }: Channel) => send === "blocking" || receive !== "non_blocking" || model !== "";
 
 const spoken = (channel: Channel) => {
   const { modes, timeout } = channelLabel(channel);
@@ -24,7 +24,7 @@ const meaning = ({ send, receive, model, timeout }: Channel) =>
   model
     ? `It works as the communication model ${model} says.`
     : `The sender ${send === "blocking" ? "waits until the value is taken (B)" : "does not wait (N)"}, ` +
-      `the receiver ${receive === "blocking" ? "waits for a value (B)" : "does not wait (N)"}` +
+      `the receiver ${receive !== "non_blocking" ? "waits for a value (B)" : "does not wait (N)"}` +
       `${timeout ? `, at most ${timeout}` : ""}.`;
 
 /**

@@ -329,7 +329,7 @@ export interface ChannelShown {
   from: string;
   to: string;
   send: "blocking" | "non_blocking";
-  receive: "blocking" | "non_blocking";
+  receive: "blocking" | "blocking_once" | "non_blocking";
   model: string | null;
   line: number;
   /** Seconds. */

@@ -55,13 +55,14 @@ export interface Channel {
   /** As written, `robot[i].control.x`. */
   from: string;
   to: string;
-  send: "blocking" | "non_blocking";
-  receive: "blocking" | "non_blocking";
+  /** A mode of the schema: "blocking". */
+  send: string;
+  receive: string;
   timeout: string;
   model: string;
   line: number;
 }
-const mode = (end: Channel["send"]) => (end === "blocking" ? "B" : "N");
+const mode = (end: Channel["send"]) => (end === "non_blocking" ? "N" : "B");
 
 /** A short description of a channel: the modes of its ends, or its model, and its timeout. */
 export const channelLabel = ({ send, receive, model, timeout }: Channel) => ({
@@ -217,7 +218,7 @@ function readChannel(yaml: YamlText, index: number): Channel {
     return { index, from, to, send: "non_blocking", receive: "non_blocking", timeout: "", model: "", line };
   }
   const field = (key: string) => yaml.valueText([...at, key]) ?? "";
-  const mode = (key: string) => (field(key) === "blocking" ? "blocking" : "non_blocking");
+  const mode = (key: string) => field(key) || "non_blocking";
   return {
     index,
     from: field("from"),

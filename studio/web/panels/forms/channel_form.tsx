@@ -11,10 +11,14 @@ import { useProblems } from "./use_problems";
 /** The timeouts of one side. */
 const timeouts = fieldsOf(schema.$defs!.channel!.anyOf![1]!, schema).filter(({ key }) => /_timeout$/.test(key));
 
-const modes = [
-  { value: "non_blocking", title: "goes on at once" },
-  { value: "blocking", title: "waits (blocking)" },
-] as const;
+const titles: Record<string, string> = { non_blocking: "goes on at once", blocking: "waits (blocking)" };
+
+/** The modes of one side, as the schema lists them; the default one first. */
+const modesOf = (side: string) =>
+  (fieldsOf(schema.$defs!.channel!.anyOf![1]!, schema).find(({ key }) => key === side)?.choices ?? [])
+    .map((value) => ({ value, title: titles[value] ?? value.replace("_", " ") }))
+    .reverse();
+const modes = { send: modesOf("send"), receive: modesOf("receive") };
 
 export function ChannelForm({ structure, channel }: { structure: Structure; channel: Channel }) {
   const edit = useEdit();
@@ -44,8 +48,8 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
       )}
       {!channel.model && (
         <>
-          <Choice label="The sender" value={channel.send} choices={modes} onChange={(send) => set({ send })} />
-          <Choice label="The receiver" value={channel.receive} choices={modes} onChange={(receive) => set({ receive })} />
+          <Choice label="The sender" value={channel.send} choices={modes.send} onChange={(send) => set({ send })} />
+          <Choice label="The receiver" value={channel.receive} choices={modes.receive} onChange={(receive) => set({ receive })} />
         </>
       )}
       <Field

@@ -23,41 +23,37 @@ constexpr Port both[] = {{"in", Side::receive, "value"}, {"out", Side::send, "va
 #define SND(block, p) block("run", p, "run.snd.in", "run.snd.out")
 #define RCV(block, p) block("run", p, "run.rcv.in", "run.rcv.out")
 
-constexpr testing::named::Place alone_places[] = {RUN_PLACES};
-constexpr testing::named::Place sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x")};
-constexpr testing::named::Place receiver_places[] = {RUN_PLACES, RECEIVE_PLACES("run", "x")};
-constexpr testing::named::Place patient_sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x"),
-                                                           WAIT_PLACE("run", "x")};
-constexpr testing::named::Place relay_places[] = {RUN_PLACES, SEND_PLACES("run", "out"),
-                                                  RECEIVE_PLACES("run", "in")};
-constexpr testing::named::Place asker_places[] = {RUN_PLACES, SEND_PLACES("run", "out"),
-                                                  WAIT_PLACE("run", "out"), RECEIVE_PLACES("run", "in")};
-constexpr testing::named::Place answerer_places[] = {{"in"},
-                                                     {"out"},
-                                                     BEHAVIOUR_PLACES("take"),
-                                                     RECEIVE_PLACES("take", "in"),
-                                                     BEHAVIOUR_PLACES("give"),
-                                                     SEND_PLACES("give", "out"),
-                                                     WAIT_PLACE("give", "out")};
-const testing::named::Transition alone_transitions[] = {RUN, NO_SEND("run"), NO_RECEIVE("run")};
-const testing::named::Transition sender_transitions[] = {RUN, SND(ASYNC_SEND, "x"), NO_RECEIVE("run")};
-const testing::named::Transition receiver_transitions[] = {RUN, NO_SEND("run"), RCV(ASYNC_RECEIVE, "x")};
-const testing::named::Transition patient_sender_transitions[] = {RUN, SND(B_SEND, "x"), NO_RECEIVE("run")};
-const testing::named::Transition patient_receiver_transitions[] = {RUN, NO_SEND("run"),
-                                                                   RCV(B_RECEIVE_ACK, "x")};
-const testing::named::Transition relay_transitions[] = {RUN, SND(ASYNC_SEND, "out"),
-                                                        RCV(ASYNC_RECEIVE, "in")};
-const testing::named::Transition asker_transitions[] = {RUN, SND(B_SEND, "out"), RCV(B_RECEIVE_ACK, "in")};
-const testing::named::Transition answerer_transitions[] = {
-    ENTER("take"),
-    BEHAVIOUR_TRANSITIONS("take"),
-    NO_SEND("take"),
-    B_RECEIVE_ACK("take", "in", "take.rcv.in", "take.rcv.out"),
-    NEXT("take", 0, "give"),
-    BEHAVIOUR_TRANSITIONS("give"),
-    B_SEND("give", "out", "give.snd.in", "give.snd.out"),
-    NO_RECEIVE("give"),
-    NEXT("give", 0, "take")};
+constexpr named::Place alone_places[] = {RUN_PLACES};
+constexpr named::Place sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x")};
+constexpr named::Place receiver_places[] = {RUN_PLACES, RECEIVE_PLACES("run", "x")};
+constexpr named::Place patient_sender_places[] = {RUN_PLACES, SEND_PLACES("run", "x"),
+                                                  WAIT_PLACE("run", "x")};
+constexpr named::Place relay_places[] = {RUN_PLACES, SEND_PLACES("run", "out"), RECEIVE_PLACES("run", "in")};
+constexpr named::Place asker_places[] = {RUN_PLACES, SEND_PLACES("run", "out"), WAIT_PLACE("run", "out"),
+                                         RECEIVE_PLACES("run", "in")};
+constexpr named::Place answerer_places[] = {{"in"},
+                                            {"out"},
+                                            BEHAVIOUR_PLACES("take"),
+                                            RECEIVE_PLACES("take", "in"),
+                                            BEHAVIOUR_PLACES("give"),
+                                            SEND_PLACES("give", "out"),
+                                            WAIT_PLACE("give", "out")};
+const named::Transition alone_transitions[] = {RUN, NO_SEND("run"), NO_RECEIVE("run")};
+const named::Transition sender_transitions[] = {RUN, SND(ASYNC_SEND, "x"), NO_RECEIVE("run")};
+const named::Transition receiver_transitions[] = {RUN, NO_SEND("run"), RCV(ASYNC_RECEIVE, "x")};
+const named::Transition patient_sender_transitions[] = {RUN, SND(B_SEND, "x"), NO_RECEIVE("run")};
+const named::Transition patient_receiver_transitions[] = {RUN, NO_SEND("run"), RCV(B_RECEIVE_ACK, "x")};
+const named::Transition relay_transitions[] = {RUN, SND(ASYNC_SEND, "out"), RCV(ASYNC_RECEIVE, "in")};
+const named::Transition asker_transitions[] = {RUN, SND(B_SEND, "out"), RCV(B_RECEIVE_ACK, "in")};
+const named::Transition answerer_transitions[] = {ENTER("take"),
+                                                  BEHAVIOUR_TRANSITIONS("take"),
+                                                  NO_SEND("take"),
+                                                  B_RECEIVE_ACK("take", "in", "take.rcv.in", "take.rcv.out"),
+                                                  NEXT("take", 0, "give"),
+                                                  BEHAVIOUR_TRANSITIONS("give"),
+                                                  B_SEND("give", "out", "give.snd.in", "give.snd.out"),
+                                                  NO_RECEIVE("give"),
+                                                  NEXT("give", 0, "take")};
 
 }  // namespace
 
@@ -144,7 +140,7 @@ void Robot::connect(std::uint32_t from, std::string_view out, std::uint32_t to, 
   const std::string& name =
       *names_.emplace_back(std::make_unique<std::string>("channel" + std::to_string(channels_.size())));
   const auto end = [&](std::uint32_t instance, std::string_view port) {
-    return End{instance, testing::named::number_of(instances_[instance].net->ports, port)};
+    return End{instance, named::number_of(instances_[instance].net->ports, port)};
   };
   channels_.push_back({name, end(from, out), end(to, in), places});
 }

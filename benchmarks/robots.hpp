@@ -17,6 +17,7 @@
 /// transition functions only do what a benchmark asks for.
 namespace tessera::benchmarks {
 
+namespace named = testing::named;
 using testing::acknowledged;
 using testing::asynchronous;
 

@@ -312,9 +312,7 @@ void NetMachine::call_attention(std::uint32_t bits) {
   attention_.notify_one();
 }
 
-void NetMachine::sleep_until_attention() {
-  attention_.wait(0, std::memory_order_acquire);
-}
+void NetMachine::sleep_until_attention() { attention_.wait(0, std::memory_order_acquire); }
 
 void NetMachine::fault_by(std::exception_ptr thrown, const char* what, const std::string& name) {
   if (std::exchange(faulted_, true)) return;  // only the first fault is reported

@@ -180,8 +180,7 @@ class AllOrders {
       }
       if (all_done) return true;
       for (std::uint32_t index = 0; index < net_.transitions().size(); ++index) {
-        if (!is_of_medium(net_.transitions()[index].role) || !net::enabled(net_, {index}, tokens))
-          continue;
+        if (!is_of_medium(net_.transitions()[index].role) || !net::enabled(net_, {index}, tokens)) continue;
         auto next = std::pair(at, tokens);
         net::fire(net_, {index}, next.second);
         open.push_back(std::move(next));

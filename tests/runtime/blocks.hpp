@@ -7,18 +7,18 @@
 /// string literals.
 // clang-format off
 
-#define BEHAVIOUR_PLACES(b)                                                                      \
-  {b ".in", tessera::testing::named::calls(b)}, {b ".snd.in"}, {b ".snd.out"}, {b ".2", tessera::testing::named::counts()}, {b ".rcv.in"},          \
-  {b ".rcv.out", tessera::testing::named::decides(b)}, {b ".out", tessera::testing::named::routes(b)}
+#define BEHAVIOUR_PLACES(b)                                                                       \
+  {b ".in", named::calls(b)}, {b ".snd.in"}, {b ".snd.out"}, {b ".2", named::counts()},           \
+  {b ".rcv.in"}, {b ".rcv.out", named::decides(b)}, {b ".out", named::routes(b)}
 #define BEHAVIOUR_TRANSITIONS(b)                                                                  \
   {b ".t1", {b ".in"}, {b ".snd.in"}}, {b ".t2", {b ".snd.out"}, {b ".2"}},                       \
   {b ".t3", {b ".2"}, {b ".rcv.in"}}, {b ".t4", {b ".rcv.out"}, {b ".in"}, if_go_on},             \
   {b ".t5", {b ".rcv.out"}, {b ".out"}, if_terminal}, {b ".t6", {b ".rcv.out"}, {b ".out"}, if_error}
 
 // The same of a subsystem that receives first.
-#define FIRST_PLACES(b)                                                                          \
-  {b ".in", tessera::testing::named::begins(b)}, {b ".rcv.in"}, {b ".rcv.out"}, {b ".2", tessera::testing::named::calls(b)}, {b ".snd.in"},         \
-  {b ".snd.out", tessera::testing::named::decides(b)}, {b ".out", tessera::testing::named::routes(b)}
+#define FIRST_PLACES(b)                                                                           \
+  {b ".in", named::begins(b)}, {b ".rcv.in"}, {b ".rcv.out"}, {b ".2", named::calls(b)},          \
+  {b ".snd.in"}, {b ".snd.out", named::decides(b)}, {b ".out", named::routes(b)}
 #define FIRST_TRANSITIONS(b)                                                                      \
   {b ".t1", {b ".in"}, {b ".rcv.in"}}, {b ".t2", {b ".rcv.out"}, {b ".2"}},                       \
   {b ".t3", {b ".2"}, {b ".snd.in"}}, {b ".t4", {b ".snd.out"}, {b ".in"}, if_go_on},             \
@@ -28,9 +28,9 @@
 #define NO_RECEIVE(b) {b ".rcv.t1", {b ".rcv.in"}, {b ".rcv.out"}}
 
 // A block between places i and o; its own places come from the *_PLACES rows.
-#define SEND_PLACES(b, p) {b ".snd." p ".2", tessera::testing::named::writes(p)}
+#define SEND_PLACES(b, p) {b ".snd." p ".2", named::writes(p)}
 #define WAIT_PLACE(b, p) {b ".snd." p ".wait"}
-#define RECEIVE_PLACES(b, p) {b ".rcv." p ".2", tessera::testing::named::reads(p)}
+#define RECEIVE_PLACES(b, p) {b ".rcv." p ".2", named::reads(p)}
 
 #define ASYNC_SEND(b, p, i, o)                                              \
   {b ".snd." p ".t1", {i, p "/channel"}, {b ".snd." p ".2"}},               \

@@ -147,7 +147,10 @@ template <class Rows>
     if (!transition.guard.port.empty()) guard.port = number_of(ports, transition.guard.port);
     const std::uint16_t behaviour =
         number_of(behaviours, transition.name.substr(0, transition.name.find('.')));
-    made.push_back({transition.name, ends(transition.inputs), ends(transition.outputs), guard,
+    made.push_back({transition.name,
+                    ends(transition.inputs),
+                    ends(transition.outputs),
+                    guard,
                     {.behaviour = behaviour < behaviours.size() ? behaviour : nobody}});
   }
   return {behaviours, ports, made_places, made, number_of(places, "in"), number_of(places, "out")};

@@ -145,7 +145,8 @@ template <class Run>
     return std::nullopt;
   }
   RecordingLane* const lane = assembly.system_lane();
-  UpperLayers upper(*assembly.part.whole, agents_of(assembly.system), assembly.part.agents, !assembly.part.process, lane);
+  UpperLayers upper(*assembly.part.whole, agents_of(assembly.system), assembly.part.agents,
+                    !assembly.part.process, lane);
   OpenDevices devices(assembly);
   known.devices = &devices;
   if (!devices.open(error)) return std::nullopt;

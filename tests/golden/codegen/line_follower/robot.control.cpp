@@ -61,58 +61,58 @@ constexpr tessera::Port ports[] = {
     {"line",   tessera::Side::receive, "line"},
 };
 constexpr tessera::Place places[] = {
-    {"in"}, {"out"},
+    {"in"}, {"out"},  // 0 to 1
     // init, spec.yaml:18
-    {"init.in",           tessera::calls("init")},
-    {"init.2",            tessera::counts()},
-    {"init.out",          tessera::routes("init")},
-    {"init.snd.motion.2", tessera::writes("motion")},
-    {"init.rcv.line.2",   tessera::reads("line")},
-    {"init.rcv.out",      tessera::decides("init")},
-    {"init.snd.in"}, {"init.snd.out"}, {"init.rcv.in"},
+    {"init.in",           tessera::calls(0)},    // 2
+    {"init.2",            tessera::counts()},    // 3
+    {"init.out",          tessera::routes(0)},   // 4
+    {"init.snd.motion.2", tessera::writes(0)},   // 5
+    {"init.rcv.line.2",   tessera::reads(1)},    // 6
+    {"init.rcv.out",      tessera::decides(0)},  // 7
+    {"init.snd.in"}, {"init.snd.out"}, {"init.rcv.in"},  // 8 to 10
     // follow, spec.yaml:19
-    {"follow.in",           tessera::calls("follow")},
-    {"follow.2",            tessera::counts()},
-    {"follow.snd.motion.2", tessera::writes("motion")},
-    {"follow.rcv.line.2",   tessera::reads("line")},
-    {"follow.rcv.out",      tessera::decides("follow")},
-    {"follow.out"}, {"follow.snd.in"}, {"follow.snd.out"}, {"follow.rcv.in"},
+    {"follow.in",           tessera::calls(1)},    // 11
+    {"follow.2",            tessera::counts()},    // 12
+    {"follow.snd.motion.2", tessera::writes(0)},   // 13
+    {"follow.rcv.line.2",   tessera::reads(1)},    // 14
+    {"follow.rcv.out",      tessera::decides(1)},  // 15
+    {"follow.out"}, {"follow.snd.in"}, {"follow.snd.out"}, {"follow.rcv.in"},  // 16 to 19
 };
 const tessera::Transition transitions[] = {
-    {"t_in",       {"in"},         {"init.in"},   {},                  {tessera::Step::start}},
-    {"t_init_1",   {"init.out"},   {"follow.in"}, tessera::if_next(0), {tessera::Step::leave, "init"}},
-    {"t_init_2",   {"init.out"},   {"out"},       tessera::if_next(1), {tessera::Step::leave, "init"}},
-    {"t_follow_1", {"follow.out"}, {"out"},       {},                  {tessera::Step::leave, "follow"}},
+    {"t_in",       {0},  {2},  {},                  {tessera::Step::start}},     // in -> init.in
+    {"t_init_1",   {4},  {11}, tessera::if_next(0), {tessera::Step::leave, 0}},  // init.out -> follow.in
+    {"t_init_2",   {4},  {1},  tessera::if_next(1), {tessera::Step::leave, 0}},  // init.out -> out
+    {"t_follow_1", {16}, {1},  {},                  {tessera::Step::leave, 1}},  // follow.out -> out
     // init, spec.yaml:18
-    {"init.t1",             {"init.in"},                     {"init.snd.in"},                  {},                   {tessera::Step::begin_sending, "init"}},
-    {"init.t2",             {"init.snd.out"},                {"init.2"},                       {},                   {tessera::Step::end_sending, "init"}},
-    {"init.t3",             {"init.2"},                      {"init.rcv.in"},                  {},                   {tessera::Step::begin_receiving, "init"}},
-    {"init.t4",             {"init.rcv.out"},                {"init.in"},                      tessera::if_go_on,    {tessera::Step::go_on, "init"}},
-    {"init.t5",             {"init.rcv.out"},                {"init.out"},                     tessera::if_terminal, {tessera::Step::terminal, "init"}},
-    {"init.t6",             {"init.rcv.out"},                {"init.out"},                     tessera::if_error,    {tessera::Step::error, "init"}},
-    {"init.snd.motion.t1",  {"init.snd.in", "motion/empty"}, {"init.snd.motion.2"},            {},                   {tessera::Step::transfer, "init", "motion"}},
-    {"init.snd.motion.t1o", {"init.snd.in", "motion/full"},  {"init.snd.motion.2"},            {},                   {tessera::Step::overwrite, "init", "motion"}},
-    {"init.snd.motion.t2",  {"init.snd.motion.2"},           {"init.snd.out", "motion/full"},  {},                   {tessera::Step::transfer, "init", "motion"}},
-    {"init.rcv.line.t1",    {"init.rcv.in", "line/channel"}, {"init.rcv.line.2"},              {},                   {tessera::Step::transfer, "init", "line"}},
-    {"init.rcv.line.t2",    {"init.rcv.line.2"},             {"init.rcv.out", "line/channel"}, {},                   {tessera::Step::transfer, "init", "line"}},
+    {"init.t1",             {2},                         {8},                        {},                   {tessera::Step::begin_sending, 0}},    // init.in -> init.snd.in
+    {"init.t2",             {9},                         {3},                        {},                   {tessera::Step::end_sending, 0}},      // init.snd.out -> init.2
+    {"init.t3",             {3},                         {10},                       {},                   {tessera::Step::begin_receiving, 0}},  // init.2 -> init.rcv.in
+    {"init.t4",             {7},                         {2},                        tessera::if_go_on,    {tessera::Step::go_on, 0}},            // init.rcv.out -> init.in
+    {"init.t5",             {7},                         {4},                        tessera::if_terminal, {tessera::Step::terminal, 0}},         // init.rcv.out -> init.out
+    {"init.t6",             {7},                         {4},                        tessera::if_error,    {tessera::Step::error, 0}},            // init.rcv.out -> init.out
+    {"init.snd.motion.t1",  {8, tessera::memory(0, 0)},  {5},                        {},                   {tessera::Step::transfer, 0, 0}},      // init.snd.in, motion/empty -> init.snd.motion.2
+    {"init.snd.motion.t1o", {8, tessera::memory(0, 1)},  {5},                        {},                   {tessera::Step::overwrite, 0, 0}},     // init.snd.in, motion/full -> init.snd.motion.2
+    {"init.snd.motion.t2",  {5},                         {9, tessera::memory(0, 1)}, {},                   {tessera::Step::transfer, 0, 0}},      // init.snd.motion.2 -> init.snd.out, motion/full
+    {"init.rcv.line.t1",    {10, tessera::memory(1, 0)}, {6},                        {},                   {tessera::Step::transfer, 0, 1}},      // init.rcv.in, line/channel -> init.rcv.line.2
+    {"init.rcv.line.t2",    {6},                         {7, tessera::memory(1, 0)}, {},                   {tessera::Step::transfer, 0, 1}},      // init.rcv.line.2 -> init.rcv.out, line/channel
     // follow, spec.yaml:19
-    {"follow.t1",             {"follow.in"},                     {"follow.snd.in"},                  {},                   {tessera::Step::begin_sending, "follow"}},
-    {"follow.t2",             {"follow.snd.out"},                {"follow.2"},                       {},                   {tessera::Step::end_sending, "follow"}},
-    {"follow.t3",             {"follow.2"},                      {"follow.rcv.in"},                  {},                   {tessera::Step::begin_receiving, "follow"}},
-    {"follow.t4",             {"follow.rcv.out"},                {"follow.in"},                      tessera::if_go_on,    {tessera::Step::go_on, "follow"}},
-    {"follow.t5",             {"follow.rcv.out"},                {"follow.out"},                     tessera::if_terminal, {tessera::Step::terminal, "follow"}},
-    {"follow.t6",             {"follow.rcv.out"},                {"follow.out"},                     tessera::if_error,    {tessera::Step::error, "follow"}},
-    {"follow.snd.motion.t1",  {"follow.snd.in", "motion/empty"}, {"follow.snd.motion.2"},            {},                   {tessera::Step::transfer, "follow", "motion"}},
-    {"follow.snd.motion.t1o", {"follow.snd.in", "motion/full"},  {"follow.snd.motion.2"},            {},                   {tessera::Step::overwrite, "follow", "motion"}},
-    {"follow.snd.motion.t2",  {"follow.snd.motion.2"},           {"follow.snd.out", "motion/full"},  {},                   {tessera::Step::transfer, "follow", "motion"}},
-    {"follow.rcv.line.t1",    {"follow.rcv.in", "line/channel"}, {"follow.rcv.line.2"},              {},                   {tessera::Step::transfer, "follow", "line"}},
-    {"follow.rcv.line.t2",    {"follow.rcv.line.2"},             {"follow.rcv.out", "line/channel"}, {},                   {tessera::Step::transfer, "follow", "line"}},
+    {"follow.t1",             {11},                        {17},                        {},                   {tessera::Step::begin_sending, 1}},    // follow.in -> follow.snd.in
+    {"follow.t2",             {18},                        {12},                        {},                   {tessera::Step::end_sending, 1}},      // follow.snd.out -> follow.2
+    {"follow.t3",             {12},                        {19},                        {},                   {tessera::Step::begin_receiving, 1}},  // follow.2 -> follow.rcv.in
+    {"follow.t4",             {15},                        {11},                        tessera::if_go_on,    {tessera::Step::go_on, 1}},            // follow.rcv.out -> follow.in
+    {"follow.t5",             {15},                        {16},                        tessera::if_terminal, {tessera::Step::terminal, 1}},         // follow.rcv.out -> follow.out
+    {"follow.t6",             {15},                        {16},                        tessera::if_error,    {tessera::Step::error, 1}},            // follow.rcv.out -> follow.out
+    {"follow.snd.motion.t1",  {17, tessera::memory(0, 0)}, {13},                        {},                   {tessera::Step::transfer, 1, 0}},      // follow.snd.in, motion/empty -> follow.snd.motion.2
+    {"follow.snd.motion.t1o", {17, tessera::memory(0, 1)}, {13},                        {},                   {tessera::Step::overwrite, 1, 0}},     // follow.snd.in, motion/full -> follow.snd.motion.2
+    {"follow.snd.motion.t2",  {13},                        {18, tessera::memory(0, 1)}, {},                   {tessera::Step::transfer, 1, 0}},      // follow.snd.motion.2 -> follow.snd.out, motion/full
+    {"follow.rcv.line.t1",    {19, tessera::memory(1, 0)}, {14},                        {},                   {tessera::Step::transfer, 1, 1}},      // follow.rcv.in, line/channel -> follow.rcv.line.2
+    {"follow.rcv.line.t2",    {14},                        {15, tessera::memory(1, 0)}, {},                   {tessera::Step::transfer, 1, 1}},      // follow.rcv.line.2 -> follow.rcv.out, line/channel
 };
 // clang-format on
 
 }  // namespace
 
-const tessera::SubsystemNet net{behaviours, ports, places, transitions, "in", "out"};
+const tessera::SubsystemNet net{behaviours, ports, places, transitions, 0, 1};
 std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::control

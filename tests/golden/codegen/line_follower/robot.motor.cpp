@@ -42,34 +42,34 @@ constexpr tessera::Port ports[] = {
     {"velocity", tessera::Side::receive, "velocity"},
 };
 constexpr tessera::Place places[] = {
-    {"in"}, {"out"},
+    {"in"}, {"out"},  // 0 to 1
     // drive, spec.yaml:36
-    {"drive.in",             tessera::calls("drive")},
-    {"drive.2",              tessera::counts()},
-    {"drive.rcv.velocity.2", tessera::reads("velocity")},
-    {"drive.rcv.out",        tessera::decides("drive")},
-    {"drive.out"}, {"drive.snd.in"}, {"drive.snd.out"}, {"drive.rcv.in"},
+    {"drive.in",             tessera::calls(0)},    // 2
+    {"drive.2",              tessera::counts()},    // 3
+    {"drive.rcv.velocity.2", tessera::reads(0)},    // 4
+    {"drive.rcv.out",        tessera::decides(0)},  // 5
+    {"drive.out"}, {"drive.snd.in"}, {"drive.snd.out"}, {"drive.rcv.in"},  // 6 to 9
 };
 const tessera::Transition transitions[] = {
-    {"t_in",      {"in"},        {"drive.in"}, {}, {tessera::Step::start}},
-    {"t_drive_1", {"drive.out"}, {"out"},      {}, {tessera::Step::leave, "drive"}},
+    {"t_in",      {0}, {2}, {}, {tessera::Step::start}},     // in -> drive.in
+    {"t_drive_1", {6}, {1}, {}, {tessera::Step::leave, 0}},  // drive.out -> out
     // drive, spec.yaml:36
-    {"drive.t1",                   {"drive.in"},                       {"drive.snd.in"},                    {},                   {tessera::Step::begin_sending, "drive"}},
-    {"drive.t2",                   {"drive.snd.out"},                  {"drive.2"},                         {},                   {tessera::Step::end_sending, "drive"}},
-    {"drive.t3",                   {"drive.2"},                        {"drive.rcv.in"},                    {},                   {tessera::Step::begin_receiving, "drive"}},
-    {"drive.t4",                   {"drive.rcv.out"},                  {"drive.in"},                        tessera::if_go_on,    {tessera::Step::go_on, "drive"}},
-    {"drive.t5",                   {"drive.rcv.out"},                  {"drive.out"},                       tessera::if_terminal, {tessera::Step::terminal, "drive"}},
-    {"drive.t6",                   {"drive.rcv.out"},                  {"drive.out"},                       tessera::if_error,    {tessera::Step::error, "drive"}},
-    {"drive.snd.t1",               {"drive.snd.in"},                   {"drive.snd.out"},                   {},                   {tessera::Step::page, "drive"}},
-    {"drive.rcv.velocity.t1",      {"drive.rcv.in", "velocity/full"},  {"drive.rcv.velocity.2"},            {},                   {tessera::Step::transfer, "drive", "velocity"}},
-    {"drive.rcv.velocity.t2",      {"drive.rcv.velocity.2"},           {"drive.rcv.out", "velocity/empty"}, {},                   {tessera::Step::transfer, "drive", "velocity"}},
-    {"drive.rcv.velocity.timeout", {"drive.rcv.in", "velocity/empty"}, {"drive.rcv.out", "velocity/empty"}, tessera::if_elapsed,  {tessera::Step::timeout, "drive", "velocity"}},
+    {"drive.t1",                   {2},                        {7},                        {},                   {tessera::Step::begin_sending, 0}},    // drive.in -> drive.snd.in
+    {"drive.t2",                   {8},                        {3},                        {},                   {tessera::Step::end_sending, 0}},      // drive.snd.out -> drive.2
+    {"drive.t3",                   {3},                        {9},                        {},                   {tessera::Step::begin_receiving, 0}},  // drive.2 -> drive.rcv.in
+    {"drive.t4",                   {5},                        {2},                        tessera::if_go_on,    {tessera::Step::go_on, 0}},            // drive.rcv.out -> drive.in
+    {"drive.t5",                   {5},                        {6},                        tessera::if_terminal, {tessera::Step::terminal, 0}},         // drive.rcv.out -> drive.out
+    {"drive.t6",                   {5},                        {6},                        tessera::if_error,    {tessera::Step::error, 0}},            // drive.rcv.out -> drive.out
+    {"drive.snd.t1",               {7},                        {8},                        {},                   {tessera::Step::page, 0}},             // drive.snd.in -> drive.snd.out
+    {"drive.rcv.velocity.t1",      {9, tessera::memory(0, 1)}, {4},                        {},                   {tessera::Step::transfer, 0, 0}},      // drive.rcv.in, velocity/full -> drive.rcv.velocity.2
+    {"drive.rcv.velocity.t2",      {4},                        {5, tessera::memory(0, 0)}, {},                   {tessera::Step::transfer, 0, 0}},      // drive.rcv.velocity.2 -> drive.rcv.out, velocity/empty
+    {"drive.rcv.velocity.timeout", {9, tessera::memory(0, 0)}, {5, tessera::memory(0, 0)}, tessera::if_elapsed,  {tessera::Step::timeout, 0, 0}},       // drive.rcv.in, velocity/empty -> drive.rcv.out, velocity/empty
 };
 // clang-format on
 
 }  // namespace
 
-const tessera::SubsystemNet net{behaviours, ports, places, transitions, "in", "out"};
+const tessera::SubsystemNet net{behaviours, ports, places, transitions, 0, 1};
 std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::motor

@@ -42,33 +42,33 @@ constexpr tessera::Port ports[] = {
     {"line", tessera::Side::send, "line"},
 };
 constexpr tessera::Place places[] = {
-    {"in"}, {"out"},
+    {"in"}, {"out"},  // 0 to 1
     // watch, spec.yaml:26
-    {"watch.in",         tessera::calls("watch")},
-    {"watch.2",          tessera::counts()},
-    {"watch.snd.line.2", tessera::writes("line")},
-    {"watch.rcv.out",    tessera::decides("watch")},
-    {"watch.out"}, {"watch.snd.in"}, {"watch.snd.out"}, {"watch.rcv.in"},
+    {"watch.in",         tessera::calls(0)},    // 2
+    {"watch.2",          tessera::counts()},    // 3
+    {"watch.snd.line.2", tessera::writes(0)},   // 4
+    {"watch.rcv.out",    tessera::decides(0)},  // 5
+    {"watch.out"}, {"watch.snd.in"}, {"watch.snd.out"}, {"watch.rcv.in"},  // 6 to 9
 };
 const tessera::Transition transitions[] = {
-    {"t_in",      {"in"},        {"watch.in"}, {}, {tessera::Step::start}},
-    {"t_watch_1", {"watch.out"}, {"out"},      {}, {tessera::Step::leave, "watch"}},
+    {"t_in",      {0}, {2}, {}, {tessera::Step::start}},     // in -> watch.in
+    {"t_watch_1", {6}, {1}, {}, {tessera::Step::leave, 0}},  // watch.out -> out
     // watch, spec.yaml:26
-    {"watch.t1",          {"watch.in"},                     {"watch.snd.in"},                  {},                   {tessera::Step::begin_sending, "watch"}},
-    {"watch.t2",          {"watch.snd.out"},                {"watch.2"},                       {},                   {tessera::Step::end_sending, "watch"}},
-    {"watch.t3",          {"watch.2"},                      {"watch.rcv.in"},                  {},                   {tessera::Step::begin_receiving, "watch"}},
-    {"watch.t4",          {"watch.rcv.out"},                {"watch.in"},                      tessera::if_go_on,    {tessera::Step::go_on, "watch"}},
-    {"watch.t5",          {"watch.rcv.out"},                {"watch.out"},                     tessera::if_terminal, {tessera::Step::terminal, "watch"}},
-    {"watch.t6",          {"watch.rcv.out"},                {"watch.out"},                     tessera::if_error,    {tessera::Step::error, "watch"}},
-    {"watch.snd.line.t1", {"watch.snd.in", "line/channel"}, {"watch.snd.line.2"},              {},                   {tessera::Step::transfer, "watch", "line"}},
-    {"watch.snd.line.t2", {"watch.snd.line.2"},             {"watch.snd.out", "line/channel"}, {},                   {tessera::Step::transfer, "watch", "line"}},
-    {"watch.rcv.t1",      {"watch.rcv.in"},                 {"watch.rcv.out"},                 {},                   {tessera::Step::page, "watch"}},
+    {"watch.t1",          {2},                        {7},                        {},                   {tessera::Step::begin_sending, 0}},    // watch.in -> watch.snd.in
+    {"watch.t2",          {8},                        {3},                        {},                   {tessera::Step::end_sending, 0}},      // watch.snd.out -> watch.2
+    {"watch.t3",          {3},                        {9},                        {},                   {tessera::Step::begin_receiving, 0}},  // watch.2 -> watch.rcv.in
+    {"watch.t4",          {5},                        {2},                        tessera::if_go_on,    {tessera::Step::go_on, 0}},            // watch.rcv.out -> watch.in
+    {"watch.t5",          {5},                        {6},                        tessera::if_terminal, {tessera::Step::terminal, 0}},         // watch.rcv.out -> watch.out
+    {"watch.t6",          {5},                        {6},                        tessera::if_error,    {tessera::Step::error, 0}},            // watch.rcv.out -> watch.out
+    {"watch.snd.line.t1", {7, tessera::memory(0, 0)}, {4},                        {},                   {tessera::Step::transfer, 0, 0}},      // watch.snd.in, line/channel -> watch.snd.line.2
+    {"watch.snd.line.t2", {4},                        {8, tessera::memory(0, 0)}, {},                   {tessera::Step::transfer, 0, 0}},      // watch.snd.line.2 -> watch.snd.out, line/channel
+    {"watch.rcv.t1",      {9},                        {5},                        {},                   {tessera::Step::page, 0}},             // watch.rcv.in -> watch.rcv.out
 };
 // clang-format on
 
 }  // namespace
 
-const tessera::SubsystemNet net{behaviours, ports, places, transitions, "in", "out"};
+const tessera::SubsystemNet net{behaviours, ports, places, transitions, 0, 1};
 std::unique_ptr<tessera::Subsystem> make() { return std::make_unique<Subsystem>(); }
 
 }  // namespace tessera_generated::units::robot::sensor

@@ -7,7 +7,7 @@
 
 #include "subsystems.hpp"
 
-static_assert(tessera::tables_version == 4, "made for another version of Tessera: generate it again");
+static_assert(tessera::tables_version == 5, "made for another version of Tessera: generate it again");
 
 namespace tessera_generated {
 namespace {
@@ -21,19 +21,40 @@ constexpr tessera::Instance instances[] = {
     {"robot", "motor", tessera::Kind::effector, &units::robot::motor::net, units::robot::motor::make, 20ms, 500ms, {.watchdog = 500ms}},
 };
 
-constexpr tessera::Channel channels[] = {
-    {"robot.sensor.line->robot.control.line", {1, "line"}, {0, "line"}, tessera::asynchronous},
-    {"robot.control.motion->robot.motor.velocity", {0, "motion"}, {2, "velocity"}, tessera::buffered, 0s, 200ms},
+const tessera::FusedPlace memory_channel[] = {
+    {"channel", 1, tessera::PlaceRole::lock},
 };
+const tessera::FusedPlace memory_empty_full[] = {
+    {"empty", 1, tessera::PlaceRole::empty},
+    {"full", 0, tessera::PlaceRole::full},
+};
+constexpr tessera::Channel channels[] = {
+    {"robot.sensor.line->robot.control.line", {1, 0}, {0, 1}, memory_channel},
+    {"robot.control.motion->robot.motor.velocity", {0, 0}, {2, 0}, memory_empty_full, 0s, 200ms},
+};
+
+constexpr tessera::PagePlace system_places[] = {{"in", 1}, {"out", 0}};
+const tessera::PageTransition system_transitions[] = {
+    {"t_in", tessera::Step::start_system, {0}, {tessera::entries}},
+    {"t_out", tessera::Step::end_system, {tessera::exits}, {1}},
+};
+const tessera::UpperPage system_page{system_places, system_transitions, 0, 1};
+constexpr tessera::PagePlace agent_places[] = {{"in", 0}, {"out", 0}};
+const tessera::PageTransition agent_transitions[] = {
+    {"t_in", tessera::Step::start_agent, {0}, {tessera::entries}},
+    {"t_out", tessera::Step::end_agent, {tessera::exits}, {1}},
+};
+const tessera::UpperPage agent_page{agent_places, agent_transitions, 0, 1};
 
 constexpr tessera::VerifiedProperty verdicts[] = {
     {"safe", "holds", "place invariants"},
 };
 
 constexpr tessera::System whole{
-    .tables_version = 4, .name = "line_follower",
+    .tables_version = 5, .name = "line_follower",
     .net_hash = "07554c57a82a68d180835d7120dfa0b4", .verification_hash = "1d2b7aeec725835d440e23fcbd88b294",
     .verdicts = verdicts, .instances = instances, .channels = channels,
+    .system_page = &system_page, .agent_page = &agent_page,
     .real_drivers = {}, .simulated_drivers = {}};
 // clang-format on
 

@@ -107,11 +107,12 @@ class ChannelReader {
     if (text == nullptr) return Mode::non_blocking;
     const auto found = std::ranges::find(words, text->text);
     if (found != words.end()) return static_cast<Mode>(found - words.begin());
+    Hint hint = did_you_mean(text->text, {words[0], words[1]});  // the usual ones first
+    if (hint.text.empty()) hint = did_you_mean(text->text, words);
+    if (text->text == "first" || text->text == "last")
+      hint = "'receive: " + text->text + "' belongs to a subsystem, beside 'rate'";
     out_.error("E104", text->span,
-               in_quotes(entry->key) + " must be " + all + ", not " + in_quotes(text->text),
-               text->text == "first" || text->text == "last"
-                   ? "'receive: " + text->text + "' belongs to a subsystem, beside 'rate'"
-                   : did_you_mean(text->text, words));
+               in_quotes(entry->key) + " must be " + all + ", not " + in_quotes(text->text), hint);
     return Mode::blocking;
   }
 

@@ -130,13 +130,14 @@ TEST(Channel, ARingOfRelaysKeepsGoingInBothClocks) {
   }
 }
 
+struct Seen {
+  bool timed_out, fresh, valid;
+  double value;
+  bool operator==(const Seen&) const = default;
+};
+
 TEST(Channel, AReceiveTimeoutSaysSoAndLeavesTheValue) {
   TestSystem system;
-  struct Seen {
-    bool timed_out, fresh, valid;
-    double value;
-    bool operator==(const Seen&) const = default;
-  };
   std::vector<Seen> seen;
   Script receiver;
   receiver.call = [&](ScriptState& state) {

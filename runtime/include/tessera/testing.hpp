@@ -147,18 +147,17 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
   /// The behaviour that starts after that entry of `next`, according to the net.
   [[nodiscard]] static std::string follows(std::string_view behaviour, std::uint16_t entry) {
     for (const Transition& transition : Unit::net().transitions) {
-      if (transition.role.step != Step::leave || transition.role.behaviour != behaviour) continue;
+      if (transition.role.step != Step::leave || transition.role.behaviour != index_of(behaviour)) continue;
       const bool taken =
           transition.guard.kind != Guard::Kind::next ? entry == 0 : transition.guard.entry == entry;
-      if (taken) return started_in(*transition.outputs.begin());
+      if (taken) return started_in(transition.outputs.begin()->place());
     }
     return {};
   }
-  [[nodiscard]] static std::string started_in(std::string_view place) {
-    for (const Place& one : Unit::net().places)
-      if (one.name == place && (one.does.kind == Does::Kind::call || one.does.kind == Does::Kind::begin))
-        return std::string(one.does.subject);
-    return "end";
+  [[nodiscard]] static std::string started_in(std::uint16_t place) {
+    const Does does = Unit::net().places[place].does;
+    if (does.kind != Does::Kind::call && does.kind != Does::Kind::begin) return "end";
+    return std::string(Unit::net().behaviours[does.subject].name);
   }
 };
 

@@ -200,7 +200,7 @@ struct PageEnd {
   constexpr PageEnd(std::uint16_t own) : place(own) {}              // NOLINT(google-explicit-constructor)
   constexpr PageEnd(Kind of_pages_below) : kind(of_pages_below) {}  // NOLINT(google-explicit-constructor)
 };
-/// Of each page below.
+/// The ends of each page below.
 inline constexpr PageEnd::Kind entries = PageEnd::Kind::entries, exits = PageEnd::Kind::exits;
 
 struct PagePlace {

@@ -44,8 +44,8 @@ std::vector<fs::path> files_below(const fs::path& folder) {
 std::vector<fs::path> files_of_the_tree() {
   std::vector<fs::path> files{"README.md", "CONTRIBUTING.md", "CHANGELOG.md", "CMakeLists.txt"};
   for (const char* folder :
-       {"benchmarks", "cli", "cmake", "docs", "editors", "examples", "network", "recording", "ros2",
-        "runtime", "scripts", "share", "sim", "src", "studio", "tests"})
+       {"benchmarks", "cli", "cmake", "docs", "editors", "examples", "executor", "network", "recording",
+        "ros2", "runtime", "scripts", "share", "sim", "src", "studio", "tests", "vocabulary"})
     std::ranges::move(files_below(folder), std::back_inserter(files));
   return files;
 }

@@ -24,11 +24,11 @@ inline constexpr std::string_view leave = TESSERA_WORD_PREFIX "t_";
 // Words of a behaviour.
 inline constexpr std::string_view send_page = TESSERA_WORD_PREFIX "snd";
 inline constexpr std::string_view receive_page = TESSERA_WORD_PREFIX "rcv";
-inline constexpr std::string_view step =
-    TESSERA_WORD_PREFIX "2";  ///< the place between sending and receiving
-inline constexpr std::string_view first_step =
-    TESSERA_WORD_PREFIX "t1";  ///< transitions between its places and pages, along the way
-inline constexpr std::string_view second_step = TESSERA_WORD_PREFIX "t2";  ///< of the token
+/// The place between sending and receiving.
+inline constexpr std::string_view step = TESSERA_WORD_PREFIX "2";
+// Transitions between its places and pages, along the way of the token.
+inline constexpr std::string_view first_step = TESSERA_WORD_PREFIX "t1";
+inline constexpr std::string_view second_step = TESSERA_WORD_PREFIX "t2";
 inline constexpr std::string_view third_step = TESSERA_WORD_PREFIX "t3";
 inline constexpr std::string_view go_on = TESSERA_WORD_PREFIX "t4";
 inline constexpr std::string_view terminal = TESSERA_WORD_PREFIX "t5";
@@ -57,10 +57,9 @@ inline constexpr std::string_view acknowledged = TESSERA_WORD_PREFIX "ack";
 inline constexpr std::string_view idle = TESSERA_WORD_PREFIX "idle";  ///< nothing is on the way
 inline constexpr std::string_view sent = TESSERA_WORD_PREFIX "sent";  ///< the newest value is on the way
 inline constexpr std::string_view more = TESSERA_WORD_PREFIX "more";  ///< the newest value and older ones are
-inline constexpr std::string_view sent_memory =
-    TESSERA_WORD_PREFIX "sent_memory";  ///< both sides are non-blocking:
-inline constexpr std::string_view received_memory =
-    TESSERA_WORD_PREFIX "received_memory";  ///< each side has a lock of its own
+// Each side has a lock of its own, if both are non-blocking.
+inline constexpr std::string_view sent_memory = TESSERA_WORD_PREFIX "sent_memory";
+inline constexpr std::string_view received_memory = TESSERA_WORD_PREFIX "received_memory";
 inline constexpr std::string_view end_transfer_second = TESSERA_WORD_PREFIX "t2n";
 inline constexpr std::string_view end_transfer_more = TESSERA_WORD_PREFIX "t2m";
 inline constexpr std::string_view withdraw =

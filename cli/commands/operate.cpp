@@ -13,8 +13,8 @@
 #include "cli/terminal.hpp"
 #include "cli/watching/not_reached.hpp"
 #include "cli/watching/running_controller.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/result.hpp"
 
@@ -32,14 +32,14 @@ using Clock = std::chrono::steady_clock;
 constexpr std::chrono::seconds patience{2};
 constexpr int question = 1;
 
-bool tell(RunningController& controller, const project::ControlCommand& command) {
+bool tell(RunningController& controller, const ControlCommand& command) {
   controller.be_patient_for(patience);
-  return controller.send(project::line_of(command, question));
+  return controller.send(line_of(command, question));
 }
 
 /// nullopt: it has ended, or does not answer. first: gets its first state, if that comes before the answer.
-std::optional<project::CommandAnswer> answer_of(RunningController& controller, Clock::time_point end,
-                                                std::optional<project::Snapshot>* first = nullptr) {
+std::optional<CommandAnswer> answer_of(RunningController& controller, Clock::time_point end,
+                                       std::optional<Snapshot>* first = nullptr) {
   // It sends its state several times a second, beside answers: lines come as long as it runs. Lines that have come
   // already are taken in any case, because others may have taken all the time.
   const auto last = std::max(end, Clock::now() + std::chrono::milliseconds(200));
@@ -48,20 +48,20 @@ std::optional<project::CommandAnswer> answer_of(RunningController& controller, C
     controller.be_patient_for(std::max(left, std::chrono::milliseconds(50)));
     std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
-    auto* answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
+    auto* answer = said->content ? std::get_if<CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == question) return std::move(*answer);
-    auto* snapshot = said->content ? std::get_if<project::Snapshot>(&*said->content) : nullptr;
+    auto* snapshot = said->content ? std::get_if<Snapshot>(&*said->content) : nullptr;
     if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
   } while (Clock::now() < last);
   return std::nullopt;
 }
 
-std::optional<project::CommandAnswer> answer_of(RunningController& controller) {
+std::optional<CommandAnswer> answer_of(RunningController& controller) {
   return answer_of(controller, Clock::now() + patience);
 }
 
 std::optional<Problem> problem_of(const RunningController& controller,
-                                  const std::optional<project::CommandAnswer>& answer) {
+                                  const std::optional<CommandAnswer>& answer) {
   if (!answer) return Problem{controller.name() + " has ended, or does not answer"};
   return answer->problem;
 }
@@ -84,14 +84,14 @@ FoundSystem find_system(const std::string& which, const std::string& unknown) {
 }
 
 /// Each process that has the parameter takes its value, or tries it. Returns the exit code.
-int set_in_all(std::vector<SeenController>& processes, const project::command::Set& command) {
+int set_in_all(std::vector<SeenController>& processes, const command::Set& command) {
   for (SeenController& one : processes) tell(one.controller, command);
   bool taken = false, silent = false;
   std::string unknown;
   int code = ok;
   for (SeenController& one : processes) {
-    const std::optional<project::CommandAnswer> answer = answer_of(one.controller);
-    const std::string name = one.snapshot ? one.snapshot->name.value_or("") : one.controller.name();
+    const std::optional<CommandAnswer> answer = answer_of(one.controller);
+    const std::string name = one.snapshot ? one.snapshot->process.value_or("") : one.controller.name();
     if (!answer) {
       silent = true;
       code = complain(name + " has ended, or does not answer: it is unknown whether it takes " +
@@ -131,7 +131,7 @@ bool is_system(const std::string& which, const std::vector<SeenController>& proc
 int set_command(const OperateOptions& options) {
   auto [processes, code] = find_system(options.which, "it is unknown whether it takes the values");
   if (processes.empty()) return failed;
-  std::vector<project::command::Set> commands;
+  std::vector<command::Set> commands;
   for (const std::string& one : options.values) {
     const std::size_t equals = one.find('=');
     if (equals == std::string::npos || equals == 0) return complain("'" + one + "' is not PATH=VALUE");
@@ -139,9 +139,9 @@ int set_command(const OperateOptions& options) {
   }
   // All values or none: half of a change may be worse than either.
   bool all_fit = true;
-  for (const project::command::Set& one : commands) all_fit = set_in_all(processes, one) == ok && all_fit;
+  for (const command::Set& one : commands) all_fit = set_in_all(processes, one) == ok && all_fit;
   if (!all_fit) return complain("no parameter was changed");
-  for (project::command::Set& one : commands) {
+  for (command::Set& one : commands) {
     one.only_try = false;
     if (set_in_all(processes, one) != ok) code = failed;
   }
@@ -159,8 +159,8 @@ int confirm_stops(std::vector<RunningController>& controllers, const std::string
   const auto end = Clock::now() + stop_patience;
   int code = ok;
   for (RunningController& one : controllers) {
-    std::optional<project::Snapshot> first;
-    const std::optional<project::CommandAnswer> answer = answer_of(one, end, &first);
+    std::optional<Snapshot> first;
+    const std::optional<CommandAnswer> answer = answer_of(one, end, &first);
     if (!answer)
       code =
           complain(one.name() + " has ended, still opens its devices, or does not answer: " + unknown_safety);
@@ -176,7 +176,7 @@ int confirm_stops(std::vector<RunningController>& controllers, const std::string
 
 /// Stops all controllers unless one is named: in an emergency, there is no time to look up names.
 int emergency_stop_command(const OperateOptions& options) {
-  const project::command::EmergencyStop command{options.why};
+  const command::EmergencyStop command{options.why};
   // Each gets the command as soon as it is reached: one that hangs must not delay the others.
   FoundControllers found =
       look_for_controllers(options.which, [&](RunningController& one) { tell(one, command); });
@@ -209,13 +209,13 @@ int reset_processes(std::vector<SeenController>& processes, const std::string& s
   }
   if (stopped.empty() && code == ok)
     return complain("no process of " + system + " on this machine has an emergency stop");
-  for (SeenController* one : stopped) tell(one->controller, project::command::Reset{});
+  for (SeenController* one : stopped) tell(one->controller, command::Reset{});
   note_not_told(processes, "not reset");
   for (SeenController* one : stopped) {
     if (const std::optional<Problem> wrong = problem_of(one->controller, answer_of(one->controller)))
-      code = complain(one->snapshot->name.value_or("") + ": " + wrong->text);
+      code = complain(one->snapshot->process.value_or("") + ": " + wrong->text);
     else
-      fmt::print("{}: the emergency stop is over ({})\n", one->snapshot->name.value_or(""),
+      fmt::print("{}: the emergency stop is over ({})\n", one->snapshot->process.value_or(""),
                  *one->snapshot->emergency);
   }
   return code;
@@ -233,7 +233,7 @@ int reset_command(const OperateOptions& options) {
     if (system) fmt::print(stderr, "hint: `tessera reset {}` resets all of them\n", *system);
     return failed;
   }
-  tell(seen.front().controller, project::command::Reset{});
+  tell(seen.front().controller, command::Reset{});
   const std::optional<Problem> wrong =
       problem_of(seen.front().controller, answer_of(seen.front().controller));
   return wrong ? complain(wrong->text) : code;

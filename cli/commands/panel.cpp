@@ -18,8 +18,8 @@
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 #include "cli/watching/running_controller.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/given_values.hpp"
 
 /// `tessera panel`: a panel for an operator without a browser.
@@ -28,7 +28,7 @@ namespace tessera::cli {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-using PanelCommand = project::command::Panel;
+using PanelCommand = command::Panel;
 
 struct PanelOptions {
   std::string path, which, duration = "500ms";
@@ -65,16 +65,15 @@ std::optional<PanelCommand> panel_command_of(const PanelOptions& options) {
 }
 
 /// The answer to a command, found among the regular lines. nullopt: the process does not answer.
-std::optional<project::CommandAnswer> panel_answer(RunningController& controller,
-                                                   const PanelCommand& command) {
+std::optional<CommandAnswer> panel_answer(RunningController& controller, const PanelCommand& command) {
   static int last = 0;
   const int id = ++last;
   const auto end = Clock::now() + std::chrono::seconds(2);
-  if (!controller.send(project::line_of(command, id))) return std::nullopt;
+  if (!controller.send(line_of(command, id))) return std::nullopt;
   while (Clock::now() < end) {
     const std::optional<project::ControlMessage> said = controller.message();
     if (!said) break;
-    const auto* const answer = said->content ? std::get_if<project::CommandAnswer>(&*said->content) : nullptr;
+    const auto* const answer = said->content ? std::get_if<CommandAnswer>(&*said->content) : nullptr;
     if (answer != nullptr && answer->id == id) return *answer;
   }
   return std::nullopt;

@@ -19,15 +19,13 @@
 #include "cli/watching/top_deployment.hpp"
 #include "project/launch.hpp"
 #include "project/meeting_place.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/printable.hpp"
 
 namespace tessera::cli {
 
 namespace {
-
-using project::Snapshot;
 
 constexpr const char* hangs = "it is stopped, or hangs";
 
@@ -82,7 +80,7 @@ std::string table(const Snapshot& now, const Snapshot& before) {
   const double elapsed_s = now.time_s - before.time_s;
   std::string text =
       fmt::format("{}  process {}  {:.1f} s  net {}\n\n{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n",
-                  now.system, now.process, now.time_s, now.net_hash, "subsystem", "behaviour", "rate", "call",
+                  now.system, now.pid, now.time_s, now.net_hash, "subsystem", "behaviour", "rate", "call",
                   "longest", "overruns", "errors");
   if (now.emergency)
     text = fmt::format("EMERGENCY STOP: {}\n`tessera reset` ends it\n\n{}", *now.emergency, text);
@@ -121,7 +119,7 @@ int watch_one(SeenController& watched, const TopOptions& options) {
   auto since = std::chrono::steady_clock::now();
   while (std::optional<project::ControlMessage> said = watched.controller.message()) {
     if (!said->content) return complain("the controller sent what this version does not understand");
-    if (std::holds_alternative<project::ControllerHasEnded>(*said->content))
+    if (std::holds_alternative<ControllerHasEnded>(*said->content))
       return fmt::print("the controller has ended\n"), ok;
     auto* now = std::get_if<Snapshot>(&*said->content);
     if (now == nullptr) continue;

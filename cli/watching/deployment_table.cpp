@@ -17,7 +17,6 @@ namespace tessera::cli {
 namespace {
 
 using project::DeploymentWatch;
-using project::Snapshot;
 using project::WatchedProcess;
 
 /// A line of the table. Lines without a problem are left out first.
@@ -105,7 +104,7 @@ TableLine process_line(const WatchedProcess& one, std::size_t width, bool with_h
   std::string doing = one.is_there() ? doings(now) : "";
   if (now.left_out > 0) doing += fmt::format(" ... and {} more", now.left_out);
   return {fmt::format("{:<{}}  {:<15} {:>8} {:>10} {:>8} {:>7}  {}{}", one.name(), width, state_text(one),
-                      now.process, now.net_hash.empty() ? "-" : seconds_text(now.time_s), overruns, errors,
+                      now.pid, now.net_hash.empty() ? "-" : seconds_text(now.time_s), overruns, errors,
                       with_host ? fmt::format("{:<15} ", now.host) : "", doing),
           runs && !now.emergency && errors == 0};
 }

@@ -4,9 +4,9 @@
 
 namespace tessera::cli {
 
-void NotReached::reached(const project::Snapshot& snapshot) {
-  if (!snapshot.name) return;
-  tried_.insert(snapshot.system + "." + *snapshot.name);
+void NotReached::reached(const Snapshot& snapshot) {
+  if (!snapshot.process) return;
+  tried_.insert(snapshot.system + "." + *snapshot.process);
   if (snapshot.deployment && !project::is_loopback(snapshot.deployment->interface))
     systems_.try_emplace(snapshot.system, *snapshot.deployment);
 }
@@ -15,7 +15,7 @@ std::vector<std::string> NotReached::texts() const {
   std::vector<std::string> texts;
   for (const auto& [system, deployment] : systems_) {
     std::string names;
-    for (const project::Snapshot::Deployment::Process& one : deployment.processes) {
+    for (const Snapshot::Deployment::Process& one : deployment.processes) {
       if (tried_.contains(system + "." + one.name)) continue;
       names += (names.empty() ? "" : ", ") + one.name + (one.host.empty() ? "" : " (" + one.host + ")");
     }

@@ -39,19 +39,18 @@ const project::ControlMessage* RunningController::coming_message() {
 
 namespace {
 
-const project::Snapshot* snapshot_in(const project::ControlMessage* message) {
-  return message != nullptr && message->content ? std::get_if<project::Snapshot>(&*message->content)
-                                                : nullptr;
+const Snapshot* snapshot_in(const project::ControlMessage* message) {
+  return message != nullptr && message->content ? std::get_if<Snapshot>(&*message->content) : nullptr;
 }
 
 }  // namespace
 
 bool RunningController::learn_name(std::chrono::milliseconds longest) {
   connection_.limit_waits(longest);
-  const project::Snapshot* snapshot = snapshot_in(coming_message());
+  const Snapshot* snapshot = snapshot_in(coming_message());
   if (snapshot == nullptr) return false;
-  name_ = snapshot->system + "." + (snapshot->name ? *snapshot->name + "." : "") +
-          std::to_string(snapshot->process);
+  name_ = snapshot->system + "." + (snapshot->process ? *snapshot->process + "." : "") +
+          std::to_string(snapshot->pid);
   return true;
 }
 
@@ -229,7 +228,7 @@ std::vector<SeenController> first_look(std::vector<RunningController> controller
   for (RunningController& one : controllers) {
     SeenController& looked_at = seen.emplace_back(SeenController{std::move(one), {}});
     looked_at.controller.be_patient_for(left_until(end));
-    if (const project::Snapshot* snapshot = snapshot_in(looked_at.controller.coming_message()))
+    if (const Snapshot* snapshot = snapshot_in(looked_at.controller.coming_message()))
       looked_at.snapshot = *snapshot;
   }
   return seen;
@@ -239,7 +238,7 @@ std::optional<std::string> common_deployment(const std::vector<SeenController>& 
   std::optional<std::string> system;
   for (const SeenController& one : controllers) {
     if (!one.snapshot) continue;  // it hangs; its system is one of the others', or it is the only one
-    if (!one.snapshot->name || (system && *system != one.snapshot->system)) return std::nullopt;
+    if (!one.snapshot->process || (system && *system != one.snapshot->system)) return std::nullopt;
     system = one.snapshot->system;
   }
   const bool all = system && std::ranges::all_of(controllers, [&](const SeenController& one) {

@@ -10,8 +10,8 @@
 #include <vector>
 
 #include "project/process/control_connection.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::cli {
 
@@ -51,7 +51,7 @@ class RunningController {
 /// A controller and its first message, which stays unread.
 struct SeenController {
   RunningController controller;
-  std::optional<project::Snapshot> snapshot;  ///< nullopt: none within two seconds
+  std::optional<Snapshot> snapshot;  ///< nullopt: none within two seconds
 };
 /// Sends no request, and listens to all of them at once.
 [[nodiscard]] std::vector<SeenController> first_look(std::vector<RunningController> controllers);

@@ -25,7 +25,6 @@ namespace tessera::cli {
 namespace {
 
 using project::DeploymentWatch;
-using project::Snapshot;
 using project::WatchedProcess;
 using Clock = DeploymentWatch::Clock;
 
@@ -80,7 +79,7 @@ void print_state(const std::string& system, const std::string& process, const st
                  const WatchedProcess* seen) {
   nlohmann::json line{
       {"system", system}, {"process", process}, {"state", seen ? name_of(seen->state) : "absent"}};
-  if (seen != nullptr && seen->snapshot.process >= 0) line["pid"] = seen->snapshot.process;
+  if (seen != nullptr && seen->snapshot.pid >= 0) line["pid"] = seen->snapshot.pid;
   if (!host.empty()) line["host"] = host;
   fmt::print("{}\n", line.dump(-1, ' ', seen != nullptr && seen->by_network,
                                nlohmann::json::error_handler_t::replace));
@@ -100,9 +99,9 @@ int print_lines(DeploymentWatch& deployment, const WatchedSystem& system, bool o
   std::set<std::string> told;
   const auto each_line = [&](std::string_view line) {
     if (once) {
-      const std::optional<project::ControlLine> read = project::read_control_line(line);
+      const std::optional<ControlLine> read = read_control_line(line);
       const auto* snapshot = read ? std::get_if<Snapshot>(&*read) : nullptr;
-      if (snapshot == nullptr || !told.insert(snapshot->name.value_or("")).second) return;
+      if (snapshot == nullptr || !told.insert(snapshot->process.value_or("")).second) return;
     }
     fmt::print("{}\n", for_output(line));
   };

@@ -3,7 +3,7 @@
 #include <string>
 
 #include "project/deployed_run.hpp"
-#include "project/process/control_messages.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::project {
 

@@ -26,9 +26,9 @@
 #include "project/files/file_names.hpp"
 #include "project/launch.hpp"
 #include "project/process/control_connection.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
 #include "project/process/listener.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/recording.hpp"
 
@@ -49,7 +49,6 @@ namespace {
 
 /// Pauses, steps, resumes and reads the recording of a controlled run, as its seed draws, until it has ended.
 void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers) {
-  namespace command = project::command;
   using Received = project::ControlConnection::Received;
   std::optional<project::ControlConnection> connection;
   for (int tries = 0; tries < 2000 && !connection; ++tries) {
@@ -60,12 +59,9 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
   std::mt19937_64 draws(seed);
   std::int64_t id = 0;
   project::ControlReader heard;
-  const auto say = [&](const project::ControlCommand& what) {
-    return connection->send(project::line_of(what, ++id));
-  };
-  const std::array<project::ControlCommand, 6> all{command::Pause{},         command::StepFiring{},
-                                                   command::StepIteration{}, command::Resume{},
-                                                   command::Recording{},     command::Speed{0}};
+  const auto say = [&](const ControlCommand& what) { return connection->send(line_of(what, ++id)); };
+  const std::array<ControlCommand, 6> all{command::Pause{},  command::StepFiring{}, command::StepIteration{},
+                                          command::Resume{}, command::Recording{},  command::Speed{0}};
   bool goes_on = true;
   for (int turn = 0; goes_on && turn < 60; ++turn) {
     goes_on = say(all[draws() % all.size()]) && connection->receive_at_once(heard) != Received::over;
@@ -75,7 +71,7 @@ void disturb(const std::string& socket, std::uint64_t seed, std::size_t& answers
   while (connection->receive(heard) == Received::bytes) {
   }
   while (const std::optional<project::ControlMessage> message = heard.next())
-    if (message->content && std::holds_alternative<project::CommandAnswer>(*message->content)) ++answers;
+    if (message->content && std::holds_alternative<CommandAnswer>(*message->content)) ++answers;
 }
 
 class SameBytes : public Command {

@@ -36,7 +36,7 @@ TEST(ControlReader, MessagesAreTheSameHoweverTheirBytesAreCut) {
     }
     ASSERT_EQ(read.size(), 6U) << size;
     EXPECT_EQ(read[0].line, "{\"pid\":1}");
-    EXPECT_EQ(std::get<Snapshot>(read[0].content.value()).process, 1);
+    EXPECT_EQ(std::get<Snapshot>(read[0].content.value()).pid, 1);
     EXPECT_EQ(read[0].bytes, "");
     EXPECT_TRUE(std::holds_alternative<PieceHead>(read[1].content.value()));
     EXPECT_EQ(read[1].bytes, "a line\n{}\n");

@@ -194,7 +194,7 @@ TEST_F(Watching, OneThatSaysNothingIsSilentEvenIfItNeverDid) {
   call({&cart, &office});
   office.say_snapshot(1);
   EXPECT_TRUE(sees("cart", State::silent) && sees("office", State::silent));
-  EXPECT_EQ(watch_.find("cart")->snapshot.process, getpid());
+  EXPECT_EQ(watch_.find("cart")->snapshot.pid, getpid());
   cart.say_snapshot(3);
   EXPECT_TRUE(sees("cart", State::running));
 }

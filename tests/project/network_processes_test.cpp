@@ -18,7 +18,7 @@ using testing::ElementsAre;
 HeardStatus told(const std::string& process, std::uint64_t incarnation, bool brief = false) {
   HeardStatus heard{What::told, process, std::to_string(incarnation), {}, brief ? "" : "{}"};
   heard.snapshot.system = "depot";
-  heard.snapshot.name = process;
+  heard.snapshot.process = process;
   heard.snapshot.incarnation = heard.incarnation;
   heard.snapshot.net_hash = "ab";
   heard.snapshot.brief = brief;

@@ -54,7 +54,7 @@ class PanelOfTest : public ::testing::Test {
     panel_ = dynamic_cast<PanelReceptor&>(*made).panel();
     receptor_.emplace(panel_, value_encoding_of<PanelDrive>(), [] { return panel_now; });
   }
-  using Values = std::vector<std::pair<std::string, PanelInput::Value>>;
+  using Values = std::map<std::string, command::Panel::Value>;
   std::string feed(const Values& values, const std::string& who = "a") {
     return panel_->feed({"robot.console.drive", who, values}, panel_now).value_or(Problem{}).text;
   }

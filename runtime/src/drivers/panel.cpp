@@ -103,7 +103,7 @@ Panel::Panel(std::string path, std::vector<Control> controls, std::size_t size, 
   input_.bytes = neutral_;
 }
 
-std::optional<Problem> Panel::put(const std::string& field, const PanelInput::Value& value,
+std::optional<Problem> Panel::put(const std::string& field, const command::Panel::Value& value,
                                   std::vector<std::byte>& bytes) const {
   const auto found = std::ranges::find(controls_, field, &Control::field);
   if (found == controls_.end()) {
@@ -133,7 +133,7 @@ std::optional<Problem> Panel::put(const std::string& field, const PanelInput::Va
   return std::nullopt;
 }
 
-std::optional<Problem> Panel::feed(const PanelInput& input, std::int64_t now_ns) {
+std::optional<Problem> Panel::feed(const command::Panel& input, std::int64_t now_ns) {
   if (input.who.size() > longest_operator) return Problem{"the name of the operator is too long"};
   std::vector<std::byte> bytes = neutral_;
   if (input.values)
@@ -207,7 +207,7 @@ bool Panels::knows(const std::string& path) const {
   return panels_.contains(path);
 }
 
-std::optional<Problem> Panels::feed(const PanelInput& input) const {
+std::optional<Problem> Panels::feed(const command::Panel& input) const {
   std::shared_ptr<Panel> panel;
   {
     const std::lock_guard lock(mutex_);

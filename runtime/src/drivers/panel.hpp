@@ -7,23 +7,13 @@
 #include <mutex>
 #include <optional>
 #include <string>
-#include <utility>
-#include <variant>
 #include <vector>
 
+#include "tessera/control_messages.hpp"
 #include "tessera/device.hpp"
 #include "tessera/result.hpp"
 
 namespace tessera {
-
-/// The input of an operator to a panel.
-struct PanelInput {
-  using Value = std::variant<double, bool>;
-  std::string path;  ///< of the real buffer: "robot.operator.drive"
-  std::string who;   ///< tells operators apart
-  /// By field; fields without a value are neutral. nullopt: the operator lets go of the panel.
-  std::optional<std::vector<std::pair<std::string, Value>>> values;
-};
 
 /// The values that an operator gives one real buffer.
 ///
@@ -49,7 +39,7 @@ class Panel {
   [[nodiscard]] const std::vector<std::byte>& neutral() const { return neutral_; }
 
   /// Returns the mistake in the input; nullopt: it counts from now on. now_ns: of monotonic_ns().
-  [[nodiscard]] std::optional<Problem> feed(const PanelInput& input, std::int64_t now_ns);
+  [[nodiscard]] std::optional<Problem> feed(const command::Panel& input, std::int64_t now_ns);
 
   struct Input {
     std::vector<std::byte> bytes;          ///< the encoded value
@@ -62,7 +52,7 @@ class Panel {
   }
 
  private:
-  [[nodiscard]] std::optional<Problem> put(const std::string& field, const PanelInput::Value& value,
+  [[nodiscard]] std::optional<Problem> put(const std::string& field, const command::Panel::Value& value,
                                            std::vector<std::byte>& bytes) const;
   const std::string path_;
   const std::vector<Control> controls_;
@@ -99,7 +89,7 @@ class Panels {
   [[nodiscard]] std::vector<std::string> paths() const;
   [[nodiscard]] bool knows(const std::string& path) const;
   /// As Panel::feed; also for a path that names no panel.
-  [[nodiscard]] std::optional<Problem> feed(const PanelInput& input) const;
+  [[nodiscard]] std::optional<Problem> feed(const command::Panel& input) const;
 
  private:
   mutable std::mutex mutex_;

@@ -66,7 +66,7 @@ bool MemoryGauge::copy(std::vector<std::uint64_t>& words) const {
   return before % 2 == 0 && version_.load(std::memory_order_relaxed) == before;
 }
 
-std::vector<MemoryGauge::Field> MemoryGauge::read() const {
+std::vector<Snapshot::MemoryField> MemoryGauge::read() const {
   constexpr int attempts = 100;
   std::vector<std::uint64_t> words(words_.size());
   int attempt = 0;
@@ -74,7 +74,7 @@ std::vector<MemoryGauge::Field> MemoryGauge::read() const {
     if (++attempt == attempts) return {};
   std::string bytes((words.size() - sources_.size()) * word_size, '\0');
   if (!bytes.empty()) std::memcpy(bytes.data(), words.data() + sources_.size(), bytes.size());
-  std::vector<Field> fields;
+  std::vector<Snapshot::MemoryField> fields;
   std::size_t begin = 0;
   for (std::size_t field = 0; field < sources_.size(); ++field) {
     const std::string_view value = std::string_view(bytes).substr(begin, words[field] - begin);

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "tessera/control_messages.hpp"
 #include "tessera/subsystem.hpp"
 #include "tessera/value_encoding.hpp"
 #include "tessera/value_text.hpp"
@@ -26,11 +27,8 @@ class MemoryGauge {
   explicit MemoryGauge(const Bindings& bindings);
   void show();
 
-  struct Field {
-    std::string name, value;  ///< "free", "0.35"
-  };
   /// Empty: there is no memory, or it changes so fast that no moment could be read.
-  [[nodiscard]] std::vector<Field> read() const;
+  [[nodiscard]] std::vector<Snapshot::MemoryField> read() const;
 
  private:
   struct Source {

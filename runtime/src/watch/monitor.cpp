@@ -14,6 +14,7 @@
 #include <optional>
 #include <string_view>
 #include <system_error>
+#include <type_traits>
 #include <utility>
 #include <variant>
 
@@ -166,7 +167,7 @@ bool Monitor::accept_client() {
   put_on_trial(*client);
   Snapshot first = snapshot();
   first.deployment = deployment_of(assembly_);
-  client->add(to_line(first));
+  client->add(line_of(first));
   client->send();
   clients_.push_back(std::move(client));
   if (remote_ != nullptr) remote_->show_recording();
@@ -228,7 +229,7 @@ void Monitor::send_snapshots() {
       client->skip_snapshot();
       continue;
     }
-    if (line.empty()) line = to_line(snapshot());
+    if (line.empty()) line = line_of(snapshot());
     client->add(line);
     client->send();
   }
@@ -237,7 +238,7 @@ void Monitor::send_snapshots() {
 
 /// Sends the end, and the part of the recording that the client does not have.
 void Monitor::send_end(MonitorClient& client) {
-  client.add(ended_line());
+  client.add(line_of(ControllerHasEnded{}));
   client.send();
   bool more = client.has_recording();
   while (more && client.up_to_date() && !client.gone()) {
@@ -249,7 +250,7 @@ void Monitor::send_end(MonitorClient& client) {
 Snapshot Monitor::snapshot() const {
   Snapshot snapshot = take_snapshot(assembly_, clock_);
   if (!recording_path_.empty()) snapshot.recording = recording_path_;
-  if (remote_ != nullptr) snapshot.simulation = remote_->shown();
+  if (remote_ != nullptr) snapshot.control = remote_->shown();
   return snapshot;
 }
 
@@ -257,44 +258,51 @@ Snapshot Monitor::snapshot() const {
 
 void Monitor::execute_commands(MonitorClient& client) {
   while (const std::optional<std::string> line = client.take_line())
-    execute_request(client, parse_request(*line));
+    execute_request(client, read_control_request(*line));
 }
 
 /// A client that has gone gets no answer and no recording.
-void Monitor::execute_request(MonitorClient& client, const Request& request) {
-  if (std::holds_alternative<commands::Own>(request.command)) return client.own_run();
-  if (const auto* const command = std::get_if<AnsweredCommand>(&request.command)) {
-    const std::optional<Problem> wrong =
-        std::visit([this](const auto& one) { return this->execute(one); }, *command);
-    if (client.gone()) return;
-    if (is_answered_later(*command)) return stops_.await(client, request.id);
-    client.add(answer_line(request.id, wrong, wrong && is_elsewhere(*command)));
-  } else {
-    if (client.gone()) return;
-    // Without this, a client that always has a piece on the way would never get a snapshot.
-    if (client.take_skipped()) client.add(to_line(snapshot()));
-    if (const auto* const scene = std::get_if<commands::SendScene>(&request.command))
-      client.add_scene(assembly_.scene_file, scene->from);
-    else
-      client.add_piece(assembly_.options.recording);
-  }
-  client.send();
+void Monitor::execute_request(MonitorClient& client, const ControlRequest& request) {
+  if (!request.command)
+    return answer(client, {.id = request.id, .problem = Problem{request.command.problem()}});
+  const ControlCommand& command = *request.command;
+  std::visit(
+      [&]<class Command>(const Command& one) {
+        if constexpr (std::is_same_v<Command, command::Own>) {
+          client.own_run();
+        } else if constexpr (std::is_same_v<Command, command::Recording> ||
+                             std::is_same_v<Command, command::Scene>) {
+          send_piece(client, one);
+        } else {
+          const std::optional<Problem> wrong = this->execute(one);
+          // In simulated time, the devices may stand still, and no person is near them.
+          if (remote_ == nullptr && std::is_same_v<Command, command::EmergencyStop> && !client.gone())
+            stops_.await(client, request.id);
+          else
+            answer(client, {.id = request.id, .problem = wrong, .elsewhere = wrong && is_elsewhere(command)});
+        }
+      },
+      command);
 }
 
-/// In simulated time, the devices may stand still, and no person is near them.
-bool Monitor::is_answered_later(const AnsweredCommand& command) const {
-  return remote_ == nullptr && std::holds_alternative<commands::EmergencyStop>(command);
+template <class Command>
+void Monitor::send_piece(MonitorClient& client, const Command& command) {
+  if (client.gone()) return;
+  // Without this, a client that always has a piece on the way would never get a snapshot.
+  if (client.take_skipped()) client.add(line_of(snapshot()));
+  if constexpr (std::is_same_v<Command, command::Scene>)
+    client.add_scene(assembly_.scene_file, command.from);
+  else
+    client.add_piece(assembly_.options.recording);
+  client.send();
 }
 
 void Monitor::answer_stops() { stops_.give(answer); }
 
-void Monitor::answer(MonitorClient& client, std::int64_t id, const std::optional<Problem>& wrong) {
-  client.add(answer_line(id, wrong));
+void Monitor::answer(MonitorClient& client, const CommandAnswer& answer) {
+  if (client.gone()) return;
+  client.add(line_of(answer));
   client.send();
-}
-
-std::optional<Problem> Monitor::execute(const commands::Malformed& /*command*/) {
-  return Problem{"this is no command"};
 }
 
 std::optional<Problem> Monitor::execute(const SimulationCommand& command) {
@@ -302,31 +310,31 @@ std::optional<Problem> Monitor::execute(const SimulationCommand& command) {
   return remote_->execute(command);
 }
 
-std::optional<Problem> Monitor::execute(const commands::SetParameter& command) {
+std::optional<Problem> Monitor::execute(const command::Set& command) {
   if (command.only_try) return assembly_.changes->try_out(command.path, command.value);
   return assembly_.changes->ask(command.path, command.value);
 }
 
-std::optional<Problem> Monitor::execute(const commands::FeedPanel& command) {
-  return assembly_.panels.feed(command.input);
+std::optional<Problem> Monitor::execute(const command::Panel& command) {
+  return assembly_.panels.feed(command);
 }
 
 /// Whether the name exists in another process only.
-bool Monitor::is_elsewhere(const AnsweredCommand& command) const {
-  if (const auto* const set = std::get_if<commands::SetParameter>(&command))
+bool Monitor::is_elsewhere(const ControlCommand& command) const {
+  if (const auto* const set = std::get_if<command::Set>(&command))
     return !assembly_.changes->knows(set->path);
-  const auto* const panel = std::get_if<commands::FeedPanel>(&command);
-  return panel != nullptr && !assembly_.panels.knows(panel->input.path);
+  const auto* const panel = std::get_if<command::Panel>(&command);
+  return panel != nullptr && !assembly_.panels.knows(panel->path);
 }
 
-std::optional<Problem> Monitor::execute(const commands::EmergencyStop& command) {
-  assembly_.control.begin_emergency(command.why);
+std::optional<Problem> Monitor::execute(const command::EmergencyStop& command) {
+  assembly_.control.begin_emergency(command.why.empty() ? "an operator asks for it" : command.why);
   return std::nullopt;
 }
 
 /// A device that has not obeyed the stop must not move again. If it does not obey within Effectors::patience, the
 /// run fails.
-std::optional<Problem> Monitor::execute(const commands::Reset& /*command*/) {
+std::optional<Problem> Monitor::execute(const command::Reset& /*command*/) {
   if (remote_ == nullptr && assembly_.control.emergency())
     if (const std::optional<Problem> wrong = stops_.not_safe_yet())
       return Problem{fmt::format("not reset: {}", wrong->text)};

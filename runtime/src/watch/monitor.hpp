@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/result.hpp"
 #include "watch/monitor_client.hpp"
-#include "watch/monitor_protocol.hpp"
 #include "watch/monitor_socket.hpp"
 #include "watch/remote_control.hpp"
 #include "watch/stop_answers.hpp"
@@ -54,18 +54,18 @@ class Monitor {
   [[nodiscard]] Snapshot snapshot() const;
 
   void execute_commands(MonitorClient& client);
-  void execute_request(MonitorClient& client, const Request& request);
-  [[nodiscard]] bool is_answered_later(const AnsweredCommand& command) const;
+  void execute_request(MonitorClient& client, const ControlRequest& request);
+  template <class Command>
+  void send_piece(MonitorClient& client, const Command& command);
   void answer_stops();
-  static void answer(MonitorClient& client, std::int64_t id, const std::optional<Problem>& wrong);
+  static void answer(MonitorClient& client, const CommandAnswer& answer);
   // Returns the mistake in the command; nullopt: it was executed.
-  [[nodiscard]] static std::optional<Problem> execute(const commands::Malformed& command);
   [[nodiscard]] std::optional<Problem> execute(const SimulationCommand& command);
-  [[nodiscard]] std::optional<Problem> execute(const commands::SetParameter& command);
-  [[nodiscard]] std::optional<Problem> execute(const commands::FeedPanel& command);
-  [[nodiscard]] bool is_elsewhere(const AnsweredCommand& command) const;
-  [[nodiscard]] std::optional<Problem> execute(const commands::EmergencyStop& command);
-  [[nodiscard]] std::optional<Problem> execute(const commands::Reset& command);
+  [[nodiscard]] std::optional<Problem> execute(const command::Set& command);
+  [[nodiscard]] std::optional<Problem> execute(const command::Panel& command);
+  [[nodiscard]] bool is_elsewhere(const ControlCommand& command) const;
+  [[nodiscard]] std::optional<Problem> execute(const command::EmergencyStop& command);
+  [[nodiscard]] std::optional<Problem> execute(const command::Reset& command);
 
   Assembly& assembly_;
   const Clock& clock_;

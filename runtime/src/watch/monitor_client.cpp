@@ -13,8 +13,8 @@
 #include <utility>
 
 #include "system/waker.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/monitor.hpp"
-#include "watch/monitor_protocol.hpp"
 
 namespace tessera {
 namespace {
@@ -58,7 +58,7 @@ bool MonitorClient::add_piece(const std::string& recording) {
   if (recording_ == nullptr)
     recording_ = std::make_unique<GrowingRecording>(recording, GrowingRecording::From::newest);
   const GrowingRecording::Piece piece = recording_->next(longest_piece);
-  add(piece_line(piece.bytes.size(), piece.begins, piece.more));
+  add(line_of(PieceHead{.bytes = piece.bytes.size(), .begins = piece.begins, .more = piece.more}));
   add(piece.bytes);
   return !piece.bytes.empty();
 }
@@ -72,7 +72,7 @@ void MonitorClient::add_scene(const std::string& file, std::uint64_t from) {
     stream.seekg(static_cast<std::streamoff>(from));
     if (!stream.read(bytes.data(), static_cast<std::streamsize>(bytes.size()))) bytes.clear();
   }
-  add(scene_line(bytes.size(), from, missing ? 0 : total));
+  add(line_of(SceneHead{.bytes = bytes.size(), .from = from, .total = missing ? 0 : total}));
   add(bytes);
 }
 

@@ -40,16 +40,12 @@ std::optional<Problem> RemoteControl::execute(const SimulationCommand& command) 
   return std::nullopt;
 }
 
-std::optional<Problem> RemoteControl::apply(const commands::Unknown& /*command*/) {
-  return Problem{"there is no such command"};
-}
-
-std::optional<Problem> RemoteControl::apply(const commands::Pause& /*command*/) {
+std::optional<Problem> RemoteControl::apply(const command::Pause& /*command*/) {
   set_paused(true);
   return std::nullopt;
 }
 
-std::optional<Problem> RemoteControl::apply(const commands::Resume& /*command*/) {
+std::optional<Problem> RemoteControl::apply(const command::Resume& /*command*/) {
   set_paused(false);
   return std::nullopt;
 }
@@ -61,13 +57,13 @@ void RemoteControl::set_paused(bool paused) {
   broke_at_.clear();
 }
 
-std::optional<Problem> RemoteControl::apply(const commands::StepFiring& /*command*/) {
+std::optional<Problem> RemoteControl::apply(const command::StepFiring& /*command*/) {
   paused_ = true;
   ++firings_left_;
   return std::nullopt;
 }
 
-std::optional<Problem> RemoteControl::apply(const commands::StepIteration& command) {
+std::optional<Problem> RemoteControl::apply(const command::StepIteration& command) {
   InstanceId found;
   for (std::uint32_t instance = 0; instance < assembly_.executors.size(); ++instance)
     if (assembly_.executors[instance]->path() == command.subsystem) found = {instance};
@@ -80,15 +76,14 @@ std::optional<Problem> RemoteControl::apply(const commands::StepIteration& comma
   return std::nullopt;
 }
 
-std::optional<Problem> RemoteControl::apply(const commands::SetSpeed& command) {
-  const double speed = command.value.value_or(-1);
-  if (!std::isfinite(speed) || speed < 0 || speed > fastest)
+std::optional<Problem> RemoteControl::apply(const command::Speed& command) {
+  if (!std::isfinite(command.value) || command.value < 0 || command.value > fastest)
     return Problem{"a speed is a number from 0 (as fast as possible) to 1000"};
-  speed_ = speed;
+  speed_ = command.value;
   return std::nullopt;
 }
 
-std::optional<Problem> RemoteControl::apply(const commands::SetBreakpoints& command) {
+std::optional<Problem> RemoteControl::apply(const command::Breakpoints& command) {
   using When = Breakpoint::When;
   std::vector<Breakpoint> wanted;
   if (assembly_.recorder == nullptr && !command.transitions.empty())
@@ -134,7 +129,7 @@ bool RemoteControl::find(Breakpoint& breakpoint) const {
   return false;
 }
 
-Snapshot::Simulation RemoteControl::shown() const {
+Snapshot::Control RemoteControl::shown() const {
   const std::lock_guard lock(mutex_);
   return {.paused = stands_ && resting(), .pauses = pauses_, .speed = speed_, .broke_at = broke_at_};
 }

@@ -10,9 +10,9 @@
 
 #include "assembly/assembly.hpp"
 #include "system/stop_signals.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/ids.hpp"
 #include "tessera/result.hpp"
-#include "watch/monitor_protocol.hpp"
 
 namespace tessera {
 
@@ -32,7 +32,7 @@ class RemoteControl {
   // ---- the watcher's
   /// Executes the command. Returns its mistake.
   [[nodiscard]] std::optional<Problem> execute(const SimulationCommand& command);
-  [[nodiscard]] Snapshot::Simulation shown() const;
+  [[nodiscard]] Snapshot::Control shown() const;
   /// Requests that recorded events reach the file soon.
   void show_recording() { recording_wanted_.store(true, std::memory_order_relaxed); }
   /// Ends the run because the client that started it has gone.
@@ -69,13 +69,12 @@ class RemoteControl {
   void look_at(Breakpoint& breakpoint, std::uint32_t fired);
   void set_paused(bool paused);
   // The part of `execute` that needs its lock.
-  [[nodiscard]] static std::optional<Problem> apply(const commands::Unknown& command);
-  [[nodiscard]] std::optional<Problem> apply(const commands::Pause& command);
-  [[nodiscard]] std::optional<Problem> apply(const commands::Resume& command);
-  [[nodiscard]] std::optional<Problem> apply(const commands::StepFiring& command);
-  [[nodiscard]] std::optional<Problem> apply(const commands::StepIteration& command);
-  [[nodiscard]] std::optional<Problem> apply(const commands::SetSpeed& command);
-  [[nodiscard]] std::optional<Problem> apply(const commands::SetBreakpoints& command);
+  [[nodiscard]] std::optional<Problem> apply(const command::Pause& command);
+  [[nodiscard]] std::optional<Problem> apply(const command::Resume& command);
+  [[nodiscard]] std::optional<Problem> apply(const command::StepFiring& command);
+  [[nodiscard]] std::optional<Problem> apply(const command::StepIteration& command);
+  [[nodiscard]] std::optional<Problem> apply(const command::Speed& command);
+  [[nodiscard]] std::optional<Problem> apply(const command::Breakpoints& command);
   void update();
   void take_news() const;
 

@@ -137,8 +137,9 @@ void show_process(const Assembly& assembly, Snapshot& snapshot) {
   const ProcessPart& part = assembly.part;
   if (!part.process) return;
   const Process& own = part.whole->processes[*part.process];
-  snapshot.process = {std::string(own.name), own.host.empty() ? name_of_machine() : std::string(own.host),
-                      assembly.incarnation.value};
+  snapshot.process = own.name;
+  snapshot.host = own.host.empty() ? name_of_machine() : std::string(own.host);
+  snapshot.incarnation = std::to_string(assembly.incarnation.value);
   if (assembly.links == nullptr) return;
   for (const auto& link : assembly.links->gauges())
     snapshot.links.push_back(show(*link, part.whole->processes[link->peer]));

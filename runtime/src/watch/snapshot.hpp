@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "assembly/assembly.hpp"
-#include "watch/monitor_protocol.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera {
 

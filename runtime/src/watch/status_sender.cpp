@@ -75,7 +75,7 @@ void StatusSender::serve_until_ended() {
   Real::duration rest{0};
   while (!ends_within(rest)) rest = send();
   if (assembly_.carrier->watchers() > 0)
-    assembly_.carrier->send_status(network::StatusPart::brief, ended_line());
+    assembly_.carrier->send_status(network::StatusPart::brief, line_of(ControllerHasEnded{}));
 }
 
 StatusSender::Real::duration StatusSender::send() {

@@ -31,14 +31,14 @@ StatusTexts status_texts(Snapshot snapshot, std::size_t most_bytes) {
   if (snapshot.emergency) snapshot.emergency->resize(std::min(snapshot.emergency->size(), longest_reason));
   for (Snapshot::Subsystem& one : snapshot.subsystems) one.memory.clear();
   StatusTexts texts;
-  texts.whole = to_line(snapshot);
-  while (texts.whole.size() > most_bytes && shorten(snapshot)) texts.whole = to_line(snapshot);
+  texts.whole = line_of(snapshot);
+  while (texts.whole.size() > most_bytes && shorten(snapshot)) texts.whole = line_of(snapshot);
   snapshot.subsystems.clear();
   snapshot.waits.clear();
   snapshot.links.clear();
   snapshot.left_out = 0;
   snapshot.brief = true;
-  texts.brief = to_line(snapshot);
+  texts.brief = line_of(snapshot);
   return texts;
 }
 

@@ -3,7 +3,7 @@
 #include <cstddef>
 #include <string>
 
-#include "watch/monitor_protocol.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera {
 

@@ -13,6 +13,7 @@
 #include "drivers/run_control.hpp"
 #include "subsystem/subsystem_executor.hpp"
 #include "system/waker.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/result.hpp"
 #include "watch/monitor_client.hpp"
 
@@ -37,7 +38,7 @@ class StopAnswers {
   }
   [[nodiscard]] bool none() const { return awaited_.empty(); }
 
-  using Answer = std::function<void(MonitorClient&, std::int64_t id, const std::optional<Problem>& wrong)>;
+  using Answer = std::function<void(MonitorClient&, const CommandAnswer& answer)>;
   /// Gives the answers that are known by now.
   void give(const Answer& answer) { give(answer, /*all=*/false); }
   /// Gives all answers, because nobody will look at the devices any more.
@@ -64,7 +65,7 @@ class StopAnswers {
     const std::int64_t now_ns = monotonic_ns();
     std::erase_if(awaited_, [&](const Awaited& one) {
       if (!all && stands && wrong && now_ns < one.until_ns) return false;
-      answer(*one.client, one.id, wrong);
+      answer(*one.client, {.id = one.id, .problem = wrong});
       return true;
     });
   }

@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-#include "project/process/control_messages.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::project {
 

@@ -178,8 +178,8 @@ void DeploymentWatch::note_found(const std::string& socket, Connected& one,
   if (known.name.empty() || !socket.starts_with(system_.substr(0, socket.find(cut_off_name)))) return;
   Snapshot snapshot;
   snapshot.system = system_;
-  snapshot.name = known.name;
-  snapshot.process = known.number;
+  snapshot.process = known.name;
+  snapshot.pid = known.number;
   one.process = WatchedProcess{.state = state,
                                .since = {},
                                .heard = Clock::now(),
@@ -220,7 +220,7 @@ bool DeploymentWatch::take(const std::string& socket, Connected& one, std::optio
   auto* snapshot = std::get_if<Snapshot>(&*line);
   if (snapshot == nullptr) return false;
   const bool of_another_net = !net_hash_.empty() && snapshot->net_hash != net_hash_;
-  if (snapshot->system != system_ || !snapshot->name || of_another_net) {
+  if (snapshot->system != system_ || !snapshot->process || of_another_net) {
     of_another_net_ += static_cast<std::size_t>(of_another_net);
     one.ignored = true;
     one.process.reset();
@@ -230,8 +230,8 @@ bool DeploymentWatch::take(const std::string& socket, Connected& one, std::optio
     one.process =
         WatchedProcess{.since = now, .heard = now, .socket = socket, .is_local = false, .snapshot = {}};
   if (one.process->state == WatchedProcess::State::silent) one.process->since = now;
-  if (one.process->snapshot.process != snapshot->process)
-    one.process->is_local = one.connection && one.connection->is_process(snapshot->process);
+  if (one.process->snapshot.pid != snapshot->pid)
+    one.process->is_local = one.connection && one.connection->is_process(snapshot->pid);
   if (snapshot->deployment) learn(*snapshot->deployment, one.process->is_local);
   one.process->state = WatchedProcess::State::running;
   one.process->heard = now;

@@ -12,10 +12,10 @@
 #include <vector>
 
 #include "project/process/control_connection.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
 #include "project/process/network_processes.hpp"
 #include "project/process/watched_process.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::project {
 

@@ -22,7 +22,7 @@ std::uint64_t number_of(std::string_view incarnation) {
 /// Takes a brief text of a process whose lists are known.
 void take_brief(Snapshot& known, const Snapshot& brief) {
   known.time_s = brief.time_s;
-  known.process = brief.process;
+  known.pid = brief.pid;
   known.host = brief.host;
   known.net_hash = brief.net_hash;
   known.emergency = brief.emergency;

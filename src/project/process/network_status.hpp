@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "project/process/control_messages.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::project {
 

@@ -60,13 +60,13 @@ std::optional<HeardStatus> StatusInbox::read(const network::StatusSource& source
   }
   auto* snapshot = std::get_if<Snapshot>(&*line);
   const bool is_whole = part == network::StatusPart::whole;
-  if (snapshot == nullptr || snapshot->system != system_ || !snapshot->name ||
-      !processes_.contains(*snapshot->name) || snapshot->incarnation != std::to_string(source.incarnation) ||
-      snapshot->brief == is_whole)
+  if (snapshot == nullptr || snapshot->system != system_ || !snapshot->process ||
+      !processes_.contains(*snapshot->process) ||
+      snapshot->incarnation != std::to_string(source.incarnation) || snapshot->brief == is_whole)
     return std::nullopt;
   snapshot->deployment.reset();  // a text from the network never leads to another network
   snapshot->recording.reset();
-  std::string name = *snapshot->name, incarnation = snapshot->incarnation;
+  std::string name = *snapshot->process, incarnation = snapshot->incarnation;
   return HeardStatus{HeardStatus::What::told, std::move(name), std::move(incarnation), std::move(*snapshot),
                      is_whole ? of_plain_letters(text) : std::string()};
 }

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "project/process/control_messages.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::project {
 
@@ -27,7 +27,7 @@ struct WatchedProcess {
   /// The last one. It has the name of the process; if it has said nothing, only that and the process number.
   Snapshot snapshot;
 
-  [[nodiscard]] const std::string& name() const { return *snapshot.name; }
+  [[nodiscard]] const std::string& name() const { return *snapshot.process; }
   [[nodiscard]] bool is_there() const { return state == State::running || state == State::silent; }
 };
 

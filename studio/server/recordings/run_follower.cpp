@@ -28,12 +28,30 @@ std::int64_t nanoseconds(double seconds) {
 
 }  // namespace
 
+void add_subsystems(const Snapshot& snapshot, json& event) {
+  for (const Snapshot::Subsystem& one : snapshot.subsystems)
+    event["subsystems"].push_back({{"path", one.path},
+                                   {"behaviour", one.behaviour ? json(*one.behaviour) : json(nullptr)},
+                                   {"calling", one.calling},
+                                   {"ended", one.ended},
+                                   {"iterations", one.iterations},
+                                   {"firings", one.firings},
+                                   {"overruns", one.overruns},
+                                   {"errors", one.errors},
+                                   {"period_s", one.period_s},
+                                   {"called_at_s", one.called_at_s},
+                                   {"call_s", one.call_s},
+                                   {"longest_call_s", one.longest_call_s}});
+  for (const Snapshot::Channel& one : snapshot.channels)
+    event["channels"].push_back({{"name", one.name}, {"marked", one.marked}});
+}
+
 RunFollower::RunFollower(RecordingStream::Source recording, const Analysis& analysis, Reached* reached)
     : recording_(std::move(recording), *analysis.net, reached) {}
 
 void RunFollower::rest() { std::this_thread::sleep_for(between_looks); }
 
-RunFollower::News RunFollower::poll(std::optional<project::Snapshot> snapshot, bool last) {
+RunFollower::News RunFollower::poll(std::optional<Snapshot> snapshot, bool last) {
   News news;
   if (snapshot) snapshot_ = std::move(snapshot);
   add_path(add_firings(news), news, last);
@@ -110,16 +128,15 @@ void RunFollower::add_poses(News& news, bool at_once) {
     news.whole_poses = {{"t", whole->time_ns}, {"frame", whole->bytes}};
 }
 
-void RunFollower::add_snapshot(const project::Snapshot& snapshot, News& news) {
+void RunFollower::add_snapshot(const Snapshot& snapshot, News& news) {
   const std::int64_t time_ns = nanoseconds(snapshot.time_s);
   news.time_ns = std::max(news.time_ns, time_ns);
   if (Clock::now() - subsystems_told_ >= between_subsystems) {
     subsystems_told_ = Clock::now();
-    news.subsystems = {{"t", time_ns},
-                       {"subsystems", project::json_of(snapshot.subsystems)},
-                       {"channels", project::json_of(snapshot.channels)}};
+    news.subsystems = {{"t", time_ns}, {"subsystems", json::array()}, {"channels", json::array()}};
+    add_subsystems(snapshot, news.subsystems);
   }
-  const project::Snapshot::Control control = snapshot.control.value_or(project::Snapshot::Control{});
+  const Snapshot::Control control = snapshot.control.value_or(Snapshot::Control{});
   news.has_state = snapshot.control.has_value();
   news.paused = control.paused;
   // A step, or a breakpoint that comes soon, begins and ends between two snapshots.

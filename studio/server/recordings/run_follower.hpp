@@ -8,12 +8,16 @@
 #include <utility>
 #include <vector>
 
-#include "project/process/control_messages.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/recordings/recording_tail.hpp"
 #include "server/recordings/robot_path.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera::server {
+
+/// Adds the subsystems and channels of the snapshot to the lists of an event `subsystems`: without the memory,
+/// which the page takes from the values of the recording.
+void add_subsystems(const Snapshot& snapshot, nlohmann::json& event);
 
 /// Collects the state of a running controller: firings and values from its recording, the robot's path, and
 /// the snapshots of its control socket. The results are ready to be sent.
@@ -41,7 +45,7 @@ class RunFollower {
   /// snapshot: of the control socket, if there is a new one. It is reported after everything that the run had
   /// recorded by then.
   /// last: nothing is kept for later.
-  [[nodiscard]] News poll(std::optional<project::Snapshot> snapshot, bool last);
+  [[nodiscard]] News poll(std::optional<Snapshot> snapshot, bool last);
   /// The time until the next look is worthwhile.
   static void rest();
 
@@ -52,14 +56,14 @@ class RunFollower {
   void add_values(News& news, bool at_once);
   void add_arrays(News& news, bool at_once);
   void add_poses(News& news, bool at_once);
-  void add_snapshot(const project::Snapshot& snapshot, News& news);
+  void add_snapshot(const Snapshot& snapshot, News& news);
 
   RecordingTail recording_;
   std::chrono::steady_clock::time_point marking_told_{}, values_told_{}, arrays_told_{}, pose_told_{},
       poses_told_{}, subsystems_told_{};
   bool scene_told_ = false;
   std::optional<PathPoint> pose_waiting_;
-  std::optional<project::Snapshot> snapshot_;
+  std::optional<Snapshot> snapshot_;
   std::uint64_t pauses_ = 0, total_firings_ = 0;
   std::int64_t time_ns_ = 0;
 };

@@ -27,7 +27,7 @@ bool ControllerLink::connect(const std::filesystem::path& file, bool own) {
   connection_ = std::move(made);
   open_ = true;
   answered_.notify_all();
-  return !own || say(project::line_of(project::command::Own{}));
+  return !own || say(line_of(command::Own{}));
 }
 
 bool ControllerLink::is_open() {
@@ -62,13 +62,13 @@ void ControllerLink::understand() {
     std::optional<project::ControlMessage> message = heard_.next();
     if (!message) break;
     if (!message->content) continue;  // from another version, or malformed
-    if (auto* snapshot = std::get_if<project::Snapshot>(&*message->content))
+    if (auto* snapshot = std::get_if<Snapshot>(&*message->content))
       snapshot_ = std::move(*snapshot);
-    else if (auto* answer = std::get_if<project::CommandAnswer>(&*message->content))
+    else if (auto* answer = std::get_if<CommandAnswer>(&*message->content))
       take(std::move(*answer));
-    else if (const auto* head = std::get_if<project::PieceHead>(&*message->content))
+    else if (const auto* head = std::get_if<PieceHead>(&*message->content))
       piece_ = {std::move(message->bytes), head->begins, head->more};
-    else if (const auto* scene = std::get_if<project::SceneHead>(&*message->content))
+    else if (const auto* scene = std::get_if<SceneHead>(&*message->content))
       take(*scene, message->bytes);
     else
       ended_ = true;
@@ -76,13 +76,13 @@ void ControllerLink::understand() {
   if (heard_.exceeds_limits()) close();  // not what a controller sends
 }
 
-void ControllerLink::take(project::CommandAnswer answer) {
+void ControllerLink::take(CommandAnswer answer) {
   const std::lock_guard lock(mutex_);
   answers_[answer.id] = std::move(answer.problem);
   answered_.notify_all();
 }
 
-void ControllerLink::take(const project::SceneHead& head, std::string_view bytes) {
+void ControllerLink::take(const SceneHead& head, std::string_view bytes) {
   constexpr std::uint64_t largest = std::uint64_t{256} << 20U;
   scene_asked_ = false;
   if (head.from == scene_.size() && head.total <= largest) scene_ += bytes;
@@ -95,7 +95,7 @@ std::optional<std::string> ControllerLink::scene() {
   if (scene_complete_) return scene_;
   if (scene_asked_ || !connection_) return std::nullopt;
   const std::lock_guard lock(mutex_);
-  scene_asked_ = say(project::line_of(project::command::Scene{scene_.size()}));
+  scene_asked_ = say(line_of(command::Scene{scene_.size()}));
   return std::nullopt;
 }
 
@@ -103,7 +103,7 @@ GrowingRecording::Piece ControllerLink::recording() {
   const auto until = Clock::now() + std::chrono::milliseconds(100);
   if (!asked_ && !ended_ && connection_) {
     const std::lock_guard lock(mutex_);
-    asked_ = say(project::line_of(project::command::Recording{}));
+    asked_ = say(line_of(command::Recording{}));
   }
   for (hear(); !piece_ && asked_ && connection_ && Clock::now() < until; hear())
     connection_->wait(std::chrono::milliseconds(10));
@@ -116,12 +116,12 @@ GrowingRecording::Piece ControllerLink::recording() {
   return piece;
 }
 
-std::optional<project::Snapshot> ControllerLink::snapshot() {
+std::optional<Snapshot> ControllerLink::snapshot() {
   hear();
   return std::exchange(snapshot_, std::nullopt);
 }
 
-std::optional<Problem> ControllerLink::command(const project::ControlCommand& command) {
+std::optional<Problem> ControllerLink::command(const ControlCommand& command) {
   constexpr auto patience = std::chrono::seconds(5);
   // On a busy machine a controller may take long to start. Its end ends the wait.
   constexpr auto patience_with_start = std::chrono::seconds(60);
@@ -129,7 +129,7 @@ std::optional<Problem> ControllerLink::command(const project::ControlCommand& co
   if (!answered_.wait_for(lock, patience_with_start, [&] { return open_ || over_; }) || over_)
     return Problem{over_ ? "the controller has ended" : "the controller does not listen yet"};
   const std::int64_t id = ++last_;
-  if (!say(project::line_of(command, id))) return Problem{"the controller takes no commands"};
+  if (!say(line_of(command, id))) return Problem{"the controller takes no commands"};
   if (!answered_.wait_for(lock, patience, [&] { return !open_ || answers_.contains(id); }))
     return Problem{"the controller does not answer"};
   const auto answer = answers_.find(id);

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include "project/process/control_connection.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/growing_recording.hpp"
 #include "tessera/result.hpp"
 
@@ -34,7 +34,7 @@ class ControllerLink {
   /// Whether the other end is that process of this machine, and not the end of a tunnel.
   [[nodiscard]] bool is_process(std::int64_t id) const;
   /// The newest snapshot; nullopt: none since the last call. Does not wait.
-  [[nodiscard]] std::optional<project::Snapshot> snapshot();
+  [[nodiscard]] std::optional<Snapshot> snapshot();
   /// The part of the controller's recording since the last call, as of the last `snapshot`. Waits for it a
   /// tenth of a second; without bytes, but with `more`: it is on its way.
   [[nodiscard]] GrowingRecording::Piece recording();
@@ -43,7 +43,7 @@ class ControllerLink {
   [[nodiscard]] std::optional<std::string> scene();
   /// nullopt: done. Waits for the connection, at most a minute, and five seconds for the answer. Meanwhile
   /// another thread has to call connect and snapshot.
-  [[nodiscard]] std::optional<Problem> command(const project::ControlCommand& command);
+  [[nodiscard]] std::optional<Problem> command(const ControlCommand& command);
   /// Whether it is connected.
   [[nodiscard]] bool is_open();
   /// Whether the other end has closed the connection, or `close` was called.
@@ -57,11 +57,11 @@ class ControllerLink {
   [[nodiscard]] bool say(const std::string& line) const;
   void hear();
   void understand();
-  void take(project::CommandAnswer answer);
-  void take(const project::SceneHead& head, std::string_view bytes);
+  void take(CommandAnswer answer);
+  void take(const SceneHead& head, std::string_view bytes);
   std::optional<project::ControlConnection> connection_;
   project::ControlReader heard_;
-  std::optional<project::Snapshot> snapshot_;
+  std::optional<Snapshot> snapshot_;
   bool asked_ = false, ended_ = false;
   std::optional<GrowingRecording::Piece> piece_;  ///< later messages wait until it is taken
   std::string scene_;

@@ -17,7 +17,6 @@
 namespace tessera::server {
 
 using nlohmann::json;
-using project::Snapshot;
 using project::WatchedProcess;
 
 namespace {
@@ -175,13 +174,10 @@ std::vector<std::uint32_t> DeploymentFollower::joint_marking() const {
 }
 
 json DeploymentFollower::subsystems() const {
-  json all = json::array(), channels = json::array();
-  for (const WatchedProcess* one : watch_.processes()) {
-    if (!one->is_there()) continue;
-    for (json& subsystem : project::json_of(one->snapshot.subsystems)) all.push_back(std::move(subsystem));
-    for (json& channel : project::json_of(one->snapshot.channels)) channels.push_back(std::move(channel));
-  }
-  return {{"t", time_ns_}, {"subsystems", std::move(all)}, {"channels", std::move(channels)}};
+  json event{{"t", time_ns_}, {"subsystems", json::array()}, {"channels", json::array()}};
+  for (const WatchedProcess* one : watch_.processes())
+    if (one->is_there()) add_subsystems(one->snapshot, event);
+  return event;
 }
 
 json DeploymentFollower::processes() const {
@@ -208,7 +204,7 @@ json DeploymentFollower::processes() const {
       one["state"] = name_of(seen->state);
       if (seen->since) one["since_s"] = seconds_since(*seen->since);
       one["host"] = now.host;
-      one["pid"] = now.process;
+      one["pid"] = now.pid;
       one["time_s"] = now.time_s;
       if (now.emergency) one["emergency"] = *now.emergency;
       one["overruns"] = overruns;

@@ -11,16 +11,15 @@
 #include <vector>
 
 #include "project/process/control_connection.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/control_reader.hpp"
 #include "server/http/json_text.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/monitor.hpp"
 
 namespace tessera::server {
 
 using nlohmann::json;
 using project::ControlConnection;
-using project::Snapshot;
 
 namespace {
 
@@ -84,8 +83,8 @@ json look_at_controllers() {
     controllers.push_back(
         {{"name", one.name},
          {"system", system},
-         {"process", one.snapshot ? one.snapshot->process : -1},
-         {"deployed", one.snapshot && one.snapshot->name.has_value()},
+         {"process", one.snapshot ? one.snapshot->pid : -1},
+         {"deployed", one.snapshot && one.snapshot->process.has_value()},
          {"answers", one.snapshot.has_value()},
          {"emergency",
           one.snapshot && one.snapshot->emergency ? json(*one.snapshot->emergency) : json(nullptr)}});

@@ -11,13 +11,13 @@
 #include "project/files/run_folder.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/launch.hpp"
-#include "project/process/control_messages.hpp"
 #include "project/process/death.hpp"
 #include "project/process/listener.hpp"
 #include "project/process/process.hpp"
 #include "project/verification/pipeline.hpp"
 #include "server/http/json_text.hpp"
 #include "server/runs/run_panels.hpp"
+#include "tessera/control_messages.hpp"
 #include "tessera/monitor.hpp"
 
 namespace tessera::server {
@@ -69,17 +69,17 @@ std::optional<std::vector<std::string>> names_at(const std::vector<std::uint32_t
 }
 
 /// For the controller, which uses names. nullopt: the net has no such place or transition.
-std::optional<project::ControlCommand> breakpoints_of(const RunControl& wanted, const net::Net& net) {
+std::optional<ControlCommand> breakpoints_of(const RunControl& wanted, const net::Net& net) {
   auto places = names_at(wanted.places, net.places());
   auto transitions = names_at(wanted.transitions, net.transitions());
   auto conditions = names_at(wanted.conditions, net.transitions());
   if (!places || !transitions || !conditions) return std::nullopt;
-  return project::command::Breakpoints{std::move(*places), std::move(*transitions), std::move(*conditions)};
+  return command::Breakpoints{std::move(*places), std::move(*transitions), std::move(*conditions)};
 }
 
 /// nullopt: there is no such command, or it sets breakpoints.
-std::optional<project::ControlCommand> plain_command_of(const RunControl& wanted) {
-  using namespace project::command;
+std::optional<ControlCommand> plain_command_of(const RunControl& wanted) {
+  using namespace command;
   const std::string& what = wanted.command;
   if (what == "pause") return Pause{};
   if (what == "resume") return Resume{};
@@ -278,7 +278,7 @@ void Run::follow(const std::filesystem::path& socket, const std::filesystem::pat
 }
 
 /// true: there is more to report at once.
-bool Run::tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last) {
+bool Run::tell(RunFollower& follower, std::optional<Snapshot> snapshot, bool last) {
   RunFollower::News news = follower.poll(std::move(snapshot), last);
   std::optional<State> changed;
   json parameters;
@@ -344,18 +344,18 @@ std::optional<Problem> Run::control(const RunControl& wanted) {
   if (is_building()) return Problem{"the controller is still being made"};
   // Every controller takes values of parameters, also one on the steady clock.
   if (wanted.command == "set" && request_.kind != RunRequest::Kind::deployment)
-    return link_.command(project::command::Set{wanted.path, wanted.text});
+    return link_.command(command::Set{wanted.path, wanted.text});
   if (wanted.command == "panel" && request_.kind != RunRequest::Kind::deployment) {
     // A request of an operator must not take effect later.
     if (!link_.is_open()) return Problem{"the controller does not listen yet"};
-    return link_.command(project::command::Panel{wanted.path, wanted.who, wanted.inputs});
+    return link_.command(command::Panel{wanted.path, wanted.who, wanted.inputs});
   }
   if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
   const bool attached = request_.kind == RunRequest::Kind::attach;
   if ((attached && !controllable_) || request_.kind == RunRequest::Kind::deployment)
     return Problem{"this controller can only be watched: it runs in real time"};
   const bool of_breakpoints = wanted.command == "breakpoints";
-  const std::optional<project::ControlCommand> command =
+  const std::optional<ControlCommand> command =
       of_breakpoints ? breakpoints_of(wanted, *analysis_->net) : plain_command_of(wanted);
   if (!command)
     return Problem{of_breakpoints ? "the net has no such place or transition" : "there is no such command"};

@@ -94,10 +94,10 @@ class Run {
   void attach();
   void watch_deployment();
   void fetch_scene();
-  [[nodiscard]] std::optional<Problem> why_not_attachable(const project::Snapshot& snapshot) const;
-  [[nodiscard]] std::filesystem::path readable_recording(const project::Snapshot& snapshot);
+  [[nodiscard]] std::optional<Problem> why_not_attachable(const Snapshot& snapshot) const;
+  [[nodiscard]] std::filesystem::path readable_recording(const Snapshot& snapshot);
   void follow(const std::filesystem::path& socket, const std::filesystem::path& folder);
-  [[nodiscard]] bool tell(RunFollower& follower, std::optional<project::Snapshot> snapshot, bool last);
+  [[nodiscard]] bool tell(RunFollower& follower, std::optional<Snapshot> snapshot, bool last);
   void tell(DeploymentFollower::News news);
   void set_state(State state, const std::string& why = {});
   void publish(const char* event, nlohmann::json data) const;

@@ -17,7 +17,7 @@ namespace tessera::server {
 using nlohmann::json;
 
 /// Why that controller cannot be shown on this net; nullopt: it can.
-std::optional<Problem> Run::why_not_attachable(const project::Snapshot& snapshot) const {
+std::optional<Problem> Run::why_not_attachable(const Snapshot& snapshot) const {
   if (snapshot.net_hash == analysis_->net_hash) return std::nullopt;
   return Problem{fmt::format("the controller runs another net (of the system {}) than the specification here",
                              snapshot.system)};
@@ -25,13 +25,13 @@ std::optional<Problem> Run::why_not_attachable(const project::Snapshot& snapshot
 
 /// The controller's recording if it is a file within the project; otherwise an empty path. The end of a
 /// tunnel names a file of another machine, and this one may have an old file of that name.
-std::filesystem::path Run::readable_recording(const project::Snapshot& snapshot) {
+std::filesystem::path Run::readable_recording(const Snapshot& snapshot) {
   std::error_code missing;
   const std::filesystem::path file = std::filesystem::canonical(snapshot.recording.value_or(""), missing);
   const std::filesystem::path folder = spec_.parent_path();
   const auto [end, ignored] = std::ranges::mismatch(folder, file);
   const bool within = !missing && end == folder.end();
-  return within && link_.is_process(snapshot.process) ? file : std::filesystem::path();
+  return within && link_.is_process(snapshot.pid) ? file : std::filesystem::path();
 }
 
 /// The scene of a controller whose files cannot be read comes through its socket, piece by piece.
@@ -54,7 +54,7 @@ void Run::fetch_scene() {
 void Run::attach() {
   if (!link_.connect(std::filesystem::path(monitor_folder()) / request_.socket, /*own=*/false))
     return set_state(State::failed, "no program listens at " + request_.socket);
-  std::optional<project::Snapshot> snapshot;
+  std::optional<Snapshot> snapshot;
   while (!snapshot && !stop_ && !link_.is_over()) {
     snapshot = link_.snapshot();
     if (!snapshot) RunFollower::rest();

@@ -57,39 +57,37 @@ std::map<std::string, fs::path> found_by_loader(const fs::path& file) {
   return found;
 }
 
-struct Owner {
-  std::string package, version;
-};
-
-/// A file of no package: then `package` is empty.
-Owner owner_of(const std::string& pattern) {
+/// The package of the files that match; empty: none has them.
+std::string owner_of(const std::string& pattern) {
   const Exit found = capture({"env", "LC_ALL=C", "dpkg-query", "-S", pattern});
-  if (found.code != 0) return {};
-  Owner owner;
-  for (const std::string& line : lines_of(found.text)) {
+  std::string package;
+  for (const std::string& line : found.code == 0 ? lines_of(found.text) : std::vector<std::string>()) {
     const fs::path file = line.substr(std::min(line.rfind(' ') + 1, line.size()));
     // Not those of other processors: /lib32, and what a cross compiler brings with it.
     const bool is_usual = file.parent_path().filename().string().ends_with("-linux-gnu") &&
                           file.parent_path().parent_path().filename() == "lib";
-    if (pattern.starts_with('/') || is_usual) owner.package = line.substr(0, line.find_first_of(":,"));
+    if (pattern.starts_with('/') || is_usual) package = line.substr(0, line.find_first_of(":,"));
   }
-  if (owner.package.empty()) return owner;
-  std::string version = output_of({"dpkg-query", "-W", "-f=${Version}", owner.package});
-  version = version.substr(0, version.find('\n'));
-  if (const std::size_t revision = version.rfind('-'); revision != std::string::npos)
-    version.resize(revision);
-  owner.version = version;
-  return owner;
+  return package;
 }
 
 /// /lib is /usr/lib on a merged system, and dpkg knows only one of the two names.
-Owner owner_of_file(const fs::path& file) {
+bool has_owner(const fs::path& file) {
   const fs::path real = fs::canonical(file);
-  for (const fs::path& name :
-       {file, real, fs::path("/usr" + file.string()), fs::path("/usr" + real.string())})
-    if (Owner owner = owner_of(name.string()); !owner.package.empty()) return owner;
   const std::string text = real.string();
-  return text.starts_with("/usr/") ? owner_of(text.substr(4)) : Owner{};
+  for (const std::string& name : {file.string(), text, "/usr" + file.string(), "/usr" + text,
+                                  text.starts_with("/usr/") ? text.substr(4) : text})
+    if (!owner_of(name).empty()) return true;
+  return false;
+}
+
+/// "libfmt9 (>= 9.1.0+ds1)": the version of this machine.
+std::string entry_of(const std::string& package) {
+  std::string version = output_of({"dpkg-query", "-W", "-f=${Version}", package});
+  version = version.substr(0, version.find('\n'));
+  if (const std::size_t revision = version.rfind('-'); revision != std::string::npos)
+    version.resize(revision);
+  return fmt::format("{} (>= {})", package, version);
 }
 
 /// "libc6 (>= 2.34), libfmt9 (>= 9.1.0+ds1)"
@@ -103,18 +101,41 @@ std::vector<std::string> split_list(const std::string& list) {
   return entries;
 }
 
-/// Empty: it is not there, or cannot tell.
+/// The packages and the oldest versions that will do for the libraries of these files.
 std::vector<std::string> from_shlibdeps(const std::vector<fs::path>& files) {
   const ScratchFolder scratch;
   write_file(scratch.path() / "debian/control", "Source: robot\n\nPackage: robot\nArchitecture: any\n");
-  std::string line = "cd \"$0\" && LC_ALL=C exec dpkg-shlibdeps -O --ignore-missing-info \"$@\" 2>messages";
-  Command command{"sh", "-c", line, scratch.path().string()};
-  for (const fs::path& file : files) command.push_back("-e" + fs::absolute(file).string());
+  Command command{"sh", "-c", "cd \"$0\" && LC_ALL=C exec dpkg-shlibdeps -O --ignore-missing-info \"$@\"",
+                  scratch.path().string()};
+  for (const fs::path& file : files) {
+    command.push_back("-l" + fs::absolute(file).parent_path().string());
+    command.push_back("-e" + fs::absolute(file).string());
+  }
   const Exit done = capture(command);
   constexpr std::string_view begin = "shlibs:Depends=";
   for (const std::string& said : done.code == 0 ? lines_of(done.text) : std::vector<std::string>())
     if (said.starts_with(begin)) return split_list(said.substr(begin.size()));
-  return {};
+  throw std::runtime_error(
+      "dpkg-shlibdeps, which names the packages of libraries, failed (apt install "
+      "dpkg-dev):\n" +
+      done.text);
+}
+
+/// The packages of these libraries, by their names: of another kind of processor.
+std::vector<std::string> from_names(const std::vector<fs::path>& files) {
+  std::set<std::string> packages;
+  for (const fs::path& file : files)
+    for (const std::string& name : needed_by(file)) {
+      if (name.starts_with("ld-linux")) continue;  // of libc6
+      const std::string package = owner_of("*/" + name);
+      if (package.empty())
+        throw std::runtime_error(
+            fmt::format("{} needs {}, and no Debian package of this machine has it", file.string(), name));
+      packages.insert(package);
+    }
+  std::vector<std::string> entries;
+  for (const std::string& package : packages) entries.push_back(entry_of(package));
+  return entries;
 }
 
 }  // namespace
@@ -125,39 +146,21 @@ std::string architecture_of_this_machine() {
 }
 
 LibraryNeeds libraries_of(const std::vector<fs::path>& files, bool is_for_this_machine) {
-  std::map<std::string, std::string> packages;
-  std::set<fs::path> foreign;
-  for (const fs::path& file : files) {
-    const auto found = is_for_this_machine ? found_by_loader(file) : std::map<std::string, fs::path>();
-    std::vector<std::string> open;
-    for (const std::string& name : needed_by(file)) open.push_back(name);
-    for (std::set<std::string> seen(open.begin(), open.end()); !open.empty();) {
-      const std::string name = open.back();
-      open.pop_back();
+  if (!is_for_this_machine) return {from_names(files), {}};
+  std::vector<fs::path> all = files;  // the libraries without a package at the end, with their own needs
+  for (std::size_t at = 0; at < all.size(); ++at) {
+    const auto found = found_by_loader(all[at]);
+    for (const std::string& name : needed_by(all[at])) {
       if (name.starts_with("ld-linux")) continue;  // of libc6
       const auto place = found.find(name);
-      if (is_for_this_machine && place == found.end())
+      if (place == found.end())
         throw std::runtime_error(
-            fmt::format("{} needs {}, which is not on this machine", file.string(), name));
-      const Owner owner = is_for_this_machine ? owner_of_file(place->second) : owner_of("*/" + name);
-      if (!owner.package.empty()) {
-        packages[owner.package] = fmt::format("{} (>= {})", owner.package, owner.version);
-        continue;
-      }
-      if (!is_for_this_machine)
-        throw std::runtime_error(
-            fmt::format("{} needs {}, and no Debian package of this machine has it", file.string(), name));
-      // No package names its further needs.
-      if (foreign.insert(place->second).second)
-        for (const std::string& next : needed_by(place->second))
-          if (seen.insert(next).second) open.push_back(next);
+            fmt::format("{} needs {}, which is not on this machine", all[at].string(), name));
+      if (std::ranges::find(all, place->second) == all.end() && !has_owner(place->second))
+        all.push_back(place->second);
     }
   }
-  LibraryNeeds needs{{}, {foreign.begin(), foreign.end()}};
-  if (is_for_this_machine && foreign.empty()) needs.packages = from_shlibdeps(files);
-  if (needs.packages.empty())
-    for (const auto& [name, entry] : packages) needs.packages.push_back(entry);
-  return needs;
+  return {from_shlibdeps(all), {all.begin() + static_cast<std::ptrdiff_t>(files.size()), all.end()}};
 }
 
 }  // namespace tessera::project

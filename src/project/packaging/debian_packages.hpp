@@ -14,14 +14,12 @@ struct LibraryNeeds {
   std::vector<std::filesystem::path> foreign;
 };
 
-/// Asks the tools of Debian: dpkg-shlibdeps if it is there, which knows the oldest version that will do; else
-/// dpkg, and the version of this machine is the oldest.
+/// Asks dpkg-shlibdeps, which knows the oldest version that will do.
 ///
-/// files: programs and libraries. is_for_this_machine: they are made for its kind of processor; for another
-/// one, the
-///        packages of the same names are meant.
+/// files: programs and libraries. is_for_this_machine: they are made for its kind of processor; for another one,
+///        the packages of the same names are meant, from the versions of this machine on.
 ///
-/// Errors: throws std::runtime_error if a file cannot be read, or a library cannot be found.
+/// Errors: throws std::runtime_error if a file cannot be read, a library cannot be found, or a tool is missing.
 [[nodiscard]] LibraryNeeds libraries_of(const std::vector<std::filesystem::path>& files,
                                         bool is_for_this_machine);
 

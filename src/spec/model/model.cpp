@@ -113,10 +113,4 @@ bool Model::crosses_processes(const Channel& channel) const {
   return process(channel.from) != process(channel.to);
 }
 
-Model in_one_process(Model model) {
-  model.deployment.reset();
-  for (Agent& agent : model.agents) agent.process = {0};
-  return model;
-}
-
 }  // namespace tessera::spec

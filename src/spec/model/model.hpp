@@ -375,7 +375,4 @@ struct Model {
   [[nodiscard]] bool crosses_processes(const Channel& channel) const;
 };
 
-/// The same system without its deployment: all agents in one process, as controllers are made today.
-[[nodiscard]] Model in_one_process(Model model);
-
 }  // namespace tessera::spec

@@ -18,19 +18,19 @@ TEST_F(OwnCMake, AProjectLinksTheLibrariesThatItsFileNamesAndMistakesThereHaveAL
   replace(project / "project.cmake", "find_package(Eigen3", "find_package(Eigen33");
   const project::Exit unknown = tessera("simulate 12_own_cmake --for 1s");
   EXPECT_EQ(unknown.code, 1);
-  EXPECT_NE(unknown.text.find("project.cmake:2:1: error E511: CMake does not find the package Eigen33\n"
+  EXPECT_NE(unknown.text.find("project.cmake:2:1: error E511: CMake refuses this command\n"
                               "    2 | find_package(Eigen33 3.3 REQUIRED NO_MODULE)\n"
-                              "      | ^~~~~~~~~~~~\n"
-                              "hint: install its development package, or set Eigen33_DIR or "
-                              "CMAKE_PREFIX_PATH\n"),
+                              "      | ^~~~~~~~~~~~\n"),
             std::string::npos)
       << unknown.text;
+  EXPECT_NE(unknown.text.find("Eigen33Config.cmake"), std::string::npos) << unknown.text;
   replace(project / "project.cmake", "find_package(Eigen33", "find_package(Eigen3");
   replace(project / "project.cmake", "Eigen3::Eigen", "Eigen3::Eigne");
   const project::Exit typo = tessera("simulate 12_own_cmake --for 1s");
-  EXPECT_NE(typo.text.find("project.cmake:3:1: error E511: there is no library Eigen3::Eigne\n"),
+  EXPECT_NE(typo.text.find("project.cmake:3:1: error E511: CMake refuses this command\n"),
             std::string::npos)
       << typo.text;
+  EXPECT_NE(typo.text.find("Eigen3::Eigne"), std::string::npos) << typo.text;
 
   // Without the file, the library is missing; nothing of the earlier configuration is left.
   fs::remove(project / "project.cmake");

@@ -68,19 +68,6 @@ TEST(SourceScan, KnowsBodiesAndFunctionsWithOtherArguments) {
   EXPECT_EQ(scan.bodies[2].last, 11U) << "one that is not closed";
 }
 
-TEST(SourceScan, FindsDeclarationsInTheSameBody) {
-  const std::string text =
-      "void f(int n) {\n  { double speed = 1; }\n  std::vector<int> all{};\n  return n > less;\n}\n"
-      "void g() {\n  int other;\n  x(speed, all, less, other);\n}\n";
-  EXPECT_EQ(project::declaration_before(text, "speed", 4), 2U);
-  EXPECT_EQ(project::declaration_before(text, "all", 4), 3U);
-  EXPECT_EQ(project::declaration_before(text, "less", 5), 0U);
-  EXPECT_EQ(project::declaration_before(text, "speed", 8), 0U) << "of another function";
-  EXPECT_EQ(project::declaration_before(text, "other", 8), 7U);
-  EXPECT_EQ(project::declaration_before(text, "other", 7), 0U);
-  EXPECT_EQ(project::declaration_before("", "other", 7), 0U);
-}
-
 TEST(SourceScan, KnowsWordsThatMayMakeAFunction) {
   const project::SourceScan scan = project::scan_source(
       "#include \"robot/control.hpp\"\n#define MAKE(name) void name(Context& c)\n"

@@ -10,7 +10,6 @@
 #include <utility>
 #include <vector>
 
-#include "project/build/cmake_errors.hpp"
 #include "project/build/compiler_messages.hpp"
 #include "project/build/cpp_mistakes.hpp"
 #include "project/files/files.hpp"
@@ -198,18 +197,21 @@ std::string beginning(std::string_view text, std::size_t lines) {
   return std::string(text.substr(0, end)) + (end < text.size() ? "...\n" : "");
 }
 
-/// Without what ninja writes around the messages of the linker.
+/// Without what ninja writes around the messages of the linker, and each line once: every source repeats what the
+/// compiler says about its options.
 std::string without_commands(std::string_view output) {
   std::string kept;
+  std::set<std::string_view> seen;
   for (std::size_t start = 0; start < output.size();) {
     const std::size_t end = std::min(output.find('\n', start), output.size());
     const std::string_view line = output.substr(start, end - start);
     start = end + 1;
     const bool is_command = line.starts_with("[") || line.starts_with("FAILED:") ||
-                            line.starts_with("ninja:") || line.starts_with("-- ") ||
+                            line.starts_with("ninja: build") || line.starts_with("ninja: Entering") ||
+                            line.starts_with("-- ") ||
                             line.find("/c++ ") != std::string_view::npos ||
                             line.find("/g++ ") != std::string_view::npos;
-    if (!is_command) kept += std::string(line) + "\n";
+    if (!is_command && seen.insert(line).second) kept += std::string(line) + "\n";
   }
   return kept;
 }
@@ -226,9 +228,6 @@ std::string explain_build(std::string_view output, const BuildContext& context) 
   std::string text = explanation.text();
   if (explanation.count() > 0)
     text += misplaced_functions(context.functions);
-  else if (const std::string refused = explain_refused_words(output, context.specification.project);
-           !refused.empty())
-    text = refused;
   else
     text = beginning(explain_build_errors(without_commands(output), context.functions), 20);
   return text + whole_output(context.log);

@@ -1,7 +1,6 @@
 #include "project/build/source_scan.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 
 namespace tessera::project {
@@ -169,20 +168,6 @@ std::vector<Token> tokens_of(std::string_view text) {
   return tokens;
 }
 
-/// Whether a name between these words is declared there: "double NAME =", "std::vector<int> NAME{".
-bool declares(std::string_view before, std::string_view behind) {
-  constexpr std::array no_types =
-      std::to_array<std::string_view>({"return", "else", "do", "throw", "new", "delete", "goto", "case",
-                                       "and", "or", "not", "using", "co_return", "co_await", "co_yield"});
-  if (behind == "=" || behind == "{") {
-    if (before == ">" || before == "&" || before == "*") return true;
-  } else if (behind != ";" && behind != "(" && behind != "," && behind != ")" && behind != ":" &&
-             behind != "[") {
-    return false;
-  }
-  return in_name(before.front()) && std::ranges::find(no_types, before) == no_types.end();
-}
-
 std::string joined(const std::string& outer, const std::string& inner) {
   return outer.empty() || inner.empty() ? outer + inner : outer + "::" + inner;
 }
@@ -310,28 +295,6 @@ SourceScan scan_source(const std::string& text) {
   Directives(text, blanked, scan).take_out();
   Walk(blanked, scan).walk();
   return scan;
-}
-
-std::uint32_t declaration_before(const std::string& text, std::string_view name, std::uint32_t line) {
-  const std::vector<ScannedBody> bodies = scan_source(text).bodies;
-  const auto body = std::ranges::find_if(
-      bodies, [&](const ScannedBody& one) { return one.first <= line && line <= one.last; });
-  if (body == bodies.end()) return 0;
-  const std::string blanked = Blanker(text).blanked();
-  const std::vector<Token> tokens = tokens_of(blanked);
-  std::uint32_t at_line = 1, found = 0;
-  std::size_t counted = 0;
-  for (std::size_t at = 0; at + 1 < tokens.size(); ++at) {
-    at_line += static_cast<std::uint32_t>(
-        std::count(blanked.begin() + static_cast<std::ptrdiff_t>(counted),
-                   blanked.begin() + static_cast<std::ptrdiff_t>(tokens[at].at), '\n'));
-    counted = tokens[at].at;
-    if (at_line >= line) break;
-    if (at > 0 && at_line >= body->first && tokens[at].text == name &&
-        declares(tokens[at - 1].text, tokens[at + 1].text))
-      found = at_line;
-  }
-  return found;
 }
 
 }  // namespace tessera::project

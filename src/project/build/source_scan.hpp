@@ -37,8 +37,4 @@ struct SourceScan {
 
 [[nodiscard]] SourceScan scan_source(const std::string& text);
 
-/// The line before `line`, in the same body, that declares a variable or an argument of that name. 0: there is none.
-[[nodiscard]] std::uint32_t declaration_before(const std::string& text, std::string_view name,
-                                               std::uint32_t line);
-
 }  // namespace tessera::project

@@ -176,6 +176,9 @@ std::optional<int> CommandLine::unknown_command(int argc, char** argv) const {
 void CommandLine::tell_unexpected() const {
   std::string command = "tessera";
   std::vector<std::string> options{"--help", "--version", "--state"};
+  // What was near in spelling would mislead.
+  static const std::map<std::string, std::string> moved_options{
+      {"--schedules", "schedules N"}, {"--from", "rerun RECORDING"}, {"--steps", "play NET"}};
   for (const CLI::App* chosen : app_->get_subcommands()) {
     command += " " + chosen->get_name();
     for (const CLI::Option* option : chosen->get_options())
@@ -183,7 +186,10 @@ void CommandLine::tell_unexpected() const {
   }
   for (const std::string& word : app_->remaining(true)) {
     const std::string name = word.substr(0, word.find('='));
-    if (word.starts_with('-'))
+    if (const auto moved = moved_options.find(name);
+        command == "tessera simulate" && moved != moved_options.end())
+      complain(fmt::format("{} has no option '{}': use `tessera {}`", command, name, moved->second));
+    else if (word.starts_with('-'))
       complain(with_hint(fmt::format("{} has no option '{}'", command, name), did_you_mean(name, options)));
     else
       complain(fmt::format("{} does not expect '{}'", command, word));
@@ -212,11 +218,15 @@ std::optional<int> CommandLine::read(int argc, char** argv) {
 std::vector<CommandLine::Words> CommandLine::words() const {
   std::vector<Words> all;
   for (const CLI::App* command : app_->get_subcommands({})) {
-    Words words{command->get_name(), {}, {}};
+    Words words{command->get_name(), {}, {}, 0};
+    std::size_t arguments = 0;
     for (const CLI::Option* option : command->get_options()) {
       for (const std::string& name : option->get_lnames())
         words.options.push_back({name, option->get_items_expected_max() > 0, allowed_values(*option)});
-      if (option->get_positional() && words.values.empty()) words.values = allowed_values(*option);
+      if (!option->get_positional()) continue;
+      if (words.values.empty()) words.values = allowed_values(*option);
+      if (option->get_name(/*positional=*/true) == "spec") words.spec = arguments;
+      ++arguments;
     }
     all.push_back(std::move(words));
   }

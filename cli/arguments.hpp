@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -97,6 +98,7 @@ class CommandLine {
     std::string command;
     std::vector<Word> options;        ///< with long names
     std::vector<std::string> values;  ///< the only allowed values of the first argument; empty: any
+    std::size_t spec = 0;             ///< the position of the argument that names the specification
   };
   /// All words that can be typed, for completion.
   [[nodiscard]] std::vector<Words> words() const;

@@ -3,9 +3,18 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <filesystem>
+#include <optional>
+#include <utility>
+
+#include "cli/commands/panel.hpp"
+#include "cli/coverage.hpp"
+#include "cli/early_checks.hpp"
 #include "cli/outcome.hpp"
+#include "cli/outputs.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/installation.hpp"
+#include "project/files/state_folder.hpp"
 
 namespace tessera::cli {
 
@@ -28,6 +37,17 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
       .repeated();
   command.option("--parameters", options.parameters,
                  "YAML file of parameters (default: params.yaml of the project)");
+  command
+      .option("--inject", options.inject,
+              "Plant a fault, FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
+              "device:robot.motor@any (docs/use/running.md)")
+      .repeated();
+  command.flag("--accept-stuck", options.accept_stuck,
+               "Do not fail if a subsystem waits for ever while others go on");
+  declare_verification_gate(command, options.gate);
+}
+
+void declare_single_run_options(Subcommand& command, project::LaunchOptions& options) {
   command.option("--record", options.record,
                  "The file of the recording (default: in the folder of the run, which .tessera/last shows)");
   command.option(
@@ -41,13 +61,10 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
       .one_of({"none", "small", "all"})
       .shows_default();
   command
-      .option("--inject", options.inject,
-              "Plant a fault, FAULT@WHEN: robot.control.follow:throw@2.5s, robot.control:stall=200ms@1s, "
-              "device:robot.motor@any (docs/use/running.md)")
+      .option("--hardware", options.hardware,
+              "SUBSYSTEM or BUFFER that keeps its real driver (hardware in the loop); the simulated clock is "
+              "then not faster than the wall clock")
       .repeated();
-  command.flag("--accept-stuck", options.accept_stuck,
-               "Do not fail if a subsystem waits for ever while others go on");
-  declare_verification_gate(command, options.gate);
   command.flag("--also", options.also, "Start although another run uses the same real devices");
   command.flag("--debug", options.debug, "Build for gdb and print the command that debugs this run");
 }
@@ -55,15 +72,58 @@ void declare_run_options(Subcommand& command, project::LaunchOptions& options) {
 void declare_world_options(Subcommand& command, project::LaunchOptions& options) {
   command.option("--seed", options.seed, "Seed of sensor noise and of ties between subsystems")
       .shows_default();
-  command
-      .option("--hardware", options.hardware,
-              "SUBSYSTEM or BUFFER that keeps its real driver (hardware in the loop); the simulated clock is "
-              "then not faster than the wall clock")
-      .repeated();
   command.option("--track", options.track, "PNG of the floor, dark is line");
   command.option("--metres-per-pixel", options.metres_per_pixel, "Scale of the floor picture").positive();
   command.option("--start", options.start,
                  "Start pose X,Y,DEGREES: metres from the lower left corner (default: on the line)");
+}
+
+void declare_simulated_run_options(Subcommand& command, SimulatedRunOptions& options) {
+  declare_run_options(command, options);
+  declare_world_options(command, options);
+  command
+      .option("--scenario", options.scenario,
+              "Drive the controller through this run first (tessera verify --scenario)")
+      .existing_file();
+  command.flag("--coverage", options.coverage, shown_only,
+               "Show the parts of the net that were not reached; --coverage=FILE writes JSON, too");
+  command.option("--network", options.network,
+                 "Network between the processes of `deploy`, for example delay=2ms,jitter=1ms,loss=0.1,"
+                 "duplicate=0.01,reorder=0.05 (docs/use/fleets.md)");
+  command.option("--json", options.json, "Write the outcome as JSON (- is standard output)");
+}
+
+std::variant<SimulatedRun, int> prepare_simulated_run(SimulatedRunOptions& options, const char* mode,
+                                                      bool is_recorded, const char* usual_duration) {
+  if (const int code = check_run(options, /*with_world=*/true); code != ok) return code;
+  if (!options.scenario.empty()) options.gate.accept_violations = true;
+  check_recording(options.record);
+  check_replaceable(options.json, "{");
+  if (options.coverage != shown_only) check_replaceable(options.coverage, "{");
+  if (!project::every_real_buffer_has_driver(options, /*simulated=*/true, terminal())) return failed;
+  std::optional<project::Controller> controller =
+      project::make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
+  if (!controller) return exit_code_without_net();
+  project::RunFolder folder = folder_for(*controller, options, mode, is_recorded);
+  tell_of_panels(controller->specification.model);
+  if (options.duration.empty()) options.duration = usual_duration;
+  project::Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
+  if (!options.scenario.empty()) {
+    command.emplace_back("--scenario");
+    command.push_back(std::filesystem::absolute(options.scenario).string());
+  }
+  return SimulatedRun{*std::move(controller), std::move(folder), std::move(command)};
+}
+
+project::RunFolder folder_for(project::Controller& controller, project::LaunchOptions& options,
+                              const char* mode, bool is_recorded) {
+  using project::RunFolder;
+  const auto shown = is_recorded && !options.debug ? RunFolder::Shown::as_last : RunFolder::Shown::no;
+  RunFolder folder(project::state_folder(controller.specification.project), mode, shown, terminal());
+  options.folder = folder.path().string();
+  controller.program = folder.own_copy_of(controller.program);
+  folder.goes_to_children();
+  return folder;
 }
 
 int print_debugger_line(const project::Command& command) {

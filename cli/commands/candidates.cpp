@@ -170,7 +170,8 @@ Candidates all_of(const std::vector<CommandLine::Words>& commands, const TypedLi
     const auto source = sources_of_values().find(line.awaits_value->name);
     const bool from_project = source != sources_of_values().end() && line.command->command != "set";
     if (from_project) {
-      all.words = source->second(line.arguments.empty() ? "." : line.arguments.front());
+      const std::size_t spec = line.command->spec;
+      all.words = source->second(line.arguments.size() > spec ? line.arguments[spec] : ".");
     } else {
       all.words = line.awaits_value->values;
       all.files = all.words.empty();

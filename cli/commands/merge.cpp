@@ -19,12 +19,11 @@ namespace {
 
 struct MergeOptions {
   std::vector<std::string> files;
-  std::string results, json;
+  std::string json;
   bool other_builds = false;
 };
 
 int merge_command(const MergeOptions& options) {
-  check_replaceable(options.results, "{");
   check_replaceable(options.json, "{");
   std::vector<statistics::NamedResults> all;
   for (const std::string& file : options.files) {
@@ -34,11 +33,8 @@ int merge_command(const MergeOptions& options) {
   }
   const Result<statistics::Results> merged = statistics::merge(all, options.other_builds);
   if (!merged) return complain(merged.problem());
-  const std::string text = statistics::to_json(*merged);
-  if (!options.results.empty()) write_output(options.results, text);
-  if (!options.json.empty()) write_output(options.json, text);
-  if (options.results != "-" && options.json != "-")
-    fmt::print("{}", printable(statistics::to_table(*merged)));
+  if (!options.json.empty()) write_output(options.json, statistics::to_json(*merged));
+  if (options.json != "-") fmt::print("{}", printable(statistics::to_table(*merged)));
   const std::vector<std::string> missing = statistics::missing_parts(*merged);
   constexpr std::size_t most_shown = 20;
   for (std::size_t index = 0; index < missing.size(); ++index)
@@ -54,18 +50,17 @@ int merge_command(const MergeOptions& options) {
 void add_merge(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("merge", "Join the results of schedules that were run in parts");
   auto options = std::make_shared<MergeOptions>();
-  command.option("files", options->files, "Files of `tessera simulate --schedules N --results FILE`")
+  command.option("files", options->files, "Files of `tessera schedules N --json FILE`")
       .required()
       .existing_file();
-  command.option("--results", options->results, "Write them as one file of the same kind");
-  command.option("--json", options->json, "Write the same to this file (- is standard output)");
+  command.option("--json", options->json, "Write them as one file of the same kind (- is standard output)");
   command.flag("--other-builds", options->other_builds,
                "The controllers were built apart, from the same sources: count them as one");
   command.footer(
       "Parts of different nets, settings or programs are refused, and so is a seed that is in two files.\n"
       "Ends with 0 if no run failed, 1 if one did, 3 if none did and parts are missing.\n"
-      "Example: tessera simulate --schedules 1000000 --part 3/20 --results part3.json   (on each machine)\n"
-      "         tessera merge part*.json --results all.json");
+      "Example: tessera schedules 1000000 --part 3/20 --json part3.json   (on each machine)\n"
+      "         tessera merge part*.json --json all.json");
   command.callback([options, &exit_code] { exit_code = merge_command(*options); });
 }
 

@@ -18,17 +18,10 @@ using namespace project;
 namespace {
 
 struct ShowOptions {
-  std::string spec = ".", page, layer, notation = "paths", svg, dot, json;
+  std::string spec = ".", page, notation = "paths", svg, dot, json;
   unsigned levels = 0;
-  bool flat = false, counts = false;
+  bool counts = false;
 };
-
-// Levels of pages below the system down to, and including, that layer.
-unsigned levels_to(const std::string& layer) {
-  for (std::size_t index = 0; index < net::layer_count; ++index)
-    if (layer == net::name_of(static_cast<net::Layer>(index))) return static_cast<unsigned>(index);
-  return drawing::Options::all;
-}
 
 std::vector<std::string> page_paths(const net::HierarchicalNet& pages) {
   std::vector<std::string> paths;
@@ -37,16 +30,12 @@ std::vector<std::string> page_paths(const net::HierarchicalNet& pages) {
   return paths;
 }
 
-// Without --page: the whole system in nested rectangles, down to the layer asked for.
+// Without --page: the whole system in nested rectangles.
 drawing::Options picture_options(const ShowOptions& options, const spec::Model& model) {
   drawing::Options picture;
   picture.model = &model;
   picture.notation = options.notation == "paper" ? drawing::Notation::paper : drawing::Notation::paths;
-  const bool whole = options.flat || options.page.empty();
-  picture.levels = options.levels > 0       ? options.levels
-                   : !options.layer.empty() ? levels_to(options.layer)
-                   : whole                  ? drawing::Options::all
-                                            : 0;
+  picture.levels = options.levels > 0 ? options.levels : options.page.empty() ? drawing::Options::all : 0;
   return picture;
 }
 
@@ -89,7 +78,7 @@ int show_command(const ShowOptions& options) {
   } else if (!drawn) {
     drawing::TreeOptions tree;
     tree.colour = isatty(STDOUT_FILENO) != 0 && colour();
-    if (!options.layer.empty()) tree.levels = levels_to(options.layer);
+    if (options.levels > 0) tree.levels = options.levels;
     fmt::print("{}", drawing::tree(nets->pages, tree));
   }
   return ok;
@@ -105,10 +94,9 @@ void add_show(CommandLine& app, int& exit_code) {
                  "Path of one page, e.g. robot.control.follow (default: the whole system)");
   command.option("--svg", options->svg, "Draw to this file (- is standard output)");
   command.option("--dot", options->dot, "Draw for graphviz to this file");
-  command.option("--layer", options->layer, "How deep: system, agent, subsystem, behaviour, communication")
-      .one_of({"system", "agent", "subsystem", "behaviour", "communication"});
-  command.option("--levels", options->levels, "How many levels of pages below the drawn one to open");
-  command.flag("--flat", options->flat, "Replace every page by its net");
+  command.option(
+      "--levels", options->levels,
+      "How many levels of pages below the drawn one to open (default: all of the system, none of a page)");
   command.option("--notation", options->notation, "Labels: paths, or the paper's symbols")
       .one_of({"paths", "paper"})
       .shows_default();
@@ -119,7 +107,7 @@ void add_show(CommandLine& app, int& exit_code) {
       "Examples:\n"
       "  tessera show                                         the tree of pages\n"
       "  tessera show --page robot.control.follow --svg follow.svg\n"
-      "  tessera show --flat --svg net.svg --notation paper\n"
+      "  tessera show --svg net.svg --notation paper\n"
       "  tessera show --counts --json -");
   command.callback([options, &exit_code] { exit_code = show_command(*options); });
 }

@@ -1,25 +1,19 @@
 #include <fmt/core.h>
 
-#include <fstream>
-#include <limits>
 #include <memory>
-#include <nlohmann/json.hpp>
 #include <utility>
+#include <variant>
 
 #include "cli/commands/commands.hpp"
 #include "cli/commands/deploy.hpp"
-#include "cli/commands/panel.hpp"
 #include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
 #include "cli/outputs.hpp"
-#include "cli/play_net.hpp"
-#include "cli/schedules.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "project/files/run_folder.hpp"
-#include "project/files/state_folder.hpp"
 #include "project/process/death.hpp"
 
 namespace tessera::cli {
@@ -28,13 +22,9 @@ using namespace project;
 
 namespace {
 
-constexpr int most_jobs = 4096;
-
-struct SimulateOptions : LaunchOptions {
-  std::string json, report, scenario, from, coverage, ros2_clock;
+struct SimulateOptions : SimulatedRunOptions {
+  std::string report, ros2_clock;
   bool realtime = false, interleave = false;
-  ScheduleOptions schedules;
-  std::uint64_t steps = PlayOptions{}.steps;
 };
 
 struct RunCommandOptions : LaunchOptions {
@@ -87,53 +77,6 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
   return exit.code == 0 && !is_printed ? failed : exit.code;
 }
 
-// The command that repeats one of the schedules, alone and recorded, when its seed is appended.
-std::string reproduction(const SimulateOptions& options) {
-  Command line{"tessera", "simulate", options.spec, "--interleave", "--for", options.duration};
-  const auto add = [&](const char* option, const std::string& value) {
-    if (!value.empty()) line.insert(line.end(), {option, value});
-  };
-  for (const std::string& value : options.set) add("--set", value);
-  for (const std::string& fault : options.inject) add("--inject", fault);
-  if (options.accept_stuck) line.emplace_back("--accept-stuck");
-  if (options.gate.accept_violations) line.emplace_back("--accept-violations");
-  add("--parameters", options.parameters);
-  add("--network", options.network);
-  add("--track", options.track);
-  if (options.metres_per_pixel > 0) add("--metres-per-pixel", fmt::format("{}", options.metres_per_pixel));
-  if (!options.start.empty()) line.push_back("--start=" + options.start);
-  add("--scenario", options.scenario);
-  line.emplace_back("--seed");
-  return shell_line(line);
-}
-
-// Runs user code again on recorded data: without a world, without a new recording.
-int run_again(const Controller& controller, const SimulateOptions& options) {
-  const RunFiles files = run_files(options);
-  Command command{controller.program.string(),
-                  "simulate",
-                  "--from",
-                  std::filesystem::absolute(options.from).string(),
-                  "--summary",
-                  files.summary.string()};
-  for (const std::string& value : options.set) command.insert(command.end(), {"--set", value});
-  if (options.debug) return print_debugger_line(command);
-  const Exit exit = run(command);
-  if (!options.json.empty() && std::filesystem::exists(files.summary))
-    write_output(options.json, nlohmann::json::parse(std::ifstream(files.summary)).dump(2) + "\n");
-  return exit.code;
-}
-
-/// Makes the folder of the run, and puts its controller there.
-RunFolder folder_for(Controller& controller, LaunchOptions& options, const char* mode, bool is_recorded) {
-  const auto shown = is_recorded && !options.debug ? RunFolder::Shown::as_last : RunFolder::Shown::no;
-  RunFolder folder(state_folder(controller.specification.project), mode, shown, terminal());
-  options.folder = folder.path().string();
-  controller.program = folder.own_copy_of(controller.program);
-  folder.goes_to_children();
-  return folder;
-}
-
 /// Called before any long work.
 void check_outputs(const LaunchOptions& options, const std::string& json, const std::string& report) {
   check_recording(options.record);
@@ -141,54 +84,18 @@ void check_outputs(const LaunchOptions& options, const std::string& json, const 
   check_report(report);
 }
 
-/// The options of schedules have no effect without them.
-bool schedules_fit(const SimulateOptions& options) {
-  const ScheduleOptions& schedules = options.schedules;
-  const bool is_asked = !schedules.part.empty() || schedules.jobs > 0 || !schedules.results.empty();
-  if (schedules.count == 0 && is_asked)
-    return complain("--part, --jobs and --results are for --schedules N"), false;
-  return is_part(schedules.part);
-}
-
 int simulate_command(SimulateOptions options) {
-  if (!schedules_fit(options)) return usage;
   if (diagnostics::is_xml_file(options.spec))
-    return play_net({options.spec, options.steps, options.seed, options.json});
-  if (const int code = check_run(options, options.from.empty()); code != ok) return code;
-  // A scenario shows a violation, so the controller must be made although the property is violated.
-  if (!options.scenario.empty()) options.gate.accept_violations = true;
-  check_outputs(options, options.json, options.report);
-  check_replaceable(options.schedules.results, "{");
-  if (options.coverage != shown_only) check_replaceable(options.coverage, "{");
-  if (options.from.empty() && !every_real_buffer_has_driver(options, /*simulated=*/true, terminal()))
-    return failed;
-  std::optional<Controller> controller =
-      make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
-  if (!controller) return exit_code_without_net();
-  const bool is_recorded = options.from.empty() && options.schedules.count == 0;
-  const char* mode = is_recorded ? "simulate" : options.from.empty() ? "schedules" : "again";
-  const RunFolder folder = folder_for(*controller, options, mode, is_recorded);
-  if (!options.from.empty()) return run_again(*controller, options);
-  tell_of_panels(controller->specification.model);
-  if (options.duration.empty()) options.duration = options.schedules.count > 0 ? "1s" : "60s";
-  Command command = controller_command(*controller, options, "simulate", /*simulated=*/true);
-  if (options.interleave) command.push_back("--interleave");
-  if (options.realtime) command.push_back("--realtime");
-  if (!options.ros2_clock.empty()) {
-    command.emplace_back("--ros2-clock");
-    command.push_back(options.ros2_clock);
-  }
-  if (!options.scenario.empty()) {
-    command.emplace_back("--scenario");
-    command.push_back(std::filesystem::absolute(options.scenario).string());
-  }
-  if (options.schedules.count > 0) {
-    options.schedules.json = options.json;
-    options.schedules.coverage = options.coverage;
-    options.schedules.again = reproduction(options);
-    return run_schedules(*controller, options, options.schedules, std::move(command));
-  }
-  return launch(*controller, folder, options, command, options.json, options.report, options.coverage);
+    return complain(fmt::format("{0} is a net without a controller: `tessera play {0}`", options.spec)),
+           usage;
+  check_report(options.report);
+  auto prepared = prepare_simulated_run(options, "simulate", /*is_recorded=*/true, "60s");
+  if (const int* const code = std::get_if<int>(&prepared)) return *code;
+  auto& [controller, folder, command] = std::get<SimulatedRun>(prepared);
+  if (options.interleave) command.emplace_back("--interleave");
+  if (options.realtime) command.emplace_back("--realtime");
+  if (!options.ros2_clock.empty()) command.insert(command.end(), {"--ros2-clock", options.ros2_clock});
+  return launch(controller, folder, options, command, options.json, options.report, options.coverage);
 }
 
 /// One process of a deployed system, run like any other.
@@ -225,63 +132,22 @@ int run_command(RunCommandOptions options) {
 void add_simulate(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("simulate", "Build the controller and run it in its simulated world");
   auto options = std::make_shared<SimulateOptions>();
-  declare_run_options(command, *options);
-  declare_world_options(command, *options);
-  command
-      .option("--scenario", options->scenario,
-              "Drive the controller through this run first (tessera verify --scenario)")
-      .existing_file();
-  Option from = command
-                    .option("--from", options->from,
-                            "Run user code again on the inputs of this recording, and compare the results")
-                    .existing_file();
-  Option schedules = command
-                         .option("--schedules", options->schedules.count,
-                                 "Run this many interleavings, with seeds from --seed on, of 1 s or --for "
-                                 "each; report the failures "
-                                 "and their probability")
-                         .within(1, std::numeric_limits<int>::max());
-  command.option("--part", options->schedules.part, "Schedules: only one part of the seeds, 3/20");
-  command.option("--jobs", options->schedules.jobs, "Schedules: processes at a time (default: one per core)")
-      .within(1, most_jobs);
-  command.option("--results", options->schedules.results,
-                 "Schedules: write the counts to this file, which `tessera merge` joins with others");
-  command.flag("--coverage", options->coverage, shown_only,
-               "Show the parts of the net that were not reached; --coverage=FILE writes JSON, too");
-  command.flag(
-      "--interleave", options->interleave,
-      "Subsystems take turns after every firing, drawn from the seed, as in the runs of --schedules");
+  declare_simulated_run_options(command, *options);
+  declare_single_run_options(command, *options);
+  command.flag("--interleave", options->interleave,
+               "Subsystems take turns after every firing, drawn from the seed, as in `tessera schedules`");
   command.flag("--realtime", options->realtime, "Not faster than the wall clock");
-  command
-      .option(
-          "--ros2-clock", options->ros2_clock,
-          "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
-          "then not faster than the wall clock (docs/use/ros2.md)")
-      .excludes(schedules);
-  command.option("--steps", options->steps, "PNML files, which have no controller: how often to fire")
-      .shows_default();
-  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
-  command.option("--report", options->report, "Folder for a page and a picture of the run")
-      .excludes(schedules);
-  command.declared("--record").excludes(schedules);
-  command.option("--network", options->network,
-                 "Network between the processes of `deploy`, for example delay=2ms,jitter=1ms,loss=0.1,"
-                 "duplicate=0.01,reorder=0.05 (docs/use/fleets.md)");
-  for (const char* other : {"--for", "--seed", "--inject", "--record", "--record-values", "--record-limit",
-                            "--track", "--start", "--scenario", "--schedules", "--coverage", "--interleave",
-                            "--realtime", "--report", "--hardware", "--ros2-clock"})
-    from.excludes(command.declared(other));
-  for (const char* other : {"--schedules", "--scenario"})
-    command.declared("--hardware").excludes(command.declared(other));
+  command.option(
+      "--ros2-clock", options->ros2_clock,
+      "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
+      "then not faster than the wall clock (docs/use/ros2.md)");
+  command.option("--report", options->report, "Folder for a page and a picture of the run");
+  command.declared("--hardware").excludes(command.declared("--scenario"));
   command.footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
-      "  tessera simulate --schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
-      "  tessera simulate --schedules 1000000 --part 3/20 --results part3.json   see `tessera merge`\n"
-      "  tessera simulate --schedules 100 --coverage     which parts has no run reached?\n"
-      "  tessera simulate --from field.tsr               would this code have done the same there?\n"
-      "  tessera simulate net.pnml --steps 1000000 --seed 7   a net of any origin; ties are drawn by lot");
+      "Many runs: `tessera schedules`. On recorded inputs: `tessera rerun`. A net in PNML: `tessera play`.");
   command.callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }
 
@@ -323,6 +189,7 @@ void add_run(CommandLine& app, int& exit_code) {
       app.add("run", "Build the controller and run it on the steady clock with real drivers");
   auto options = std::make_shared<RunCommandOptions>();
   declare_run_options(command, *options);
+  declare_single_run_options(command, *options);
   declare_world_options(command, *options);
   command.flag("--world", options->world,
                "With the simulated drivers, in the simulated world if there is one, in real time");

@@ -175,7 +175,7 @@ std::string to_json(const Results& results) {
 }
 
 Result<Results> parse_results(std::string_view text) {
-  return read_with(text, "is no result of schedules (tessera simulate --schedules N --results FILE)",
+  return read_with(text, "is no result of schedules (tessera schedules N --json FILE)",
                    [](const json& from, Results& results) {
                      if (from.at("tessera") != format_name) throw json::other_error::create(501, "", &from);
                      demand(from.at("version") == format_version, "it is of another version of Tessera");

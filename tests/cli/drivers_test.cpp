@@ -59,8 +59,8 @@ TEST_F(Drivers, NoSimulatedRunTouchesAReal) {
   // The error of the refused command has no successor, so that run ends early and fails.
   for (const auto& [how, code] :
        {std::pair("simulate --for 1s", 0), std::pair("simulate --for 200ms --interleave", 0),
-        std::pair("simulate --schedules 3 --for 100ms", 0),
-        std::pair("simulate --from .tessera/last/recording.tsr", 0), std::pair("run --world --for 200ms", 0),
+        std::pair("schedules 3 --for 100ms", 0), std::pair("rerun .tessera/last/recording.tsr", 0),
+        std::pair("run --world --for 200ms", 0),
         std::pair("simulate --for 1s --inject device:arm.joints@100ms..300ms", 1)}) {
     const project::Exit done = tessera(how);
     EXPECT_EQ(done.code, code) << how << '\n' << done.text;
@@ -94,7 +94,7 @@ TEST_F(Drivers, HardwareInTheLoopOpensWhatIsNamedOnly) {
   const project::Exit done = tessera("simulate --for 200ms --hardware 'cart[1].motor'");
   EXPECT_EQ(done.code, 0) << done.text;
   EXPECT_EQ(touched(), (std::vector<std::string>{"made", "cart_1.pwm"}));
-  EXPECT_EQ(tessera("simulate --schedules 2 --hardware 'cart[1].motor'").code, 2);
+  EXPECT_EQ(tessera("schedules 2 --hardware 'cart[1].motor'").code, 2);
 }
 
 TEST_F(Drivers, ADeviceThatIsNotThereKeepsTheRunFromStarting) {

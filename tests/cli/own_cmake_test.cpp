@@ -27,8 +27,7 @@ TEST_F(OwnCMake, AProjectLinksTheLibrariesThatItsFileNamesAndMistakesThereHaveAL
   replace(project / "project.cmake", "find_package(Eigen33", "find_package(Eigen3");
   replace(project / "project.cmake", "Eigen3::Eigen", "Eigen3::Eigne");
   const project::Exit typo = tessera("simulate 12_own_cmake --for 1s");
-  EXPECT_NE(typo.text.find("project.cmake:3:1: error E511: CMake refuses this command\n"),
-            std::string::npos)
+  EXPECT_NE(typo.text.find("project.cmake:3:1: error E511: CMake refuses this command\n"), std::string::npos)
       << typo.text;
   EXPECT_NE(typo.text.find("Eigen3::Eigne"), std::string::npos) << typo.text;
 

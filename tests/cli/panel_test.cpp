@@ -42,7 +42,7 @@ TEST_F(TeleoperationInATerminal, MovesTheRobotAndIsInTheRecording) {
   EXPECT_LT(moves, rests) << values;
   EXPECT_NE(rests, std::string::npos) << values;
   EXPECT_EQ(values.find("forward: 0.25"), std::string::npos) << values;
-  const project::Exit again = tessera("simulate tele --from tele.tsr");
+  const project::Exit again = tessera("rerun tele.tsr tele");
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_NE(again.text.find("as recorded"), std::string::npos) << again.text;
 }

@@ -24,7 +24,7 @@ constexpr const char* net = R"(<?xml version="1.0"?>
 
 TEST_F(PlayNet, FiresAsOftenAsAskedAndCountsEachTransition) {
   write(folder_ / "ring.pnml", net_with(""));
-  const nlohmann::json played = json("simulate ring.pnml --steps 1001");
+  const nlohmann::json played = json("play ring.pnml 1001");
   EXPECT_EQ(played.at("firings"), 1001);
   EXPECT_EQ(played.at("ended"), "steps");
   EXPECT_EQ(played.at("fired"), nlohmann::json({{"go", 501}, {"back", 500}}));
@@ -36,7 +36,7 @@ TEST_F(PlayNet, EndsWhereTheNetIsDeadAndRepeatsFromTheSeed) {
                                        "<arc id='a6' source='out' target='end'/>"));
   std::set<std::string> runs;
   for (const char* seed : {"1", "2", "3", "4", "5", "6", "7", "8"}) {
-    const std::string command = std::string("simulate net.pnml --seed ") + seed;
+    const std::string command = std::string("play net.pnml --seed ") + seed;
     nlohmann::json first = json(command), second = json(command);
     EXPECT_EQ(first.at("ended"), "dead");
     EXPECT_EQ(first.at("marking"), nlohmann::json({{"end", 1}}));
@@ -49,14 +49,14 @@ TEST_F(PlayNet, EndsWhereTheNetIsDeadAndRepeatsFromTheSeed) {
 TEST_F(PlayNet, SaysWhatFiredAndRefusesWhatIsNoNet) {
   write(folder_ / "ring.pnml",
         net_with("<transition id='never'/><arc id='a5' source='end' target='never'/>"));
-  const project::Exit played = tessera("simulate ring.pnml --steps 10");
+  const project::Exit played = tessera("play ring.pnml 10");
   EXPECT_EQ(played.code, 0);
   EXPECT_NE(played.text.find("10 firings in "), std::string::npos) << played.text;
   EXPECT_NE(played.text.find("5 go\n"), std::string::npos) << played.text;
   EXPECT_NE(played.text.find("1 of 3 transitions never fired\n"), std::string::npos) << played.text;
   write(folder_ / "wrong.pnml", "<pnml");
-  EXPECT_EQ(tessera("simulate wrong.pnml").code, 2);
-  EXPECT_EQ(tessera("simulate nowhere.pnml").code, 2);
+  EXPECT_EQ(tessera("play wrong.pnml").code, 2);
+  EXPECT_EQ(tessera("play nowhere.pnml").code, 2);
 }
 
 }  // namespace tessera::cli_test

@@ -14,8 +14,7 @@ class ReceiveFirst : public Command {
     EXPECT_EQ(ran.code, 0) << ran.text;
     const project::Exit legal = tessera("replay " + project + " --check");
     EXPECT_EQ(legal.code, 0) << legal.text;
-    const project::Exit again =
-        tessera("simulate " + project + " --from " + project + "/.tessera/last/recording.tsr");
+    const project::Exit again = tessera("rerun " + project + "/.tessera/last/recording.tsr " + project);
     EXPECT_EQ(again.code, 0) << again.text;
     EXPECT_NE(again.text.find("run again: the same"), std::string::npos) << again.text;
     return ran.text;

@@ -93,15 +93,14 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
   EXPECT_NE(nothing.text.find("has 'motoin' in its path; did you mean 'motion'?"), std::string::npos)
       << nothing.text;
 
-  const nlohmann::json same = json("simulate 01_line_follower --from run.tsr");
+  const nlohmann::json same = json("rerun run.tsr 01_line_follower");
   schema_test::judge_summary(same);
   EXPECT_EQ(same.at("same"), true);
   EXPECT_EQ(same.at("subsystems").at(0).at("iterations"), 100);
   ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
-  EXPECT_EQ(json("simulate 01_line_follower --from threads.tsr").at("same"), true);
+  EXPECT_EQ(json("rerun threads.tsr 01_line_follower").at("same"), true);
 
-  const project::Exit slower =
-      tessera("simulate 01_line_follower --from run.tsr --set v=0.1 --json out.json");
+  const project::Exit slower = tessera("rerun run.tsr 01_line_follower --set v=0.1 --json out.json");
   EXPECT_EQ(slower.code, 1) << slower.text;
   EXPECT_NE(slower.text.find("motion.linear: recorded "), std::string::npos) << slower.text;
   const nlohmann::json differs = nlohmann::json::parse(content_of(folder_ / "out.json"));
@@ -111,7 +110,7 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
   EXPECT_EQ(first.at("what"), "motion.linear");
 
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s --record bare.tsr --record-values none").code, 0);
-  const project::Exit none = tessera("simulate 01_line_follower --from bare.tsr");
+  const project::Exit none = tessera("rerun bare.tsr 01_line_follower");
   EXPECT_EQ(none.code, 1);
   EXPECT_NE(none.text.find("it holds no values of buffers"), std::string::npos) << none.text;
   EXPECT_EQ(tessera("replay bare.tsr --values").code, 1);
@@ -149,7 +148,7 @@ TEST_F(Replay, ReadsAndChecksTheSegmentsThatALimitLeaves) {
   const project::Exit checked = tessera("replay logs --check --spec 01_line_follower");
   EXPECT_EQ(checked.code, 0) << checked.text;
   EXPECT_EQ(checked.text.find("legal: "), 0U) << checked.text;
-  const project::Exit again = tessera("simulate 01_line_follower --from logs/recording.tsr");
+  const project::Exit again = tessera("rerun logs/recording.tsr 01_line_follower");
   EXPECT_EQ(again.code, 1);
   EXPECT_NE(again.text.find("its beginning is gone"), std::string::npos) << again.text;
   EXPECT_EQ(tessera("simulate 01_line_follower --for 1s --record-limit 5apples").code, 2);
@@ -179,8 +178,8 @@ TEST_F(Replay, WhoeverReadsARecordingWithoutItsBeginningIsToldFromWhenOnItIs) {
     expect_note(read.text);
   }
   EXPECT_DOUBLE_EQ(json("replay run.tsr").at("recorded_from_s").get<double>(), from_s);
-  EXPECT_EQ(tessera("simulate 01_line_follower --from run.tsr").code, 1);
-  expect_note(tessera("simulate 01_line_follower --from run.tsr").text);
+  EXPECT_EQ(tessera("rerun run.tsr 01_line_follower").code, 1);
+  expect_note(tessera("rerun run.tsr 01_line_follower").text);
 
   // A whole recording has no such remark. A limit is there unless it was switched off.
   const nlohmann::json whole = json("simulate 01_line_follower --for 10s --record whole.tsr");

@@ -74,19 +74,19 @@ TEST_F(Simulate, WrongParametersAndTracksAreNamedBeforeAnythingIsBuilt) {
 
 TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain) {
   const fs::path project = example("01_line_follower");
-  const nlohmann::json good = json("simulate 01_line_follower --schedules 20");
+  const nlohmann::json good = json("schedules 20 01_line_follower");
   EXPECT_EQ(good.at("tried"), 20);
   EXPECT_EQ(good.at("simulated_s"), 20.0);
   EXPECT_TRUE(good.at("failure").is_null());
 
   // In parts on several machines, and joined.
   for (const char* part : {"1", "2", "3"})
-    json(fmt::format("simulate 01_line_follower --schedules 20 --part {}/3 --results {}.json --coverage",
-                     part, part));
-  const project::Exit two = tessera("merge 1.json 3.json --results 13.json");
+    tessera(fmt::format("schedules 20 01_line_follower --part {}/3 --json {}.json --coverage", part, part));
+  const project::Exit two = tessera("merge 1.json 3.json --json 13.json");
   EXPECT_EQ(two.code, 3) << two.text;
   EXPECT_NE(two.text.find("missing: part 2/3: seeds 7 to 13"), std::string::npos) << two.text;
-  const nlohmann::json joined = json("merge 2.json 13.json --results all.json");
+  tessera("merge 2.json 13.json --json all.json");
+  const nlohmann::json joined = nlohmann::json::parse(content_of(folder_ / "all.json"));
   for (const char* same : {"net", "controller", "settings", "ran", "tried", "firings", "kinds"})
     EXPECT_EQ(joined.at(same), good.at(same)) << same;
   const project::Exit twice = tessera("merge 13.json 1.json");
@@ -101,7 +101,7 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
     return nlohmann::json::parse(content_of(folder_ / "coverage.json"), nullptr, false);
   };
   tessera("simulate 01_line_follower --for 1s --interleave --seed 1 --record one.tsr");
-  json("simulate 01_line_follower --schedules 1 --results one.json --coverage");
+  tessera("schedules 1 01_line_follower --json one.json --coverage");
   EXPECT_EQ(reached("one.tsr"), reached("one.json"));
   const nlohmann::json both = reached("all.json one.tsr");
   EXPECT_EQ(both.at("runs"), 21);
@@ -113,8 +113,7 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
           "  context.assert_that(in.line.valid, \"blind in iteration {}\", context.iteration);\n"
           "  out.motion = steer(");
   const std::uint64_t tried = share_of(1000);
-  const project::Exit found =
-      tessera(fmt::format("simulate 01_line_follower --schedules {} --json out.json", tried));
+  const project::Exit found = tessera(fmt::format("schedules {} 01_line_follower --json out.json", tried));
   EXPECT_EQ(found.code, 1) << found.text;
   const nlohmann::json failure = nlohmann::json::parse(content_of(folder_ / "out.json"));
   EXPECT_NE(found.text.find("robot.control.follow.in: blind in iteration 1"), std::string::npos)

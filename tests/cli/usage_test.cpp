@@ -60,8 +60,8 @@ TEST_F(Usage, CheckNamesFilesOfTheSimulationThatAreMissing) {
 }
 
 TEST_F(Usage, EveryCommandShowsAnExample) {
-  for (const char* command :
-       {"new", "check", "show", "verify", "export", "generate", "test", "simulate", "run", "completion"}) {
+  for (const char* command : {"new", "check", "show", "verify", "export", "generate", "test", "simulate",
+                              "schedules", "rerun", "play", "merge", "run", "completion"}) {
     const project::Exit help = tessera(std::string(command) + " --help");
     EXPECT_EQ(help.code, 0);
     EXPECT_NE(help.text.find("tessera " + std::string(command)), std::string::npos) << help.text;
@@ -88,6 +88,9 @@ TEST_F(Usage, CompletionOffersCommandsOptionsAndValuesOfTheProject) {
             "try simulate " +
             example +
             " --set 'robot[1].control.s'\n"
+            "try schedules 5 " +
+            example +
+            " --set 'robot[1].control.sp'\n"
             "try new x --robot a\n"
             "try check compl\n"
             "try show nowhere --page r\n");
@@ -95,7 +98,7 @@ TEST_F(Usage, CompletionOffersCommandsOptionsAndValuesOfTheProject) {
   EXPECT_EQ(
       done.text,
       "simulate\n--set|--seed\none is inside at a time\nrobot[1].control.turn.snd|robot[1].control.turn.rcv\n"
-      "robot[1].control.stop=|robot[1].control.speed=\narm\ncomplete.sh\n\n");
+      "robot[1].control.stop=|robot[1].control.speed=\nrobot[1].control.speed=\narm\ncomplete.sh\n\n");
 }
 
 TEST_F(Usage, UnknownCommandsAndOptionsSayWhatIsMeant) {

@@ -53,7 +53,7 @@ TEST_F(InCoppelia, TheLineFollowerKeepsToItsLine) {
   EXPECT_EQ(server.joint("/robot/wheel_left"), 0) << "the safe command";
   EXPECT_EQ(tessera("replay 01_line_follower/.tessera/last/recording.tsr --check").code, 0);
 
-  const project::Exit schedules = tessera("simulate 01_line_follower --schedules 3 --for 500ms");
+  const project::Exit schedules = tessera("schedules 3 01_line_follower --for 500ms");
   EXPECT_EQ(schedules.code, 0) << schedules.text;
   EXPECT_FALSE(server.is_running());
 

@@ -72,7 +72,7 @@ class Context {
     if (services_ != nullptr) services_->emergency_stop(reason);
   }
 
-  /// States a condition that must hold here; `tessera simulate --schedules` looks for a run that violates it.
+  /// States a condition that must hold here; `tessera schedules` looks for a run that violates it.
   /// If it does not hold, the run has failed: the text goes to the recording, and the system stops safely
   /// after this transition function. In a plain unit test, the function throws BrokenAssertion.
   template <class... Args>

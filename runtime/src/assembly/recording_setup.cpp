@@ -96,7 +96,7 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
   return count;
 }
 
-/// The JSON at the beginning: the net, and with values also the fields that `simulate --from` needs. scene:
+/// The JSON at the beginning: the net, and with values also the fields that `tessera rerun` needs. scene:
 /// nullptr: no poses are recorded.
 [[nodiscard]] RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
                                                const RunOptions& options, const FlatNet& net,

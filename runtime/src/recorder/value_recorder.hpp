@@ -10,7 +10,7 @@
 namespace tessera {
 
 /// Writes the values of one subsystem's buffers into its lane when they change and when its transition
-/// functions begin. `simulate --from` needs them to run the user's code again.
+/// functions begin. `tessera rerun` needs them to run the user's code again.
 ///
 /// *Order of buffers.* The buffers of a subsystem are numbered in this order: inputs, outputs,
 /// real inputs, real outputs. The fields of memory of all subsystems follow the buffers of all.

@@ -208,8 +208,7 @@ std::string without_commands(std::string_view output) {
     start = end + 1;
     const bool is_command = line.starts_with("[") || line.starts_with("FAILED:") ||
                             line.starts_with("ninja: build") || line.starts_with("ninja: Entering") ||
-                            line.starts_with("-- ") ||
-                            line.find("/c++ ") != std::string_view::npos ||
+                            line.starts_with("-- ") || line.find("/c++ ") != std::string_view::npos ||
                             line.find("/g++ ") != std::string_view::npos;
     if (!is_command && seen.insert(line).second) kept += std::string(line) + "\n";
   }

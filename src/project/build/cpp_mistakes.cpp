@@ -18,9 +18,13 @@ bool has_one(std::string_view text, const std::vector<std::string_view>& parts) 
   return std::ranges::any_of(parts, [&](std::string_view part) { return has(text, part); });
 }
 
-/// The first text in quotes.
-std::string quoted_part(std::string_view text) {
-  const std::size_t at = text.find('\'');
+/// The text in the quotes of that number.
+std::string quoted_part(std::string_view text, std::size_t number = 0) {
+  std::size_t at = text.find('\'');
+  for (; number > 0 && at != std::string_view::npos; --number) {
+    at = text.find('\'', at + 1);
+    if (at != std::string_view::npos) at = text.find('\'', at + 1);
+  }
   const std::size_t end = at == std::string_view::npos ? at : text.find('\'', at + 1);
   return end == std::string_view::npos ? std::string() : std::string(text.substr(at + 1, end - at - 1));
 }
@@ -38,14 +42,14 @@ constexpr std::string_view chrono =
     "write a duration: 500ms, with `using namespace std::chrono_literals;` at the top of the file";
 
 /// A kind of mistake, and the hint that the compiler cannot give. The words are those of g++ and clang.
-struct Kind {
+struct KnownMistake {
   std::vector<std::string_view> words;  ///< one of them is in the message
   const char* code;
   std::string_view hint;
 };
-const std::vector<Kind> kinds{
+const std::vector<KnownMistake> known_mistakes{
     {{"is not a member of 'std", "in namespace 'std"}, "E503", "include the header that declares it"},
-    {{"has no member named '", "no member named '", "request for member '"}, "E501", ""},
+    {{"has no member named '", "no member named '"}, "E501", ""},
     {{": No such file or directory", "' file not found"},
      "E504",
      "headers of the project are in src/ and are included by their path in it"},
@@ -95,22 +99,30 @@ class Meaning {
     if (has_one(text_, {"was not declared in this scope", "use of undeclared identifier",
                         "does not name a type", "unknown type name", "has not been declared"}))
       return told("E502", hint_for_name(quoted_part(text_)));
-    for (const Kind& kind : kinds)
-      if (has_one(text_, kind.words)) return told(kind.code, std::string(kind.hint));
+    if (text_.starts_with("request for member '")) {
+      const std::string object = quoted_part(text_, 1);
+      return {"E501",
+              fmt::format("{} has no field '{}': it is '{}'", object.substr(object.find_last_of(".:") + 1),
+                          quoted_part(text_), quoted_part(text_, 2)),
+              "numbers, bools and durations have no fields"};
+    }
+    for (const KnownMistake& known : known_mistakes)
+      if (has_one(text_, known.words)) return told(known.code, std::string(known.hint));
     return told("E500", "");
   }
 
  private:
-  /// In the words of the compiler, without the namespaces of the project. A proposal of the compiler is the hint.
+  /// In the words of the compiler, without the namespaces of the project. Without a hint, the compiler's proposal is
+  /// it.
   [[nodiscard]] CppMistake told(const char* code, std::string hint) const {
     std::string text = text_;
     for (const codegen::Stub& stub : functions_.wanted()) erase_all(text, stub.space + "::");
     for (const std::string& space :
          {model_.system + "::", std::string("{anonymous}::"), std::string("(anonymous namespace)::"),
-          std::string("const struct "), std::string("struct ")})
+          std::string(" [-fpermissive]"), std::string("const struct "), std::string("struct ")})
       erase_all(text, space);
     if (const std::size_t at = text.find("; did you mean "); at != std::string::npos) {
-      hint = text.substr(at + 2);
+      if (hint.empty()) hint = text.substr(at + 2, text.find('?', at) - at - 1);
       text.resize(at);
     }
     // "'std::vector' is defined in header '<vector>'; did you forget to '#include <vector>'?"
@@ -135,7 +147,7 @@ class Meaning {
         if (holds(subsystem.real))
           return (subsystem.kind == spec::SubsystemKind::receptor ? "write in." : "write out.") + name;
       }
-    return "declare it, or include the header that does";
+    return has(text_, "did you mean") ? "" : "declare it, or include the header that does";
   }
 
   /// g++ says no more where it does not know the types of the arguments.

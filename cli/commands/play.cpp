@@ -1,5 +1,3 @@
-#include "cli/play_net.hpp"
-
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -11,6 +9,7 @@
 #include <optional>
 #include <vector>
 
+#include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "net/pnml_reader.hpp"
@@ -22,6 +21,13 @@ namespace tessera::cli {
 namespace {
 
 using nlohmann::json;
+
+struct PlayOptions {
+  std::string file;  ///< PNML
+  std::uint64_t steps = 1'000'000;
+  std::uint64_t seed = 1;
+  std::string json;  ///< file for the result; "-": standard output; empty: none
+};
 
 NetExecutor* playing = nullptr;
 void stop_playing(int /*signal*/) { playing->stop(); }
@@ -140,9 +146,8 @@ void print(const net::Net& net, const Played& played) {
   if (never > 0) fmt::print("{} of {} transitions never fired\n", never, played.times.size());
 }
 
-}  // namespace
-
-int play_net(const PlayOptions& options) {
+/// Fires randomly chosen enabled transitions until the steps are used up, no transition is enabled, or Ctrl-C.
+int play_command(const PlayOptions& options) {
   const std::optional<net::Net> net = read_net(options.file);
   if (!net) return exit_code_without_net();
   const std::optional<Played> played = play(*net, options);
@@ -157,6 +162,19 @@ int play_net(const PlayOptions& options) {
     default:
       return ok;
   }
+}
+
+}  // namespace
+
+void add_play(CommandLine& app, int& exit_code) {
+  Subcommand command = app.add("play", "Fire the transitions of a net that has no controller (PNML)");
+  auto options = std::make_shared<PlayOptions>();
+  command.option("net", options->file, "PNML file").required();
+  command.option("steps", options->steps, "How often to fire").shows_default();
+  command.option("--seed", options->seed, "Seed of the lots that decide ties").shows_default();
+  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  command.footer("Example: tessera play net.pnml 1000000 --seed 7");
+  command.callback([options, &exit_code] { exit_code = play_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -32,6 +32,7 @@ constexpr WrongInput wrong_inputs[] = {
     {"run --hardware robot.motor", ""},
     {"run", ""},
     {"simulate --schedules 20", ""},
+    {"simulate --from run.tsr", ""},
     {"schedules 20 --part 3", ""},
     {"schedules many", ""},
     {"rerun", ""},

@@ -98,7 +98,7 @@ class Meaning {
       if (auto unknown = unknown_arguments(quoted_part(text_))) return *std::move(unknown);
     if (has_one(text_, {"was not declared in this scope", "use of undeclared identifier",
                         "does not name a type", "unknown type name", "has not been declared"}))
-      return told("E502", hint_for_name(quoted_part(text_)));
+      return told("E502", hint_for_name(quoted_part(text_)), "declare it, or include the header that does");
     if (text_.starts_with("request for member '")) {
       const std::string object = quoted_part(text_, 1);
       return {"E501",
@@ -107,14 +107,14 @@ class Meaning {
               "numbers, bools and durations have no fields"};
     }
     for (const KnownMistake& known : known_mistakes)
-      if (has_one(text_, known.words)) return told(known.code, std::string(known.hint));
+      if (has_one(text_, known.words)) return told(known.code, "", std::string(known.hint));
     return told("E500", "");
   }
 
  private:
   /// In the words of the compiler, without the namespaces of the project. Without a hint, the compiler's proposal is
-  /// it.
-  [[nodiscard]] CppMistake told(const char* code, std::string hint) const {
+  /// it, or otherwise the last.
+  [[nodiscard]] CppMistake told(const char* code, std::string hint, std::string otherwise = "") const {
     std::string text = text_;
     for (const codegen::Stub& stub : functions_.wanted()) erase_all(text, stub.space + "::");
     for (const std::string& space :
@@ -129,7 +129,7 @@ class Meaning {
     for (const std::string& note : error_.notes)
       if (const std::size_t at = note.find("#include <"); at != std::string::npos)
         hint = "write at the top of the file: " + note.substr(at, note.find('>', at) - at + 1);
-    return {code, std::move(text), std::move(hint)};
+    return {code, std::move(text), hint.empty() ? std::move(otherwise) : std::move(hint)};
   }
 
   /// The members of the specification, which the compiler does not propose.
@@ -147,7 +147,7 @@ class Meaning {
         if (holds(subsystem.real))
           return (subsystem.kind == spec::SubsystemKind::receptor ? "write in." : "write out.") + name;
       }
-    return has(text_, "did you mean") ? "" : "declare it, or include the header that does";
+    return {};
   }
 
   /// g++ says no more where it does not know the types of the arguments.

@@ -176,7 +176,7 @@ std::optional<int> CommandLine::unknown_command(int argc, char** argv) const {
 void CommandLine::tell_unexpected() const {
   std::string command = "tessera";
   std::vector<std::string> options{"--help", "--version", "--state"};
-  // What was near in spelling would mislead.
+  // For these options, the option with the nearest spelling would mislead.
   static const std::map<std::string, std::string> moved_options{
       {"--schedules", "schedules N"}, {"--from", "rerun RECORDING"}, {"--steps", "play NET"}};
   for (const CLI::App* chosen : app_->get_subcommands()) {

@@ -4,7 +4,7 @@
 #include <memory>
 #include <string>
 
-#include "cli/commands/candidates.hpp"
+#include "cli/candidates.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 

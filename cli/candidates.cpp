@@ -1,4 +1,4 @@
-#include "cli/commands/candidates.hpp"
+#include "cli/candidates.hpp"
 
 #include <algorithm>
 #include <filesystem>

@@ -30,10 +30,8 @@ std::string driver_table(std::string_view name, const std::string& rows) {
 /// ", {.overrun = ..., ...}" of what differs from the defaults; empty if nothing does.
 std::string policies(const spec::Subsystem& subsystem) {
   std::vector<std::string> members;
-  constexpr std::array overruns{"skip", "catch_up", "fault"};
   if (subsystem.overrun != spec::Overrun::skip)
-    members.push_back(fmt::format(".overrun = tessera::Overrun::{}",
-                                  overruns[static_cast<std::size_t>(subsystem.overrun)]));
+    members.push_back(fmt::format(".overrun = tessera::Overrun::{}", name_of(subsystem.overrun)));
   if (subsystem.watchdog) members.push_back(".watchdog = " + duration(*subsystem.watchdog));
   if (subsystem.operator_resets) members.emplace_back(".operator_resets = true");
   if (subsystem.non_finite_allowed) members.emplace_back(".non_finite_allowed = true");

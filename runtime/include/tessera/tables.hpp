@@ -8,6 +8,7 @@
 
 #include "tessera/device.hpp"
 #include "tessera/net_roles.hpp"
+#include "tessera/overrun.hpp"
 #include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
@@ -124,13 +125,6 @@ struct SubsystemNet {
 };
 
 enum class Kind : std::uint8_t { control, receptor, effector };
-
-/// The reaction of a subsystem with a rate to instants that it missed because its own work took too long.
-enum class Overrun : std::uint8_t {
-  skip,      ///< leaves them out
-  catch_up,  ///< runs the missed iterations late, one after the other
-  fault      ///< leaves them out; the next iteration, which is late, fails without calling its function
-};
 
 /// How the operating system schedules the thread of a subsystem on the steady clock.
 struct RealTime {

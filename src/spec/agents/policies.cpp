@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <initializer_list>
 #include <string>
 #include <vector>
 
@@ -16,9 +15,7 @@ namespace {
 using diagnostics::in_quotes;
 
 /// The index of the word among the choices; the first one after an error, if it is none of them.
-std::size_t read_choice(const Entry& entry, std::initializer_list<std::string_view> choices,
-                        Diagnostics& out) {
-  const std::vector<std::string> words(choices.begin(), choices.end());
+std::size_t read_choice(const Entry& entry, const std::vector<std::string>& words, Diagnostics& out) {
   std::string either = words.front();
   for (std::size_t at = 1; at < words.size(); ++at)
     either += (at + 1 == words.size() ? " or " : ", ") + words[at];
@@ -82,7 +79,8 @@ void read_receive(const Section& section, const Entry& receive, Subsystem& subsy
 
 void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& out) {
   if (const Entry* overrun = section.find("overrun")) {
-    subsystem.overrun = static_cast<Overrun>(read_choice(*overrun, {"skip", "catch_up", "fault"}, out));
+    subsystem.overrun =
+        static_cast<Overrun>(read_choice(*overrun, {overrun_names.begin(), overrun_names.end()}, out));
     if (section.find("rate") == nullptr)
       out.error("E110", overrun->span, "'overrun' belongs to subsystems with a rate",
                 "without one there is no instant to miss");

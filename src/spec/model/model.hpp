@@ -17,6 +17,7 @@
 #include "spec/model/panel.hpp"
 #include "spec/model/property.hpp"
 #include "spec/model/world.hpp"
+#include "tessera/overrun.hpp"
 
 /// The specification as data, as section "The specification file" of docs/reference/specification.md describes it.
 /// Every default is filled in, and every name is resolved to a number. Nothing here depends on nets.
@@ -172,12 +173,7 @@ struct Behaviour {
 
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
-/// The reaction of a subsystem with a rate to instants that it missed because its own work took too long.
-enum class Overrun : std::uint8_t {
-  skip,      ///< leaves them out
-  catch_up,  ///< runs the iterations late, one after the other
-  fault      ///< leaves them out; the next iteration, which is late, fails
-};
+using tessera::Overrun;
 
 /// How the operating system schedules the thread of a subsystem that runs in real time.
 struct RealTime {

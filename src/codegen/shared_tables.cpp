@@ -60,8 +60,8 @@ class ChannelTables {
     numbers_[id.value] = form.words.size();
     const std::string name(local(place.name, place.channel));
     form.words.push_back(name);
-    form.places += fmt::format("    {{{}, {}, tessera::PlaceRole::{}}},\n", string_literal(name),
-                               place.tokens, name_of(place.role));
+    form.places += fmt::format("{}{{{}, {}, tessera::PlaceRole::{}}}", form.places.empty() ? "" : ", ",
+                               string_literal(name), place.tokens, name_of(place.role));
   }
 
   void add(TransitionId id) {
@@ -73,10 +73,11 @@ class ChannelTables {
       for (const Arc& arc : arcs) all.push_back(word(arc.place));
       return fmt::format("{}", fmt::join(all, ", "));
     };
-    forms_[channel].medium += fmt::format(
-        "    {{{}, tessera::Step::{}, {}, {}}},  // {} -> {}\n",
-        string_literal(local(net_[id].name, channel)), name_of(net_[id].role), ends(net_.preset(id), number),
-        ends(net_.postset(id), number), words(net_.preset(id)), words(net_.postset(id)));
+    std::string& rows = forms_[channel].medium;
+    rows += fmt::format("{}{{{}, tessera::Step::{}, {}, {}}},  // {} -> {}\n", rows.empty() ? "" : "    ",
+                        string_literal(local(net_[id].name, channel)), name_of(net_[id].role),
+                        ends(net_.preset(id), number), ends(net_.postset(id), number), words(net_.preset(id)),
+                        words(net_.postset(id)));
   }
 
   /// The name of the table with these rows, which is defined if it is the first one. It is made of the names
@@ -91,7 +92,7 @@ class ChannelTables {
     found->second = name;
     for (int number = 2; !taken_.insert(found->second).second; ++number)
       found->second = fmt::format("{}_{}", name, number);
-    definitions += fmt::format("const tessera::{} {}[] = {{\n{}}};\n", type, found->second, rows);
+    definitions += fmt::format("const tessera::{} {}[] = {{\n    {}}};\n", type, found->second, rows);
     return found->second;
   }
 
@@ -130,12 +131,12 @@ class UpperPage {
                             string_literal(std::string_view(its.name).substr(prefix_)), its.tokens);
     }
     for (const TransitionId id : transitions_)
-      transitions += fmt::format("    {{{}, tessera::Step::{}, {}, {}}},\n",
+      transitions += fmt::format("{}{{{}, tessera::Step::{}, {}, {}}}", transitions.empty() ? "" : ",\n    ",
                                  string_literal(std::string_view(net_[id].name).substr(prefix_)),
                                  name_of(net_[id].role), list(net_.preset(id)), list(net_.postset(id)));
     return fmt::format(
         "constexpr tessera::PagePlace {0}_places[] = {{{1}}};\n"
-        "const tessera::PageTransition {0}_transitions[] = {{\n{2}}};\n"
+        "const tessera::PageTransition {0}_transitions[] = {{\n    {2}}};\n"
         "const tessera::UpperPage {0}_page{{{0}_places, {0}_transitions, {3}, {4}}};\n",
         name, places, transitions, in, out);
   }

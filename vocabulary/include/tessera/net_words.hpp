@@ -85,3 +85,5 @@ inline constexpr std::string_view cut = TESSERA_WORD_PREFIX ".cut";
 inline constexpr std::string_view cut_back = TESSERA_WORD_PREFIX ".cut_back";
 
 }  // namespace tessera::words
+
+#undef TESSERA_WORD_PREFIX

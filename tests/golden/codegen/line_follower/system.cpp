@@ -22,12 +22,9 @@ constexpr tessera::Instance instances[] = {
 };
 
 const tessera::FusedPlace memory_channel[] = {
-    {"channel", 1, tessera::PlaceRole::lock},
-};
+    {"channel", 1, tessera::PlaceRole::lock}};
 const tessera::FusedPlace memory_empty_full[] = {
-    {"empty", 1, tessera::PlaceRole::empty},
-    {"full", 0, tessera::PlaceRole::full},
-};
+    {"empty", 1, tessera::PlaceRole::empty}, {"full", 0, tessera::PlaceRole::full}};
 constexpr tessera::Channel channels[] = {
     {"robot.sensor.line->robot.control.line", {1, 0}, {0, 1}, memory_channel},
     {"robot.control.motion->robot.motor.velocity", {0, 0}, {2, 0}, memory_empty_full, 0s, 200ms},
@@ -36,14 +33,12 @@ constexpr tessera::Channel channels[] = {
 constexpr tessera::PagePlace system_places[] = {{"in", 1}, {"out", 0}};
 const tessera::PageTransition system_transitions[] = {
     {"t_in", tessera::Step::start_system, {0}, {tessera::entries}},
-    {"t_out", tessera::Step::end_system, {tessera::exits}, {1}},
-};
+    {"t_out", tessera::Step::end_system, {tessera::exits}, {1}}};
 const tessera::UpperPage system_page{system_places, system_transitions, 0, 1};
 constexpr tessera::PagePlace agent_places[] = {{"in", 0}, {"out", 0}};
 const tessera::PageTransition agent_transitions[] = {
     {"t_in", tessera::Step::start_agent, {0}, {tessera::entries}},
-    {"t_out", tessera::Step::end_agent, {tessera::exits}, {1}},
-};
+    {"t_out", tessera::Step::end_agent, {tessera::exits}, {1}}};
 const tessera::UpperPage agent_page{agent_places, agent_transitions, 0, 1};
 
 constexpr tessera::VerifiedProperty verdicts[] = {

@@ -137,6 +137,9 @@ class Document {
 /// The text with all edits of the specification.
 [[nodiscard]] std::string edited(const Document& document, const std::vector<TextEdit>& edits);
 
+/// The text of another file with those edits of it that are sure.
+[[nodiscard]] std::string edited(const Source& source, const std::vector<TextEdit>& edits);
+
 /// Edits after which a specification of an earlier version means what it meant then
 /// (spec/model/former_routes.hpp).
 struct Migration {

@@ -147,4 +147,32 @@ std::vector<DottedPath> paths_in(std::string_view text) {
   return all;
 }
 
+std::vector<Extent> objects_in(std::string_view text, bool only_marked) {
+  const auto is_word = [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+  };
+  const auto one_of = [&](std::string_view all, std::size_t at) {
+    return at < text.size() && all.find(text[at]) != std::string_view::npos;
+  };
+  std::vector<Extent> all;
+  for (std::size_t at = 0; at < text.size();) {
+    if (!is_word(text[at])) {
+      ++at;
+      continue;
+    }
+    const std::size_t begin = at;
+    while (at < text.size() && is_word(text[at])) ++at;
+    const bool number = one_of("0123456789", begin);
+    const bool part = begin > 0 && one_of("./", begin - 1);
+    // The word behind a number is its unit.
+    const std::size_t before = begin == 0 ? std::string_view::npos : text.find_last_not_of(" \t", begin - 1);
+    const bool unit = before != std::string_view::npos && before + 1 < begin && one_of("0123456789", before);
+    std::size_t end = at;
+    if (one_of("[", at)) end = std::min(text.find(']', at), text.size() - 1) + 1;
+    const bool is_object = only_marked ? end > at || one_of("/", at) : !unit && !one_of(".([", end);
+    if (!number && !part && is_object) all.push_back({begin, at});
+  }
+  return all;
+}
+
 }  // namespace tessera::language

@@ -35,4 +35,8 @@ struct DottedPath {
 /// All paths of a text, in its order. Words such as `and` are paths of one word.
 [[nodiscard]] std::vector<DottedPath> paths_in(std::string_view text);
 
+/// The objects of a simulated world in a check, a measure or a target: `robot[3]`, `arm/hand`. Functions,
+/// units and parts of paths are none. only_marked: those alone that an index or a part tells from other words.
+[[nodiscard]] std::vector<Extent> objects_in(std::string_view text, bool only_marked);
+
 }  // namespace tessera::language

@@ -84,6 +84,8 @@ class Index {
   [[nodiscard]] const Symbol& operator[](SymbolId id) const { return symbols_[id]; }
   /// By position, without duplicates.
   [[nodiscard]] const std::vector<Use>& uses() const { return uses_; }
+  /// The names of placed models in checks, measures and targets of drivers, also of those that are no agents.
+  [[nodiscard]] const std::vector<Extent>& objects() const { return objects_; }
   /// The use that a cursor touches.
   [[nodiscard]] const Use* at(std::size_t offset) const;
 
@@ -112,6 +114,7 @@ class Index {
   std::string system_;
   Numbered<SymbolId, Symbol> symbols_;
   std::vector<Use> uses_;
+  std::vector<Extent> objects_;
   std::vector<DefinitionNames> definitions_;
   NamesOf types_, agents_, templates_, models_, parameters_, fleets_;
   std::map<SymbolId, NamesOf> fields_;

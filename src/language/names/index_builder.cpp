@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <set>
 
 #include "language/names/index.hpp"
 
@@ -28,6 +29,7 @@ class IndexBuilder {
     for (const Entry& placed : root_["simulation"]["models"].entries) paths(placed.extent, Place::agent);
     use_in_deployment();
     use_in_formulas();
+    use_in_world(root_["simulation"]);
     sort_uses();
   }
 
@@ -274,6 +276,9 @@ class IndexBuilder {
 
   void use_path(const DottedPath& path, std::size_t base, Place place) {
     const auto& words = path.words;
+    // The places of the system itself.
+    if (words.size() == 1 && place == Place::formula && (words[0].name == "in" || words[0].name == "out"))
+      return;
     use(moved(words[0].extent, base), index_.agents_, words[0].name);
     if (words.size() < 2 || place == Place::agent) return;
     const DefinitionNames* definition = index_.definition_of(words[0].name);
@@ -283,11 +288,18 @@ class IndexBuilder {
     if (unit == definition->units.end()) return;
     index_.uses_.push_back({moved(words[1].extent, base), unit->symbol, false});
     if (words.size() < 3) return;
-    const NamesOf& names = place == Place::from   ? unit->outputs
-                           : place == Place::to   ? unit->inputs
-                           : place == Place::real ? unit->real
-                                                  : unit->behaviours;
-    use(moved(words[2].extent, base), names, words[2].name);
+    use(moved(words[2].extent, base), members(*unit, place, words[2].name), words[2].name);
+  }
+
+  /// A formula names behaviours, and buffers that have no behaviour of their name: `robot.control.line.full`.
+  static const NamesOf& members(const UnitNames& unit, Place place, std::string_view name) {
+    if (place == Place::from) return unit.outputs;
+    if (place == Place::to) return unit.inputs;
+    if (place == Place::real) return unit.real;
+    if (unit.behaviours.contains(name)) return unit.behaviours;
+    return unit.inputs.contains(name)    ? unit.inputs
+           : unit.outputs.contains(name) ? unit.outputs
+                                         : unit.behaviours;
   }
 
   void use_in_channels() {
@@ -318,11 +330,36 @@ class IndexBuilder {
         paths(*entry.value, Place::formula);
         for (const Node* item : entry.value->items) paths(*item, Place::formula);
       }
-    const Node& simulation = root_["simulation"];
+  }
+
+  /// Objects that are models placed in the world; others are bodies of its file.
+  void use_in_world(const Node& simulation) {
+    std::set<std::string_view> placed;
+    for (const Entry& model : simulation["models"].entries) {
+      const std::string_view key = std::string_view(model.key).substr(0, model.key.find('['));
+      placed.insert(key.substr(0, key.find_last_not_of(' ') + 1));
+    }
+    std::set<const Node*> seen;  // aliases share nodes
+    const auto objects = [&](const Node& node, bool only_marked, const auto& inside) -> void {
+      if (!seen.insert(&node).second) return;
+      if (node.is_scalar())
+        for (const Extent& object : objects_in(written(node.extent), only_marked)) {
+          const Extent at = moved(object, node.extent.begin);
+          if (!placed.contains(written(at))) continue;
+          index_.objects_.push_back(at);
+          use(at, index_.agents_, written(at));
+        }
+      for (const Entry& entry : node.entries) inside(*entry.value, only_marked, inside);
+      for (const Node* item : node.items) inside(*item, only_marked, inside);
+    };
     for (const Node* check : simulation["checks"].items)
       for (const Entry& entry : check->entries)
-        if (entry.key != "name" && entry.key != "within") paths(*entry.value, Place::agent);
-    for (const Entry& measure : simulation["measures"].entries) paths(*measure.value, Place::agent);
+        if (entry.key != "name" && entry.key != "within") objects(*entry.value, false, objects);
+    for (const Entry& measure : simulation["measures"].entries) objects(*measure.value, false, objects);
+    for (const Entry& driver : simulation["drivers"].entries)
+      // The options of a class and the controls of an operator are no objects of the world.
+      if (driver.value->find("cpp") == nullptr && driver.value->find("panel") == nullptr)
+        objects(*driver.value, true, objects);
   }
 
   void sort_uses() {

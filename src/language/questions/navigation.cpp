@@ -94,6 +94,17 @@ std::string edited(const Document& document, const std::vector<TextEdit>& edits)
   return text + document.text().substr(at);
 }
 
+std::string edited(const Source& source, const std::vector<TextEdit>& edits) {
+  std::vector<TextEdit> own;
+  for (const TextEdit& edit : edits)
+    if (edit.path == source.path && edit.sure) own.push_back(edit);
+  // The last one comes first, so that the positions of the others stay valid.
+  std::sort(own.begin(), own.end(), [](const TextEdit& a, const TextEdit& b) { return b.range < a.range; });
+  std::string text = source.text;
+  for (const TextEdit& edit : own) replace(text, edit.range, edit.text);
+  return text;
+}
+
 Range range_of(const Document& document, const diagnostics::Span& span) {
   if (span.line == 0) return {};
   const std::size_t start = document.lines().start_of(span.line - 1);

@@ -16,7 +16,8 @@ const Node no_node{};
 /// Reads a text from top to bottom. It never fails: unknown parts become scalars or are left out.
 class OutlineReader {
  public:
-  OutlineReader(std::string_view text, std::deque<Node>& nodes) : text_(text), nodes_(nodes) {}
+  OutlineReader(std::string_view text, std::deque<Node>& nodes, std::vector<Anchor>& names)
+      : text_(text), nodes_(nodes), names_(names) {}
 
   const Node* read() {
     if (text_.starts_with("\xEF\xBB\xBF")) at_ = line_start_ = 3;
@@ -99,7 +100,10 @@ class OutlineReader {
       const bool anchor = here() == '&';
       const std::size_t begin = ++at_;
       while (!done() && std::string_view(" \t\r\n,[]{}").find(here()) == std::string_view::npos) ++at_;
-      if (anchor) anchor_ = std::string(text_.substr(begin, at_ - begin));
+      if (anchor) {
+        anchor_ = std::string(text_.substr(begin, at_ - begin));
+        names_.push_back({anchor_, begin - 1, false});
+      }
       skip_blank();
     }
   }
@@ -140,15 +144,19 @@ class OutlineReader {
     Node& node = make(Node::Kind::sequence, at_);
     node.column = indent;
     while (!done() && column() == indent && at_dash()) {
+      node.dashes.push_back(at_);
+      alias_ = {};
       ++at_;
       skip_blank();
       const Node* item = at_line_end()     ? block(indent + 1, depth + 1)
                          : depth < deepest ? content(column(), indent + 1, depth + 1)
                                            : too_deep();
       node.items.push_back(item);
+      node.item_aliases.push_back(alias_);
       node.extent.end = std::max(node.extent.end, item->extent.end);
       next_content();
     }
+    alias_ = {};
     return &node;
   }
 
@@ -166,12 +174,14 @@ class OutlineReader {
       node.extent.end = std::max(node.entries.back().extent.end, node.entries.back().value->extent.end);
       next_content();
     }
+    alias_ = {};
     return &node;
   }
 
   Entry entry(std::size_t indent, std::size_t depth) {
     const Key key = scan_key(text_, at_, false);
-    Entry entry{key.text, key.extent, nullptr, true};
+    Entry entry{key.text, key.extent, {}, nullptr, true};
+    alias_ = {};
     at_ = key.after;
     if (here() != ':') {
       entry.complete = false;
@@ -197,6 +207,7 @@ class OutlineReader {
     } else {
       entry.value = anchored(anchor, value(indent + 1, depth));
     }
+    entry.alias = alias_;
     return entry;
   }
 
@@ -224,13 +235,18 @@ class OutlineReader {
     while (!done() && std::string_view(" \t\r\n").find(here()) == std::string_view::npos &&
            !(in_flow && std::string_view(",[]{}").find(here()) != std::string_view::npos))
       ++at_;
-    const auto found = anchors_.find(std::string(text_.substr(begin, at_ - begin)));
+    std::string name(text_.substr(begin, at_ - begin));
+    const auto found = anchors_.find(name);
+    alias_ = {begin - 1, at_};
+    names_.push_back({std::move(name), begin - 1, true});
     return found != anchors_.end() ? found->second : &make(Node::Kind::null, begin);
   }
 
   const Node* adopt(const ScalarText& scalar) {
     Node& node = make(Node::Kind::scalar, scalar.extent.begin);
     node.extent = scalar.extent;
+    const std::size_t last = text_.find_last_not_of(" \t\r\n", scalar.after == 0 ? 0 : scalar.after - 1);
+    node.written = {at_, std::max(at_, last == std::string_view::npos ? at_ : last + 1)};
     node.text = scalar.text;
     node.quoted = scalar.quoted;
     node.verbatim = text_.substr(node.extent.begin, node.extent.end - node.extent.begin) == node.text;
@@ -279,16 +295,20 @@ class OutlineReader {
       } else if (is_map) {
         node.entries.push_back(flow_entry(least, depth));
       } else {
+        alias_ = {};
         node.items.push_back(flow_item(least, depth));
+        node.item_aliases.push_back(alias_);
       }
     }
     node.extent.end = at_;
+    alias_ = {};
     return &node;
   }
 
   Entry flow_entry(std::size_t least, std::size_t depth) {
     const Key key = scan_key(text_, at_, true);
-    Entry entry{key.text, key.extent, nullptr, true};
+    Entry entry{key.text, key.extent, {}, nullptr, true};
+    alias_ = {};
     at_ = std::max(key.after, at_);
     skip_blank();
     if (here() != ':') {
@@ -305,6 +325,7 @@ class OutlineReader {
       return entry;
     }
     entry.value = flow_value(least, depth);
+    entry.alias = alias_;
     return entry;
   }
 
@@ -327,6 +348,7 @@ class OutlineReader {
       map.flow = true;
       map.entries.push_back(flow_entry(least, depth));
       map.extent.end = at_;
+      alias_ = {};
       return &map;
     }
     const Node* node = flow_value(least, depth);
@@ -339,7 +361,9 @@ class OutlineReader {
   std::size_t at_ = 0;
   std::size_t line_start_ = 0;
   std::string anchor_;
+  Extent alias_;  ///< the alias that was read last; empty: the last value is none
   std::map<std::string, const Node*> anchors_;
+  std::vector<Anchor>& names_;
 };
 
 }  // namespace
@@ -355,6 +379,6 @@ const Node& Node::operator[](std::string_view key) const {
   return entry == nullptr ? no_node : *entry->value;
 }
 
-Outline::Outline(std::string_view text) { root_ = OutlineReader(text, nodes_).read(); }
+Outline::Outline(std::string_view text) { root_ = OutlineReader(text, nodes_, anchors_).read(); }
 
 }  // namespace tessera::language

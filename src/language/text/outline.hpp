@@ -18,6 +18,7 @@ struct Node;
 struct Entry {
   std::string key;
   Extent extent;                ///< of the key without quotes
+  Extent alias;                 ///< the alias that stands for the value, with its *; empty: none does
   const Node* value = nullptr;  ///< never null
   bool complete = true;         ///< false: there is no colon yet
 };
@@ -25,6 +26,7 @@ struct Entry {
 struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map } kind = Kind::null;
   Extent extent;           ///< a scalar: its text without quotes; others: from the first to the last byte
+  Extent written;          ///< of a scalar: with its quotes, or from | or > on
   std::string text;        ///< of a scalar
   bool quoted = false;     ///< '...', "..." or a block (|, >)
   bool verbatim = false;   ///< text is exactly the bytes of `extent`
@@ -32,6 +34,8 @@ struct Node {
   std::size_t column = 0;  ///< of a block map or sequence: bytes before its entries
   std::vector<Entry> entries;
   std::vector<const Node*> items;
+  std::vector<Extent> item_aliases;  ///< of each item, like Entry::alias
+  std::vector<std::size_t> dashes;   ///< of each item of a block sequence
 
   [[nodiscard]] bool is_scalar() const { return kind == Kind::scalar; }
   [[nodiscard]] bool is_map() const { return kind == Kind::map; }
@@ -42,15 +46,25 @@ struct Node {
   [[nodiscard]] const Node& operator[](std::string_view key) const;
 };
 
+/// An anchor or an alias: its name, and where its & or * stands.
+struct Anchor {
+  std::string name;
+  std::size_t at = 0;
+  bool is_alias = false;
+};
+
 /// The tree of one text. Aliases share nodes.
 class Outline {
  public:
   /// Linear in the text. It leaves out parts that are nested deeper than 64 levels.
   explicit Outline(std::string_view text);
   [[nodiscard]] const Node& root() const { return *root_; }
+  /// All anchors and aliases, in the order of the text.
+  [[nodiscard]] const std::vector<Anchor>& anchors() const { return anchors_; }
 
  private:
   std::deque<Node> nodes_;
+  std::vector<Anchor> anchors_;
   const Node* root_ = nullptr;
 };
 

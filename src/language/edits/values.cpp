@@ -1,0 +1,185 @@
+#include "language/edits/values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "diagnostics/diagnostics.hpp"
+#include "spec/document/document.hpp"
+
+namespace tessera::language {
+namespace {
+
+bool one_of(std::string_view all, char c) { return all.find(c) != std::string_view::npos; }
+bool is_number_digit(char c) { return c >= '0' && c <= '9'; }
+
+std::string_view without_blanks(std::string_view text) {
+  const std::size_t first = text.find_first_not_of(" \t\r\n");
+  if (first == std::string_view::npos) return {};
+  return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
+}
+
+std::size_t digits_from(std::string_view text, std::size_t at) {
+  while (at < text.size() && is_number_digit(text[at])) ++at;
+  return at;
+}
+
+/// -0.5, .5, 2., 1e-3. sign: also +1.
+bool is_number(std::string_view text, bool sign) {
+  std::size_t at = !text.empty() && (text[0] == '-' || (sign && text[0] == '+')) ? 1 : 0;
+  const std::size_t whole = digits_from(text, at);
+  std::size_t end = whole;
+  if (end < text.size() && text[end] == '.') end = digits_from(text, end + 1);
+  if (end - at - (end > whole ? 1 : 0) == 0) return false;
+  at = end;
+  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
+    ++at;
+    if (at < text.size() && (text[at] == '-' || text[at] == '+')) ++at;
+    const std::size_t exponent = digits_from(text, at);
+    if (exponent == at) return false;
+    at = exponent;
+  }
+  return at == text.size();
+}
+
+/// Whether YAML reads the plain text as something else than text, so that a text needs quotes.
+bool is_no_text(std::string_view text) {
+  constexpr std::string_view words[] = {"",     "~",    "null",  "Null",  "NULL", "true",
+                                        "True", "TRUE", "false", "False", "FALSE"};
+  if (std::find(std::begin(words), std::end(words), text) != std::end(words)) return true;
+  if (is_number(text, true)) return true;
+  const bool based = text.size() > 2 && text[0] == '0' && (text[1] == 'o' || text[1] == 'x');
+  if (based && text.find_first_not_of("0123456789abcdefABCDEF", 2) == std::string_view::npos) return true;
+  const std::string_view unsigned_text =
+      !text.empty() && (text[0] == '-' || text[0] == '+') ? text.substr(1) : text;
+  constexpr std::string_view special[] = {".inf", ".Inf", ".INF", ".nan", ".NaN", ".NAN"};
+  return std::find(std::begin(special), std::end(special), unsigned_text) != std::end(special);
+}
+
+/// Whether a text can be written without quotes inside a flow, and so everywhere.
+bool can_be_plain(std::string_view text) {
+  if (text.empty() || is_no_text(text)) return false;
+  if (text.find_first_of(",[]{}\n\r") != std::string_view::npos) return false;
+  if (one_of(" \t#&*!|>'\"%@`", text[0]) || text == "?" || text == "-") return false;
+  if ((text[0] == '?' || text[0] == '-') && text.size() > 1 && one_of(" \t", text[1])) return false;
+  if (one_of(" \t:-", text.back())) return false;
+  for (std::size_t at = 0; at + 1 < text.size(); ++at) {
+    if (text[at] == ':' && one_of(" \t", text[at + 1])) return false;
+    if (one_of(" \t", text[at]) && text[at + 1] == '#') return false;
+  }
+  return std::none_of(text.begin(), text.end(), [](char c) { return c >= 0 && c < ' '; });
+}
+
+std::string in_single_quotes(std::string_view text) {
+  std::string quoted = "'";
+  for (const char c : text) quoted += c == '\'' ? std::string("''") : std::string(1, c);
+  return quoted + "'";
+}
+
+/// Whether the text can be read as one flow, with those aliases.
+bool is_flow(std::string_view text, const std::vector<std::string>& anchors) {
+  std::string whole = "[";
+  for (const std::string& name : anchors) whole += "&" + name + " 0, ";
+  diagnostics::Diagnostics out("", whole + std::string(text) + "]");
+  const std::optional<spec::Document> read = spec::read_document(out);
+  return read && !out.has_errors() && read->root().items.size() == anchors.size() + 1;
+}
+
+bool is_known_alias(std::string_view text, const std::vector<std::string>& anchors) {
+  return text.starts_with('*') && std::find(anchors.begin(), anchors.end(), text.substr(1)) != anchors.end();
+}
+
+/// The parts between commas that are in no brackets and no quotes.
+std::vector<std::string> parts_of(std::string_view text) {
+  std::vector<std::string> parts{""};
+  int depth = 0;
+  char quote = '\0';
+  for (const char c : text) {
+    if (quote != '\0') {
+      if (c == quote) quote = '\0';
+    } else if (c == '"' || c == '\'') {
+      quote = c;
+    } else if (one_of("([{", c)) {
+      ++depth;
+    } else if (one_of(")]}", c)) {
+      --depth;
+    }
+    if (c == ',' && depth == 0 && quote == '\0')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  }
+  std::vector<std::string> filled;
+  for (const std::string& part : parts)
+    if (const std::string_view kept = without_blanks(part); !kept.empty()) filled.emplace_back(kept);
+  return filled;
+}
+
+bool is_in_quotes(std::string_view text) {
+  return text.size() > 1 && (text.front() == '"' || text.front() == '\'') && text.back() == text.front();
+}
+
+}  // namespace
+
+std::string quoted_text(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\')
+      quoted += {'\\', c};
+    else if (c == '\n')
+      quoted += "\\n";
+    else if (c == '\t')
+      quoted += "\\t";
+    else if (c >= 0 && c < ' ')
+      quoted += fmt::format("\\x{:02x}", static_cast<unsigned>(c));
+    else
+      quoted += c;
+  }
+  return quoted + "\"";
+}
+
+std::string scalar_text(std::string_view text, const std::vector<std::string>& anchors) {
+  const std::string_view kept = without_blanks(text);
+  if (is_known_alias(kept, anchors) || kept == "true" || kept == "false" || is_number(kept, false))
+    return std::string(kept);
+  if (!kept.empty() && one_of("[{", kept.front()) && is_flow(kept, anchors)) return std::string(kept);
+  if (can_be_plain(kept)) return std::string(kept);
+  const bool single = kept.find('"') != std::string_view::npos && kept.find('\'') == std::string_view::npos &&
+                      std::none_of(kept.begin(), kept.end(), [](char c) { return c >= 0 && c < ' '; });
+  return single ? in_single_quotes(kept) : quoted_text(kept);
+}
+
+std::string list_text(std::string_view text, const std::vector<std::string>& anchors) {
+  const std::vector<std::string> parts = parts_of(text);
+  if (parts.size() < 2) return scalar_text(text, anchors);
+  std::string list;
+  for (const std::string& part : parts)
+    list += (list.empty() ? "" : ", ") + (is_in_quotes(part) ? part : scalar_text(part, anchors));
+  return "[" + list + "]";
+}
+
+std::string flow_text(const Value& value) {
+  if (value.kind == Value::Kind::text) return value.text;
+  const bool is_map = value.kind == Value::Kind::map;
+  std::string inside;
+  for (std::size_t at = 0; at < value.items.size(); ++at)
+    inside +=
+        (at == 0 ? "" : ", ") + (is_map ? value.keys[at] + ": " : std::string()) + flow_text(value.items[at]);
+  if (!is_map) return "[" + inside + "]";
+  return inside.empty() ? "{}" : "{ " + inside + " }";
+}
+
+std::string block_text(const Value& value, std::size_t indent, std::string_view end) {
+  if (value.kind == Value::Kind::text || value.items.empty()) return " " + flow_text(value);
+  const std::string start = std::string(end) + std::string(indent + 2, ' ');
+  std::string lines;
+  for (std::size_t at = 0; at < value.items.size(); ++at) {
+    const Value& one = value.items[at];
+    lines +=
+        start + (value.kind == Value::Kind::list ? "- " + flow_text(one)
+                                                 : value.keys[at] + ":" + block_text(one, indent + 2, end));
+  }
+  return lines;
+}
+
+}  // namespace tessera::language

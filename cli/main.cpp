@@ -24,12 +24,15 @@ int main(int argc, char** argv) {
       "The folder for builds and recordings, instead of .tessera of the project "
       "(or TESSERA_STATE_DIR)");
   int exit_code = cli::ok;
-  for (auto* add :
-       {cli::add_new,      cli::add_check,     cli::add_migrate,  cli::add_show,    cli::add_verify,
-        cli::add_export,   cli::add_play,      cli::add_generate, cli::add_package, cli::add_test,
-        cli::add_simulate, cli::add_schedules, cli::add_merge,    cli::add_run,     cli::add_replay,
-        cli::add_rerun,    cli::add_top,       cli::add_set,      cli::add_panel,   cli::add_emergency_stop,
-        cli::add_reset,    cli::add_world,     cli::add_studio,   cli::add_lsp,     cli::add_completion})
+  for (auto* add : {cli::add_new,       cli::add_check,     cli::add_migrate,
+                    cli::add_rename,    cli::add_show,      cli::add_verify,
+                    cli::add_export,    cli::add_play,      cli::add_generate,
+                    cli::add_package,   cli::add_test,      cli::add_simulate,
+                    cli::add_schedules, cli::add_merge,     cli::add_run,
+                    cli::add_replay,    cli::add_rerun,     cli::add_top,
+                    cli::add_set,       cli::add_panel,     cli::add_emergency_stop,
+                    cli::add_reset,     cli::add_world,     cli::add_studio,
+                    cli::add_lsp,       cli::add_completion})
     add(line, exit_code);
   try {
     if (const std::optional<int> decided = line.read(argc, argv)) return *decided;

@@ -9,6 +9,7 @@ namespace tessera::cli {
 void add_new(CommandLine& app, int& exit_code);
 void add_check(CommandLine& app, int& exit_code);
 void add_migrate(CommandLine& app, int& exit_code);
+void add_rename(CommandLine& app, int& exit_code);
 void add_show(CommandLine& app, int& exit_code);
 void add_verify(CommandLine& app, int& exit_code);
 void add_export(CommandLine& app, int& exit_code);

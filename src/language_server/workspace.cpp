@@ -2,40 +2,15 @@
 
 #include <algorithm>
 #include <charconv>
-#include <set>
 #include <string_view>
 
+#include "project/build/user_sources.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/files.hpp"
 
 namespace tessera::language_server {
 
 namespace fs = std::filesystem;
-
-namespace {
-
-constexpr std::size_t most_sources = 1000;
-constexpr std::uintmax_t largest_file = 1 << 20;
-
-bool is_code(const fs::path& file) {
-  static const std::set<std::string> endings{".cpp", ".cc", ".cxx", ".hpp", ".hh", ".hxx", ".h"};
-  return endings.contains(file.extension().string());
-}
-
-void add_sources(const fs::path& folder, std::vector<fs::path>& files) {
-  std::error_code problem;
-  fs::recursive_directory_iterator at(folder, fs::directory_options::skip_permission_denied, problem), end;
-  while (!problem && at != end && files.size() < most_sources) {
-    std::error_code ignored;
-    if (at->is_directory(ignored) && at->path().filename().string().starts_with('.'))
-      at.disable_recursion_pending();
-    if (at->is_regular_file(ignored) && is_code(at->path()) && at->file_size(ignored) <= largest_file)
-      files.push_back(at->path());
-    at.increment(problem);
-  }
-}
-
-}  // namespace
 
 fs::path path_of(const std::string& uri) {
   constexpr std::string_view scheme = "file://";
@@ -72,7 +47,7 @@ std::string escaped(std::string_view text) {
 std::string uri_of(const fs::path& path) { return "file://" + escaped(path.string()); }
 
 bool Workspace::is_specification(const fs::path& file, const std::string& text) const {
-  if (is_code(file)) return false;
+  if (project::is_code(file)) return false;
   std::string first;
   std::size_t at = 0;
   for (int line = 0; line < 50 && at < text.size(); ++line) {
@@ -114,7 +89,7 @@ std::shared_ptr<const language::Document> Workspace::analysed(const std::string&
 
 std::optional<Workspace::Specification> Workspace::specification_of(const std::string& uri) {
   const fs::path file = path_of(uri);
-  if (const Open* document = find(uri); document != nullptr && !is_code(file)) {
+  if (const Open* document = find(uri); document != nullptr && !project::is_code(file)) {
     if (!is_specification(file, document->text)) return std::nullopt;
     return Specification{uri, file.parent_path(), analysed(uri, document->text)};
   }
@@ -134,17 +109,9 @@ std::optional<Workspace::Specification> Workspace::specification_of(const std::s
   return std::nullopt;
 }
 
-std::vector<language::Source> Workspace::sources_of(const fs::path& project) const {
-  if (project.empty()) return {};
-  std::vector<fs::path> files;
-  add_sources(project / "src", files);
-  add_sources(project / "test", files);
-  std::error_code ignored;
-  const fs::path parameters = project / project::file_names::parameters;
-  if (fs::is_regular_file(parameters, ignored)) files.push_back(parameters);
-  std::sort(files.begin(), files.end());
+std::vector<language::Source> Workspace::sources_of(const fs::path& folder) const {
   std::vector<language::Source> sources;
-  for (const fs::path& file : files) {
+  for (const fs::path& file : project::user_sources(folder)) {
     std::string uri = uri_of(file);
     for (const auto& [open, document] : open_)
       if (path_of(open) == file) uri = open;

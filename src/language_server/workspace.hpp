@@ -52,9 +52,8 @@ class Workspace {
   /// The specification that `uri` is, or that its project has: the next spec.yaml in a folder above it.
   [[nodiscard]] std::optional<Specification> specification_of(const std::string& uri);
 
-  /// The C++ of a project (src, test) and its params.yaml; their paths are URIs. At most 1000 files of at most
-  /// 1 MB.
-  [[nodiscard]] std::vector<language::Source> sources_of(const std::filesystem::path& project) const;
+  /// The files of a project with names of its specification (project::user_sources); their paths are URIs.
+  [[nodiscard]] std::vector<language::Source> sources_of(const std::filesystem::path& folder) const;
 
  private:
   [[nodiscard]] std::shared_ptr<const language::Document> analysed(const std::string& uri, std::string text);

@@ -1,0 +1,63 @@
+// A rename on the command line: all files or none.
+
+#include <filesystem>
+
+#include "command.hpp"
+
+namespace tessera::cli_test {
+namespace {
+
+using Rename = Command;
+
+TEST_F(Rename, ChangesEveryFileAndLeadsBackToTheSameBytes) {
+  const fs::path example = fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower";
+  fs::copy(example, folder_, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  write(folder_ / "params.yaml", "v: 0.1   # slow\nrobot.sensor.threshold: 0.4\n");
+  const auto all = [&] {
+    std::string text;
+    for (const char* file :
+         {"spec.yaml", "params.yaml", "src/control.cpp", "src/sensor.cpp", "test/control_test.cpp"})
+      text += content_of(folder_ / file);
+    return text;
+  };
+  const std::string before = all();
+  const project::Exit shown = tessera("rename robot.control.follow pursue --dry-run");
+  EXPECT_EQ(shown.code, 0) << shown.text;
+  EXPECT_EQ(all(), before);
+  for (const char* part :
+       {"src/control.cpp: line", "test/control_test.cpp: line", "would be pursue in 3 files"})
+    EXPECT_NE(shown.text.find(part), std::string::npos) << part << "\n" << shown.text;
+  for (const auto& [from, to] : {std::pair{"robot.control.follow", "robot.control.pursue"},
+                                 {"v", "speed"},
+                                 {"robot.sensor", "robot.eyes"},
+                                 {"robot", "rover"}}) {
+    const std::string last = std::string(to).substr(std::string(to).rfind('.') + 1);
+    const std::string first = std::string(from).substr(std::string(from).rfind('.') + 1);
+    EXPECT_EQ(tessera("rename " + std::string(from) + " " + last).code, 0) << from;
+    EXPECT_NE(all(), before);
+    const project::Exit checked = tessera("check");
+    EXPECT_EQ(checked.code, 0) << checked.text;
+    EXPECT_EQ(tessera("rename " + std::string(to) + " " + first).code, 0) << to;
+    EXPECT_EQ(all(), before) << from;
+  }
+}
+
+TEST_F(Rename, IsRefusedWithAReasonAndThenWritesNothing) {
+  const std::string text =
+      "tessera: 1\nsystem: s\nagents:\n  a: { control: { rate: 1 Hz, behaviours: { go: {}, halt: {} } } }\n";
+  write(folder_ / "spec.yaml", text);
+  write(folder_ / "elsewhere.cpp", "namespace s::a::control {\nvoid go(Context&) {}\n}\n");
+  fs::create_directories(folder_ / "src");
+  for (const auto& [arguments, why] : {std::pair{"a.control.go halt", "is taken"},
+                                       {"a.control.go while", "keyword of C++"},
+                                       {"a.control.gone x", "no name 'a.control.gone'"}}) {
+    const project::Exit refused = tessera(std::string("rename ") + arguments);
+    EXPECT_EQ(refused.code, 1) << refused.text;
+    EXPECT_NE(refused.text.find(why), std::string::npos) << refused.text;
+  }
+  EXPECT_EQ(tessera("rename a b nowhere.yaml").code, 2);
+  EXPECT_EQ(content_of(folder_ / "spec.yaml"), text);
+}
+
+}  // namespace
+}  // namespace tessera::cli_test

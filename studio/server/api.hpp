@@ -66,6 +66,7 @@ class Api {
   /// Trust in the project, and the emergency stop.
   void serve_consent(HttpServer& server);
   [[nodiscard]] bool is_trusted() const;
+  void write_files(const Request& request, Response& response);
   void begin_project(const Request& request, Response& response);
   /// Answers what `tessera` prints for these arguments.
   void answer_command(const std::vector<std::string>& arguments, Response& response);

@@ -13,7 +13,8 @@ namespace tessera::server {
 
 namespace {
 
-constexpr const char* no_source = "this is no source of the project: those are the C++ files in src/";
+constexpr const char* no_source =
+    "this is no source of the project: those are the C++ files in src/ and test/, and params.yaml";
 
 /// Whether a build would take nothing from the folder.
 bool holds_nothing_to_build(const std::filesystem::path& folder) {
@@ -97,11 +98,39 @@ void Api::serve_sources(HttpServer& server) {
     conflict["hint"] = "look at both, then save again with the revision that is there now";
     answer(response, text_of(conflict), 409);
   });
+  server.Post("/api/edit", [this](const Request& request, Response& response) {
+    language_.edit(request, response, Sources(parts_.file.folder()));
+  });
+  server.Post("/api/files",
+              [this](const Request& request, Response& response) { write_files(request, response); });
   server.Get("/api/examples", [this](const Request&, Response& response) {
     answer(response, text_of(examples_in(options_.share / "examples")));
   });
   server.Post("/api/begin",
               [this](const Request& request, Response& response) { begin_project(request, response); });
+}
+
+void Api::write_files(const Request& request, Response& response) {
+  const auto body = nlohmann::json::parse(request.body, nullptr, false);
+  const auto list = body.is_object() ? body.find("files") : body.end();
+  std::vector<Sources::Written> files;
+  bool good =
+      body.is_object() && list != body.end() && list->is_array() && !list->empty() && list->size() <= 1001;
+  for (std::size_t at = 0; good && at < list->size(); ++at) {
+    const nlohmann::json& one = (*list)[at];
+    for (const char* key : {"file", "text", "revision"})
+      good = good && one.is_object() && one.contains(key) && one[key].is_string();
+    if (good) files.push_back({one["file"], one["text"], one["revision"]});
+  }
+  if (!good) return answer_error(response, 400, "'files' is a list of { file, text, revision }");
+  const Sources sources(parts_.file.folder(), parts_.file.path().filename().string());
+  if (const auto problem = sources.write_together(files))
+    return answer_error(response, 409, "nothing was written: " + *problem,
+                        "look at both, then change it again");
+  nlohmann::json written = nlohmann::json::array();
+  for (const Sources::Written& one : files)
+    written.push_back({{"file", one.file}, {"revision", revision_of(one.text)}});
+  answer(response, text_of(nlohmann::json{{"files", std::move(written)}}));
 }
 
 void Api::begin_project(const Request& request, Response& response) {

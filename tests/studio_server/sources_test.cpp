@@ -73,6 +73,70 @@ TEST_F(Sources, AFunctionGetsTheNameThatItsBehaviourHasNow) {
   EXPECT_EQ(post("/api/functions/rename", wanted).status, 409) << "there is no function follow any more";
 }
 
+TEST_F(Sources, ARenameTellsWhatItChangesInOtherFilesAndWritesNothing) {
+  serve();
+  write(project() / "params.yaml", "v: 0.1   # slow\n");
+  const std::string text = content_of(spec()), code = content_of(project() / "src/control.cpp");
+  const auto rename = [&](const json& at, const char* to) {
+    return post("/api/edit", {{"text", text}, {"edit", {{"do", "rename"}, {"at", at}, {"text", to}}}});
+  };
+  const json found = rename({"agents", "robot", "control", "behaviours", "follow"}, "pursue").json();
+  EXPECT_EQ(found.at("edits").size(), 2U) << found;
+  ASSERT_EQ(found.at("files").at(0).at("file"), "src/control.cpp");
+  EXPECT_THAT(found.at("files").at(0).at("after").get<std::string>(), testing::HasSubstr("void pursue("));
+  EXPECT_EQ(found.at("files").at(0).at("before"), code);
+  EXPECT_EQ(content_of(project() / "src/control.cpp"), code) << "nothing is written";
+  const json parameter = rename({"parameters", "v"}, "speed").json();
+  EXPECT_EQ(parameter.at("files").at(0).at("file"), "params.yaml");
+  EXPECT_EQ(parameter.at("files").at(0).at("after"), "speed: 0.1   # slow\n");
+  const Reply taken = rename({"agents", "robot", "control", "behaviours", "follow"}, "init");
+  EXPECT_EQ(taken.status, 422);
+  EXPECT_THAT(taken.json().at("error").get<std::string>(), testing::HasSubstr("is taken"));
+  const json nothing{{"do", "set"}, {"at", {"nowhere", 3}}, {"key", "x"}, {"text", "1"}};
+  EXPECT_EQ(post("/api/edit", {{"text", text}, {"edit", nothing}}).status, 422);
+  for (const json& wrong :
+       {json("set"), json::array(), json{{"do", "dance"}}, json{{"do", "set"}, {"at", 5}}})
+    EXPECT_EQ(post("/api/edit", {{"text", text}, {"edit", wrong}}).status, 400) << wrong;
+}
+
+TEST_F(Sources, FilesAreWrittenAllOrNone) {
+  serve();
+  const std::string text = content_of(spec()), code = content_of(project() / "src/control.cpp");
+  write(project() / "test/more.cpp", "// more\n");
+  const auto revision = [&](const char* file) {
+    return get(std::string("/api/sources?file=") + file).json().at("revision");
+  };
+  const json own{{"file", "spec.yaml"},
+                 {"text", text + "# mine\n"},
+                 {"revision", get("/api/spec").json().at("revision")}};
+  const auto with = [&](const json& other) {
+    return post("/api/files", {{"files", json::array({own, other})}});
+  };
+  write(folder_ / "secret.cpp", "// not of this project\n");
+  fs::create_symlink(folder_ / "secret.cpp", project() / "src/link.cpp");
+  for (const char* file :
+       {"../secret.cpp", "src/link.cpp", "test/../../secret.cpp", "/etc/passwd", "project.cmake"})
+    EXPECT_EQ(with({{"file", file}, {"text", "x"}, {"revision", ""}}).status, 409) << file;
+  const json late{{"file", "src/control.cpp"}, {"text", "x"}, {"revision", "of another text"}};
+  EXPECT_EQ(with(late).status, 409);
+  EXPECT_EQ(content_of(spec()), text) << "the other file was not written either";
+  EXPECT_EQ(post("/api/files", {{"files", {{{"file", "spec.yaml"}}}}}).status, 400);
+  const Reply done =
+      post("/api/files", {{"files", json::array({own,
+                                                 {{"file", "src/control.cpp"},
+                                                  {"text", code + "// 1\n"},
+                                                  {"revision", revision("src/control.cpp")}},
+                                                 {{"file", "test/more.cpp"},
+                                                  {"text", "// 2\n"},
+                                                  {"revision", revision("test/more.cpp")}}})}});
+  ASSERT_EQ(done.status, 200) << done.body;
+  EXPECT_EQ(done.json().at("files").size(), 3U);
+  EXPECT_EQ(content_of(spec()), text + "# mine\n");
+  EXPECT_EQ(content_of(project() / "src/control.cpp"), code + "// 1\n");
+  EXPECT_EQ(content_of(project() / "test/more.cpp"), "// 2\n");
+  EXPECT_EQ(done.json().at("files").at(0).at("revision"), get("/api/spec").json().at("revision"));
+}
+
 TEST_F(Sources, TheWorldTellsWhatDriversMayName) {
   serve();
   const json targets = post("/api/world", {{"text", content_of(spec())}}).json().at("targets");

@@ -1,8 +1,11 @@
 #include "server/analysis/language_answers.hpp"
 
+#include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
 
+#include "diagnostics/utf8.hpp"
+#include "language/edits/edit_json.hpp"
 #include "project/files/files.hpp"
 #include "server/http/answer.hpp"
 
@@ -61,6 +64,59 @@ void LanguageAnswers::handle(const httplib::Request& request, httplib::Response&
   if (ask == "definition")
     if (const auto found = language::definition(document, position, {}); !found.empty())
       all["definition"] = place_in_text(found.front().range.start);
+  answer(response, text_of(all));
+}
+
+namespace {
+
+/// Whether an edit changes names, which other files have too.
+bool renames(const std::vector<language::Edit>& edits) {
+  return edits.size() == 1 && edits.front().kind == language::Edit::Kind::rename;
+}
+
+/// The change of a file of the project by a rename.
+json file_json(const language::Source& source, const std::vector<language::TextEdit>& edits,
+               std::string after) {
+  json places = json::array(), unsure = json::array();
+  for (const language::TextEdit& edit : edits)
+    if (edit.path == source.path) (edit.sure ? places : unsure).push_back(edit.range.start.line + 1);
+  return {{"file", source.path},   {"lines", std::move(places)}, {"unsure", std::move(unsure)},
+          {"before", source.text}, {"after", std::move(after)},  {"revision", revision_of(source.text)}};
+}
+
+}  // namespace
+
+void LanguageAnswers::edit(const httplib::Request& request, httplib::Response& response,
+                           const Sources& sources) const {
+  RequestBody body(request, response);
+  const std::string text = body.text("text");
+  if (!body.good()) return;
+  // Keys of a new entry stay in their order.
+  const auto whole = nlohmann::ordered_json::parse(request.body, nullptr, false);
+  const auto given = whole.find("edit");
+  const auto edits = given == whole.end() ? std::nullopt : language::edits_of(*given);
+  if (!edits) return answer_error(response, 400, "'edit' is no edit, and no list of edits");
+  const language::Document document(text, *grammar_);
+  const std::vector<language::Source> files =
+      renames(*edits) ? sources.all() : std::vector<language::Source>();
+  const language::Renaming done = language::edit(document, *edits, files);
+  if (done.problem) return answer_error(response, 422, *done.problem);
+  json all{{"edits", json::array()}, {"files", json::array()}};
+  for (const language::TextEdit& edit : done.edits)
+    if (edit.path.empty())
+      all["edits"].push_back({{"from", place_in_text(edit.range.start)},
+                              {"to", place_in_text(edit.range.end)},
+                              {"text", edit.text}});
+  for (const language::Source& source : files) {
+    const bool named = std::any_of(done.edits.begin(), done.edits.end(),
+                                   [&](const language::TextEdit& edit) { return edit.path == source.path; });
+    if (!named) continue;
+    std::string after = language::edited(source, done.edits);
+    if (diagnostics::first_invalid_byte(source.text))
+      return answer_error(response, 422, source.path + " names it, and has bytes that are not UTF-8",
+                          "save this file in the encoding UTF-8 first");
+    all["files"].push_back(file_json(source, done.edits, std::move(after)));
+  }
   answer(response, text_of(all));
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "language/language.hpp"
+#include "server/analysis/sources.hpp"
 
 namespace tessera::server {
 
@@ -18,6 +19,9 @@ class LanguageAnswers {
   explicit LanguageAnswers(const std::string& schema);
 
   void handle(const httplib::Request& request, httplib::Response& response) const;
+
+  /// `POST /api/edit`: the edits of the text, and what a rename changes in the files of `sources`. Writes nothing.
+  void edit(const httplib::Request& request, httplib::Response& response, const Sources& sources) const;
 
   [[nodiscard]] const language::Grammar& grammar() const { return *grammar_; }
 

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <array>
-#include <functional>
 
 #include "codegen/codegen.hpp"
+#include "diagnostics/utf8.hpp"
 #include "language/language.hpp"
 #include "project/build/transition_functions.hpp"
+#include "project/build/user_sources.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/files.hpp"
 
 namespace tessera::server {
@@ -20,11 +22,6 @@ namespace {
 const char* name_of(TransitionFunctions::Presence presence) {
   constexpr std::array<const char*, 3> names{"defined", "unclear", "missing"};
   return names[static_cast<std::size_t>(presence)];
-}
-
-bool is_source(const fs::path& file) {
-  constexpr std::array<std::string_view, 6> endings{".cpp", ".cc", ".cxx", ".hpp", ".hh", ".h"};
-  return std::ranges::count(endings, file.extension().string()) > 0;
 }
 
 }  // namespace
@@ -75,29 +72,14 @@ std::optional<language::Position> name_of_behaviour(const language::Document& do
   return std::nullopt;
 }
 
-/// Makes those edits of a file that certainly concern the name. The last one comes first, so that the
-/// positions of the others stay valid.
-std::string edited(std::string text, std::vector<language::TextEdit> edits, const std::string& path) {
-  std::ranges::sort(edits, std::greater{}, [](const language::TextEdit& edit) { return edit.range; });
-  for (const language::TextEdit& edit : edits)
-    if (edit.path == path && edit.sure) language::replace(text, edit.range, edit.text);
-  return text;
-}
+}  // namespace
 
-std::vector<language::Source> code_of(const fs::path& project) {
+std::vector<language::Source> Sources::all() const {
   std::vector<language::Source> all;
-  for (const char* folder : {"src", "test"}) {
-    std::error_code missing;
-    for (fs::recursive_directory_iterator at(project / folder, missing), end; !missing && at != end;
-         at.increment(missing))
-      if (is_source(at->path()) && !at->is_symlink(missing) && at->is_regular_file(missing))
-        all.push_back(
-            {at->path().lexically_relative(project).generic_string(), project::content_of(at->path())});
-  }
+  for (const fs::path& file : project::user_sources(project_))
+    all.push_back({file.lexically_relative(project_).generic_string(), project::content_of(file)});
   return all;
 }
-
-}  // namespace
 
 Sources::Renamed Sources::rename(const std::string& text, const language::Grammar& grammar,
                                  const std::string& subsystem, const std::string& from,
@@ -109,30 +91,59 @@ Sources::Renamed Sources::rename(const std::string& text, const language::Gramma
   if (!here) return {{}, Problem{"there is no behaviour " + subsystem + "." + function}};
   const language::Renaming back = language::rename(now, nullptr, *here, {}, from);
   if (back.problem) return {{}, Problem{*back.problem}};
-  const language::Document before(edited(text, back.edits, ""), grammar);
+  const language::Document before(language::edited(now, back.edits), grammar);
   const auto there = name_of_behaviour(before, subsystem, from);
   if (!there) return {{}, Problem{"there is no function " + from}};
-  const std::vector<language::Source> sources = code_of(project_);
+  const std::vector<language::Source> sources = all();
   const language::Renaming renaming = language::rename(before, nullptr, *there, sources, function);
   if (renaming.problem) return {{}, Problem{*renaming.problem}};
   Renamed renamed;
+  std::vector<project::Replacement> files;
   for (const language::Source& source : sources) {
-    const std::string changed = edited(source.text, renaming.edits, source.path);
+    std::string changed = language::edited(source, renaming.edits);
     if (changed == source.text) continue;
-    SpecFile file(project_ / source.path);
-    const SpecFile::Content known = file.read();
-    if (known.text != source.text || file.write(changed, known.revision).written != SpecFile::Written::yes)
-      return {renamed.files, Problem{source.path + " cannot be written, or another program changes it"}};
+    files.push_back({project_ / source.path, source.text, std::move(changed)});
     renamed.files.push_back(source.path);
   }
-  if (renamed.files.empty()) return {{}, Problem{"there is no function " + from}};
+  if (files.empty()) return {{}, Problem{"there is no function " + from}};
+  if (const auto problem = project::replace_together(files)) return {{}, Problem{*problem}};
   return renamed;
+}
+
+std::optional<std::string> Sources::write_together(const std::vector<Written>& files) const {
+  std::vector<project::Replacement> all;
+  for (const Written& one : files) {
+    const std::optional<fs::path> path = path_of_any(one.file);
+    if (!path) return one.file + " is no file of this project that names parts of its specification";
+    const SpecFile::Content now = SpecFile(*path).read();
+    if (now.revision.empty()) return one.file + " cannot be read: " + now.error;
+    if (now.revision != one.revision) return one.file + " was changed by another program";
+    if (diagnostics::first_invalid_byte(now.text))
+      return one.file + " has bytes that are not UTF-8, which would be lost";
+    all.push_back({*path, now.text, one.text});
+  }
+  return project::replace_together(all);
 }
 
 std::optional<fs::path> Sources::path_of(const std::string& file) const {
   const fs::path name(file);
-  if (name.is_absolute() || name.begin() == name.end() || *name.begin() != "src" || !is_source(name))
+  if (name.begin() == name.end() || *name.begin() != "src" || !project::is_code(name)) return std::nullopt;
+  return path_without_links(name);
+}
+
+std::optional<fs::path> Sources::path_of_any(const std::string& file) const {
+  const fs::path name(file);
+  if (file == specification_ || file == project::file_names::parameters) return path_without_links(name);
+  if (name.begin() == name.end() || (*name.begin() != "src" && *name.begin() != "test") ||
+      !project::is_code(name))
     return std::nullopt;
+  const std::optional<fs::path> path = path_without_links(name);
+  std::error_code missing;
+  return path && fs::is_directory(path->parent_path(), missing) ? path : std::nullopt;
+}
+
+std::optional<fs::path> Sources::path_without_links(const fs::path& name) const {
+  if (name.is_absolute()) return std::nullopt;
   fs::path path = project_;
   for (const fs::path& part : name) {
     const std::string text = part.string();
@@ -145,9 +156,8 @@ std::optional<fs::path> Sources::path_of(const std::string& file) const {
 }
 
 std::optional<SpecFile::Content> Sources::read(const std::string& file) const {
-  const std::optional<fs::path> path = path_of(file);
-  std::error_code missing;
-  if (!path || !fs::is_directory(path->parent_path(), missing)) return std::nullopt;
+  const std::optional<fs::path> path = path_of_any(file);
+  if (!path || file == specification_) return std::nullopt;
   return SpecFile(*path).read();
 }
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "language/schema/grammar.hpp"
+#include "language/language.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "tessera/result.hpp"
@@ -20,7 +20,9 @@ namespace tessera::server {
 /// Threads: any.
 class Sources {
  public:
-  explicit Sources(std::filesystem::path project) : project_(std::move(project)) {}
+  /// specification: the name of the file, which may be written together with others.
+  explicit Sources(std::filesystem::path project, std::string specification = {})
+      : project_(std::move(project)), specification_(std::move(specification)) {}
 
   /// [{"subsystem", "function", "state", "file", "line", "stub", "leftovers"}]: one for each behaviour of each
   /// definition. "state" is "defined", "missing", or "unclear" (only the linker can tell). "line" is null if it
@@ -35,9 +37,12 @@ class Sources {
   [[nodiscard]] Added add(const spec::Model& model, const std::string& subsystem,
                           const std::string& function) const;
 
+  /// The files with names of the specification (project::user_sources), with their names in the project.
+  [[nodiscard]] std::vector<language::Source> all() const;
+
   struct Renamed {
     std::vector<std::string> files;  ///< that were changed, relative to the project
-    std::optional<Problem> problem;  ///< nullopt: all of them were written
+    std::optional<Problem> problem;  ///< why none was written; nullopt: all of them were
   };
   /// Renames the function `from` to the present name of its behaviour, wherever src/ and test/ use it. text:
   /// the specification. The rest of each file stays as it is.
@@ -45,8 +50,18 @@ class Sources {
                                const std::string& subsystem, const std::string& from,
                                const std::string& function) const;
 
-  /// The file, if there may be one of that name: "src/control.cpp". nullopt: it is no source of this project.
+  struct Written {
+    std::string file;  ///< the specification, params.yaml, or C++ in src/ or test/
+    std::string text;
+    std::string revision;  ///< of the text that it replaces
+  };
+  /// Writes all of the files or none. Returns why none was written; nullopt: all were.
+  [[nodiscard]] std::optional<std::string> write_together(const std::vector<Written>& files) const;
+
+  /// The file, if there may be one of that name: "src/control.cpp", "test/control_test.cpp", "params.yaml".
+  /// nullopt: it is no source of this project.
   [[nodiscard]] std::optional<SpecFile::Content> read(const std::string& file) const;
+  /// Writes C++ in src/.
   [[nodiscard]] std::optional<SpecFile::Outcome> write(const std::string& file, const std::string& text,
                                                        const std::string& revision) const;
 
@@ -54,7 +69,13 @@ class Sources {
   /// nullopt: the name leads out of src/, through a symbolic link or to something that is no source.
   [[nodiscard]] std::optional<std::filesystem::path> path_of(const std::string& file) const;
 
+  /// The same for every file that a rename changes.
+  [[nodiscard]] std::optional<std::filesystem::path> path_of_any(const std::string& file) const;
+  [[nodiscard]] std::optional<std::filesystem::path> path_without_links(
+      const std::filesystem::path& name) const;
+
   std::filesystem::path project_;
+  std::string specification_;
 };
 
 }  // namespace tessera::server

@@ -6,6 +6,7 @@ import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { SidePanel } from "../panels/side_panel";
 import { Toolbar } from "../panels/toolbar";
+import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
 import { Watches } from "../panels/plots/watch";
 import { Boundary } from "./boundary";
@@ -24,9 +25,10 @@ export function App() {
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
+  const editing = useStore(studio.draft.store, (draft) => draft.editing);
   useShortcuts();
   return (
-    <div className="app">
+    <div className="app" aria-busy={editing}>
       <EmergencyBar />
       <Toolbar />
       <ConnectionBanner />
@@ -53,6 +55,7 @@ export function App() {
       <Problems />
       {searching && <Search />}
       <ConflictDialog />
+      <RenameDialog />
       <TrustDialog />
     </div>
   );
@@ -67,8 +70,8 @@ function useShortcuts(): void {
       const actions: Record<string, () => void> = {
         k: () => studio.view.set({ searching: true }),
         s: () => void studio.draft.save(),
-        z: () => (event.shiftKey ? studio.draft.redo() : studio.draft.undo()),
-        y: () => studio.draft.redo(),
+        z: () => void (event.shiftKey ? studio.draft.redo() : studio.draft.undo()),
+        y: () => void studio.draft.redo(),
       };
       const action = actions[event.key.toLowerCase()];
       if (!action || isField(event.target, event.key)) return;

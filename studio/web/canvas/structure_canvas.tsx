@@ -16,11 +16,10 @@ import { useEffect, useMemo, useRef, useState, type CSSProperties, type Keyboard
 import { useStudio, useStore } from "../hooks/use";
 import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { addAgent, addChannel, freeName, removeChannel } from "../model/text/edits";
+import { connect as connectEdit, freeName, freshAgent, insert, remove } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
 import { channelEnd } from "../model/structure/connections";
-import { channelPath, findThing, withoutIndex, type Structure } from "../model/structure/structure";
-import { channelOf } from "../model/text/repair_edits";
+import { channelOf, channelPath, findThing, withoutIndex, type Structure } from "../model/structure/structure";
 import { drawStructure, type StructureDrawing } from "../model/structure/structure_graph";
 import { YamlText } from "../model/text/yaml_text";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
@@ -195,8 +194,9 @@ function Drawing() {
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
     const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
-    studio.draft.edit(addChannel(structure, from, to, { send: "non_blocking", receive: "non_blocking", timeout: "" }), "edit");
-    studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" });
+    void studio.draft.change(connectEdit(from, to), () =>
+      studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" }),
+    );
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
@@ -216,8 +216,7 @@ function Drawing() {
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
-      studio.draft.edit(removeChannel(structure, thing.of), "edit");
-      select(null);
+      void studio.draft.change(remove(["channels", thing.of.index]), () => select(null));
     }
   };
   const add = () => {
@@ -225,8 +224,7 @@ function Drawing() {
       "agent",
       structure.agents.map((agent) => agent.name),
     );
-    studio.draft.edit(addAgent(structure, name), "edit");
-    studio.view.set({ selected: name, panel: "inspect" });
+    void studio.draft.change(insert(["agents"], name, freshAgent), () => studio.view.set({ selected: name, panel: "inspect" }));
   };
   return (
     <div className="canvas structure" data-testid="structure">

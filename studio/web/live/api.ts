@@ -1,4 +1,4 @@
-import type { ControlRequest, LanguageQuestion, Requests, RunRequest } from "./protocol";
+import type { ControlRequest, Edit, LanguageQuestion, Requests, RunRequest } from "./protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -117,6 +117,10 @@ export class Api {
   worldTargets = (text: string) => this.ask("POST /api/world", { body: { text } });
   source = (file: string) => this.ask("GET /api/sources", { query: { file } });
   saveSource = (file: string, text: string, revision: string) => this.ask("PUT /api/sources", { body: { file, text, revision } });
+  /** The edits of the text, and what a rename changes in other files. Nothing is written. */
+  edit = (text: string, edit: Edit | Edit[]) => this.ask("POST /api/edit", { body: { text, edit } });
+  /** Writes all of the files or none. */
+  saveFiles = (files: Requests["POST /api/files"]["body"]["files"]) => this.ask("POST /api/files", { body: { files } });
   examples = () => this.ask("GET /api/examples");
   begin = (example: string) => this.ask("POST /api/begin", { body: { example } });
   verifyState = (job: string) => this.ask("GET /api/verify/JOB", { of: job });

@@ -1,9 +1,10 @@
-import { History } from "../model/history";
+import { History, type FileStep } from "../model/history";
+import { applied } from "../model/text/edits";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
 import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError } from "./api";
-import type { Analysis, Diagnostic, SpecAnswer } from "./protocol";
+import type { Analysis, Diagnostic, Edit, EditAnswer, FileRenamed, SpecAnswer } from "./protocol";
 import { Store } from "./store";
 
 export interface DraftState {
@@ -25,6 +26,10 @@ export interface DraftState {
   /** Why the file on disk cannot be read; empty: it can. */
   unreadable: string;
   notice: string;
+  /** Whether an edit is not done yet. */
+  editing: boolean;
+  /** A rename that changes other files too, until the user agrees. */
+  renaming: { name: string; files: readonly FileRenamed[] } | null;
 }
 
 /** The file on disk, with lines that end as the page has them. */
@@ -54,7 +59,18 @@ export class Draft {
     conflict: null,
     unreadable: "",
     notice: "",
+    editing: false,
+    renaming: null,
   });
+  /** Saves what other parts of the page hold of the files that a rename changes. false: it is not saved. */
+  saveOthers: () => Promise<boolean> = () => Promise.resolve(true);
+  /** Called with the names of files that this page has written. */
+  wrote: (files: readonly string[]) => void = () => {};
+  /** The edits that the server is asked for, one after the other. */
+  private editing: Promise<unknown> = Promise.resolve();
+  private waiting = 0;
+  private agreed: (yes: boolean) => void = () => {};
+  private name = "";
   /** The key under which this tab keeps unsaved text. Each project has its own: another may be served at this address. */
   private kept = "";
   private lineEnd: LineEnd = "\n";
@@ -73,6 +89,7 @@ export class Draft {
   async load(name: Promise<string>): Promise<void> {
     const [answer, of] = await Promise.all([this.api.spec(), name]);
     this.kept = `tessera.draft ${of}`;
+    this.name = of.split("/").at(-1)!;
     const file = this.fileOf(answer);
     this.history = new History(file.text);
     this.onDisk(file);
@@ -108,17 +125,158 @@ export class Draft {
   }
 
   /** A new text. Changes with the same `kind`, such as "typing", are undone together. */
-  edit(text: string, kind: string): void {
+  edit(text: string, kind: string, files: readonly FileStep[] = []): void {
     if (text === this.store.get().text) return;
-    this.history.change(text, kind, performance.now());
+    this.history.change(text, kind, performance.now(), files);
     this.show(text);
   }
 
-  undo(): void {
-    this.show(this.history.undo());
+  /**
+   * Does an edit. If a rename changes other files, the user is asked first; then the specification and all of them are
+   * written together. then: called with the new text. false: it was not done, and a notice says why.
+   */
+  change(edit: Edit | Edit[], then: () => void = () => {}): Promise<boolean> {
+    return this.queued(() => this.changeNow(edit, then));
   }
-  redo(): void {
-    this.show(this.history.redo());
+
+  /** The text after an edit, which is not done; undefined: it cannot be done. */
+  async preview(edit: Edit): Promise<{ before: string; after: string } | undefined> {
+    await this.settled();
+    const before = this.store.get().text;
+    const answer = await this.answerTo(before, edit);
+    return answer && { before, after: applied(before, answer.edits) };
+  }
+
+  /** All edits so far are done or refused. */
+  async settled(): Promise<void> {
+    await this.editing;
+  }
+
+  private queued<T>(work: () => Promise<T>): Promise<T> {
+    this.waiting += 1;
+    this.store.set({ editing: true });
+    const done = this.editing.then(work).finally(() => {
+      this.waiting -= 1;
+      this.store.set({ editing: this.waiting > 0 });
+    });
+    this.editing = done.catch(() => undefined);
+    return done;
+  }
+
+  private refused(why: string): false {
+    this.store.set({ notice: `Not changed: ${why}` });
+    return false;
+  }
+
+  private async answerTo(text: string, edit: Edit | Edit[]): Promise<EditAnswer | undefined> {
+    try {
+      return await this.api.edit(text, edit);
+    } catch (error) {
+      this.refused(message(error));
+      return undefined;
+    }
+  }
+
+  private async changeNow(edit: Edit | Edit[], then: () => void): Promise<boolean> {
+    // Text that was typed meanwhile stays.
+    for (;;) {
+      const { text } = this.store.get();
+      const answer = await this.answerTo(text, edit);
+      if (!answer) return false;
+      if (this.store.get().text !== text) continue;
+      if (answer.files.length > 0) return this.renameEverywhere(edit, answer.files, then);
+      this.edit(applied(text, answer.edits), "edit");
+      then();
+      return true;
+    }
+  }
+
+  /** The answer of the user to a rename that changes other files. */
+  agree(yes: boolean): void {
+    this.agreed(yes);
+  }
+
+  private async renameEverywhere(edit: Edit | Edit[], files: readonly FileRenamed[], then: () => void): Promise<boolean> {
+    const name = [edit].flat()[0]!.text ?? "";
+    this.store.set({ renaming: { name, files } });
+    const yes = await new Promise<boolean>((agreed) => (this.agreed = agreed));
+    this.store.set({ renaming: null });
+    if (!yes) return false;
+    if (this.store.get().conflict) return this.refused("the file was changed by another program");
+    if (!(await this.saveOthers())) return this.refused("a function is not saved");
+    const { text } = this.store.get();
+    const answer = await this.answerTo(text, edit);
+    if (!answer) return false;
+    const after = applied(text, answer.edits);
+    const changed = answer.files.filter(({ lines }) => lines.length > 0);
+    if (
+      !(await this.write(
+        after,
+        changed.map((one) => ({ ...one, text: one.after })),
+      ))
+    )
+      return false;
+    this.edit(after, "rename", changed);
+    this.keep();
+    then();
+    return true;
+  }
+
+  /** Writes the specification and other files together. */
+  private async write(text: string, others: readonly { file: string; text: string; revision: string }[]): Promise<boolean> {
+    while (this.saving) await this.saving;
+    this.saving = this.writeNow(text, others);
+    const written = await this.saving;
+    this.saving = null;
+    return written;
+  }
+
+  private async writeNow(text: string, others: readonly { file: string; text: string; revision: string }[]): Promise<boolean> {
+    const { revision } = this.store.get();
+    const own = { file: this.name, text: withEnds(text, this.lineEnd), revision };
+    try {
+      const { files } = await this.api.saveFiles([own, ...others.map(({ file, text, revision }) => ({ file, text, revision }))]);
+      this.onDisk({ text, revision: files[0]!.revision });
+      this.wrote(others.map(({ file }) => file));
+      return true;
+    } catch (error) {
+      return this.refused(message(error));
+    }
+  }
+
+  undo(): Promise<void> {
+    return this.step("undo");
+  }
+  redo(): Promise<void> {
+    return this.step("redo");
+  }
+
+  private async step(way: "undo" | "redo"): Promise<void> {
+    if (this.waiting === 0 && !this.history.ahead(way)?.files.length) return this.show(this.history[way]());
+    await this.queued(async () => {
+      const ahead = this.history.ahead(way);
+      if (!ahead || (ahead.files.length > 0 && !(await this.stepFiles(ahead.text, ahead.files)))) return;
+      this.show(this.history[way]());
+      this.keep();
+    });
+  }
+
+  /** Takes a change of files back, or does it again; what was changed elsewhere in them since then stays. */
+  private async stepFiles(text: string, steps: readonly FileStep[]): Promise<boolean> {
+    if (!(await this.saveOthers())) return this.refused("a function is not saved");
+    const files = [];
+    for (const { file, before, after } of steps) {
+      let now;
+      try {
+        now = await this.api.source(file);
+      } catch (error) {
+        return this.refused(message(error));
+      }
+      const merged = merge(before, after, now.text);
+      if (merged === null) return this.refused(`the same lines of ${file} were changed since then. Rename it instead`);
+      files.push({ file, text: merged, revision: now.revision });
+    }
+    return this.write(text, files);
   }
 
   private show(text: string | undefined): void {
@@ -148,6 +306,7 @@ export class Draft {
 
   /** One save follows another: the second names the revision that the first has made. */
   async save(): Promise<boolean> {
+    await this.settled();
     while (this.saving) await this.saving;
     this.saving = this.saveNow();
     const saved = await this.saving;

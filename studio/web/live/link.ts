@@ -1,4 +1,4 @@
-import { panelNames, type View, type ViewState } from "./studio";
+import { panelNames, viewNames, type ViewState } from "../model/view_state";
 
 /** The moment of a recording, in nanoseconds of the run's clock. */
 export interface Moment {
@@ -11,12 +11,10 @@ export interface Linked extends Partial<Pick<ViewState, "view" | "panel" | "sele
   moment?: Moment;
 }
 
-const views: readonly View[] = ["net", "structure", "fleet"];
-
 /** The part of an address after the #, without unknown keys. */
 export function readLink(hash: string): Linked {
   const given = new URLSearchParams(hash.replace(/^#/, ""));
-  const view = views.find((one) => one === given.get("view"));
+  const view = viewNames.find((one) => one === given.get("view"));
   const panel = panelNames.find((one) => one === given.get("panel"));
   const selected = given.get("at");
   const recording = given.get("recording");

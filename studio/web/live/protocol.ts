@@ -5,6 +5,10 @@ import type { FoldedNet } from "../model/net/net_json";
 export type ConditionShown = { name: string; text: string; line: number }[] | true | null;
 export type VerifyAnswer = VerifyRunning | VerifyEnd;
 export type VerdictName = "holds" | "violated" | "unknown";
+/** Keys of maps, and numbers of items of lists. */
+export type EditPath = (string | number)[];
+/** A scalar or a flow, or a list or map of values. */
+export type EditValue = string | EditValue[] | { [k: string]: EditValue };
 export type RunRequest = StartRequest | AttachRequest | DeploymentRequest;
 export type RunState = "building" | "running" | "paused" | "ended" | "failed";
 export type RunKind = "simulate" | "run" | "attach" | "deployment";
@@ -101,6 +105,22 @@ export interface Requests {
     };
     status: 200;
     answer: { text: string; revision: string };
+  };
+  /** The text edits that an edit of the specification needs; writes nothing. 422: it cannot be done. */
+  "POST /api/edit": { body: { text: string; edit: Edit | Edit[] }; status: 200; answer: EditAnswer };
+  /** Writes all of the files or none. 409: one of them has another revision, or cannot be written. */
+  "POST /api/files": {
+    body: {
+      files: {
+        /** The specification, params.yaml, or C++ in src/ or test/. */
+        file: string;
+        text: string;
+        /** The revision of the text that was changed. */
+        revision: string;
+      }[];
+    };
+    status: 200;
+    answer: { files: { file: string; revision: string }[] };
   };
   /** 409: Conflict. */
   "PUT /api/sources": {
@@ -464,6 +484,35 @@ export interface FunctionShown {
   stub: string;
   /** Functions of the same namespace that no behaviour has. */
   leftovers: string[];
+}
+/** Does something with one part of a specification (src/language/edits/edits.hpp). */
+export interface Edit {
+  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template";
+  at?: EditPath;
+  key?: string;
+  text?: string;
+  as?: "scalar" | "list" | "quoted" | "as_is";
+  value?: EditValue;
+  fields?: { [k: string]: string };
+}
+export interface EditAnswer {
+  edits: PlacedText[];
+  files: FileRenamed[];
+}
+export interface PlacedText {
+  from: TextPosition;
+  to: TextPosition;
+  text: string;
+}
+/** The change of a file by a rename, and the lines where only a compiler can tell whether it is the same name. */
+export interface FileRenamed {
+  file: string;
+  lines: number[];
+  unsure: number[];
+  before: string;
+  after: string;
+  /** The revision of the text before. */
+  revision: string;
 }
 /**
  * The controllers that drive devices now: those of this user in real time, on real devices or in a simulated

@@ -1,7 +1,8 @@
 import { causesOf, type Cause } from "../model/causes";
 import { candidatesFor, type Candidate } from "../model/text/repair_edits";
 import { readStructure } from "../model/structure/structure";
-import type { Api } from "./api";
+import { applied } from "../model/text/edits";
+import { ApiError, type Api } from "./api";
 import { message } from "./draft";
 import type { Verdict } from "./protocol";
 import { Store } from "./store";
@@ -31,8 +32,8 @@ const mostTried = 30;
 const enough = 3;
 const mostEdits = 3;
 
-/** One edit or several; their number, and the number of timeouts among them. */
-type Attempt = Candidate & { edits: number; timeouts: number };
+/** One edit or several; their number, the number of timeouts among them, and the text that they change. */
+type Attempt = Candidate & { count: number; timeouts: number; of: string };
 
 const timeoutsIn = ({ title }: Candidate) => Number(title.startsWith("Give up"));
 
@@ -40,18 +41,19 @@ const timeoutsIn = ({ title }: Candidate) => Number(title.startsWith("Give up"))
  * The order of attempts: few edits first. One timeout changes least. If one is not enough, two sides that
  * gave up at different times seldom meet again, so edits that let a side go on at once come first.
  */
-const byHope = (a: Attempt, b: Attempt) => a.edits - b.edits || (a.edits > 1 ? a.timeouts - b.timeouts : 0);
+const byHope = (a: Attempt, b: Attempt) => a.count - b.count || (a.count > 1 ? a.timeouts - b.timeouts : 0);
 
-function further(before: Attempt, verdicts: readonly Verdict[]): Attempt[] {
-  const structure = readStructure(before.text);
+function further(before: Attempt, text: string, verdicts: readonly Verdict[]): Attempt[] {
+  const structure = readStructure(text);
   return causesOf(verdicts, structure.channels)
     .filter(({ warning, atEnd }) => !warning && atEnd.length > 0)
     .flatMap((cause) => candidatesFor(cause, structure))
     .map((next) => ({
       title: `${before.title}; ${next.title.charAt(0).toLowerCase()}${next.title.slice(1)}`,
       meaning: `${before.meaning} ${next.meaning}`,
-      text: next.text,
-      edits: before.edits + 1,
+      edits: next.edits,
+      of: text,
+      count: before.count + 1,
       timeouts: before.timeouts + timeoutsIn(next),
     }));
 }
@@ -76,7 +78,8 @@ export class Repairs {
     // If another standstill is left after an edit, the edits that mend that one are tried in addition.
     const queue = candidatesFor(cause, readStructure(text)).map((one): Attempt => ({
       ...one,
-      edits: 1,
+      of: text,
+      count: 1,
       timeouts: timeoutsIn(one),
     }));
     const seen = new Set([text]);
@@ -85,21 +88,34 @@ export class Repairs {
       for (let next = queue.shift(); next; next = queue.shift()) {
         const { found, tried } = this.store.get();
         if (tried >= mostTried || found.length >= enough) break;
-        if (seen.has(next.text)) continue;
-        seen.add(next.text);
-        const after = await this.after(cause, next.text, verdicts, () => search !== this.search);
+        const edited = await this.edited(next);
+        if (search !== this.search) return;
+        if (seen.has(edited)) continue;
+        seen.add(edited);
+        const after = await this.after(cause, edited, verdicts, () => search !== this.search);
         if (search !== this.search) return;
         const mends = after ? mended(cause, verdicts, after) : [];
         this.store.set({ tried: tried + 1 });
-        if (mends.length > 0) this.store.set({ found: [...found, { ...next, mends }] });
-        else if (after && next.edits < mostEdits) {
-          queue.push(...further(next, after));
+        if (mends.length > 0)
+          this.store.set({ found: [...found, { title: next.title, meaning: next.meaning, text: edited, mends }] });
+        else if (after && next.count < mostEdits) {
+          queue.push(...further(next, edited, after));
           queue.sort(byHope);
         }
       }
       this.store.set({ state: "done" });
     } catch (error) {
       if (search === this.search) this.store.set({ state: "failed", problem: message(error) });
+    }
+  }
+
+  /** The text after an attempt; the same text: it cannot be done. */
+  private async edited({ of, edits }: Attempt): Promise<string> {
+    try {
+      return applied(of, (await this.api.edit(of, edits)).edits);
+    } catch (error) {
+      if (error instanceof ApiError && error.status === 422) return of;
+      throw error;
     }
   }
 

@@ -119,6 +119,11 @@ export class Sources {
     }
   }
 
+  /** Files have other texts now. */
+  async reread(files: readonly string[]): Promise<void> {
+    await Promise.all([this.look(), ...files.filter((file) => this.store.get().files.has(file)).map((file) => this.open(file))]);
+  }
+
   /** Writes the beginning of a function that is missing. */
   async add({ subsystem, function: name }: FunctionShown): Promise<void> {
     try {

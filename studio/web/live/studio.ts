@@ -7,6 +7,7 @@ import { Emergency } from "./emergency";
 import { Draft, message } from "./draft";
 import type { Project, RunRequest, Verdict } from "./protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
+import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
@@ -22,26 +23,6 @@ import { Stage } from "./stage";
 import { Store } from "./store";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
-
-export type View = "net" | "structure" | "fleet";
-export const panelNames = ["inspect", "verify", "play", "run", "recordings"] as const;
-export type PanelName = (typeof panelNames)[number];
-
-export interface ViewState {
-  view: View;
-  panel: PanelName;
-  text: boolean;
-  theme: "light" | "dark";
-  /** Path of the selected element. */
-  selected: string | null;
-  /** Line of the specification to show in the text pane, with a number that makes each request new. */
-  line: { line: number; request: number } | null;
-  /** Path to fly to, with a number that makes each request new. */
-  flight: { path: string; request: number } | null;
-  /** Pages that the user folded or unfolded, against the rule. */
-  folds: ReadonlyMap<string, boolean>;
-  searching: boolean;
-}
 
 const kept = "tessera.view";
 
@@ -106,6 +87,8 @@ export class Studio {
   private reloading = false;
 
   constructor() {
+    this.draft.saveOthers = () => this.sources.saveAll();
+    this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
       sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
@@ -239,6 +222,7 @@ export class Studio {
 
   /** Saves the specification and all C++, since a run uses the files on disk. false: not all of it is saved. */
   async saveAll(): Promise<boolean> {
+    await this.draft.settled();
     if (this.draft.dirty && !(await this.draft.save())) return false;
     const saved = await this.sources.saveAll();
     if (!saved) this.runner.store.set({ problem: this.sources.store.get().problem });

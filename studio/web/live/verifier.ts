@@ -45,6 +45,7 @@ export class Verifier {
   }
 
   async start(): Promise<void> {
+    await this.draft.settled();
     const { text, net } = this.draft.store.get();
     this.store.set({ state: "running", property: "", states: 0, rate: 0, verdicts: [], text, net, problem: "" });
     try {

@@ -1,14 +1,30 @@
+/** The change of a file beside the text by an action. */
+export interface FileStep {
+  file: string;
+  before: string;
+  after: string;
+}
+
+/** A text, and the change of files that leads to it from the step before. */
+interface Step {
+  text: string;
+  files: readonly FileStep[];
+}
+
 /** Undo and redo of a text. Changes of one kind that follow each other quickly are one step. */
 export class History {
-  private readonly past: string[] = [];
-  private readonly future: string[] = [];
+  private readonly past: Step[] = [];
+  private readonly future: Step[] = [];
   private lastKind = "";
   private lastTime = -Infinity;
+  private now: Step;
 
-  constructor(private text: string) {}
+  constructor(text: string) {
+    this.now = { text, files: [] };
+  }
 
   get current(): string {
-    return this.text;
+    return this.now.text;
   }
   get canUndo(): boolean {
     return this.past.length > 0;
@@ -18,15 +34,24 @@ export class History {
   }
 
   /** kind: the kind of change ("typing"); now: in milliseconds. */
-  change(text: string, kind: string, now: number): void {
-    if (text === this.text) return;
+  change(text: string, kind: string, now: number, files: readonly FileStep[] = []): void {
+    if (text === this.now.text) return;
     const joins = kind === "typing" && this.lastKind === kind && now - this.lastTime < 600;
-    if (!joins) this.past.push(this.text);
+    if (!joins) this.past.push(this.now);
     if (this.past.length > 500) this.past.shift();
     this.future.length = 0;
-    this.text = text;
+    this.now = { text, files: joins ? this.now.files : files };
     this.lastKind = kind;
     this.lastTime = now;
+  }
+
+  /** The text and the files that a step leads to; undefined: there is none. */
+  ahead(way: "undo" | "redo"): Step | undefined {
+    if (way === "redo") return this.future.at(-1);
+    const before = this.past.at(-1);
+    return (
+      before && { text: before.text, files: this.now.files.map((one) => ({ ...one, before: one.after, after: one.before })) }
+    );
   }
 
   undo(): string | undefined {
@@ -36,11 +61,12 @@ export class History {
     return this.step(this.future, this.past);
   }
 
-  private step(from: string[], to: string[]): string | undefined {
-    const text = from.pop();
-    if (text === undefined) return undefined;
-    to.push(this.text);
+  private step(from: Step[], to: Step[]): string | undefined {
+    const step = from.pop();
+    if (step === undefined) return undefined;
+    to.push(this.now);
     this.lastKind = "";
-    return (this.text = text);
+    this.now = step;
+    return step.text;
   }
 }

@@ -1,5 +1,5 @@
 import { useStore, useStudio } from "../hooks/use";
-import type { PanelName } from "../live/studio";
+import type { PanelName } from "../model/view_state";
 import { InspectPanel } from "./inspect_panel";
 import { PlayPanel } from "./run/play_panel";
 import { RecordingsPanel } from "./run/recordings_panel";

@@ -1,5 +1,5 @@
 import { useStore, useStudio } from "../hooks/use";
-import type { View } from "../live/studio";
+import type { View } from "../model/view_state";
 import { About } from "./about";
 import { Icon, IconButton } from "./icons";
 
@@ -33,13 +33,19 @@ export function Toolbar() {
       </button>
       <span className="spring" />
       <Verdicts />
-      <IconButton name="undo" label="Undo" title="Undo (Ctrl Z)" disabled={!draft.canUndo} onClick={() => studio.draft.undo()} />
+      <IconButton
+        name="undo"
+        label="Undo"
+        title="Undo (Ctrl Z)"
+        disabled={!draft.canUndo}
+        onClick={() => void studio.draft.undo()}
+      />
       <IconButton
         name="redo"
         label="Redo"
         title="Redo (Ctrl Shift Z)"
         disabled={!draft.canRedo}
-        onClick={() => studio.draft.redo()}
+        onClick={() => void studio.draft.redo()}
       />
       <button
         className="icon"

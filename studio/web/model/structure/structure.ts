@@ -231,6 +231,12 @@ function readChannel(yaml: YamlText, index: number): Channel {
   };
 }
 
+/** The channel of the specification that a channel of the net was made from: "a[2].x.y->b[3].z.u". */
+export function channelOf(structure: Structure, name: string): Channel | undefined {
+  const [from = "", to = ""] = name.split("->").map(withoutIndex);
+  return structure.channels.find((one) => withoutIndex(one.from) === from && withoutIndex(one.to) === to);
+}
+
 /**
  * The element that a path names: `robot`, `robot.control`, `robot.control.follow`,
  * `channel:2`, `template:rover.control`, `input:robot.control.line`. A buffer is also found without its direction, if no

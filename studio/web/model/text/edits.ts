@@ -1,22 +1,28 @@
-import { references, referencesInto, referencesTo, type Reference } from "../structure/references";
-import {
-  type Agent,
-  type Behaviour,
-  type Buffer,
-  type Channel,
-  type Structure,
-  type Subsystem,
-  type SubsystemKind,
-} from "../structure/structure";
-import { nextToRemove } from "./next_edits";
-import { apply, scalarText, type TextEdit, type YamlPath, type YamlText } from "./yaml_text";
+import type { Agent, Behaviour, Buffer, Channel, Subsystem, SubsystemKind } from "../structure/structure";
+import { lineStarts } from "./line_ends";
 
-/**
- * Changes of a specification. Each function takes the structure of a text and returns
- * the text after the change. New names are in renames.ts.
- */
+/** Edits as the server does them (`POST /api/edit`): share/tessera/studio.schema.json defines their form. */
 
-const done = (structure: Structure, edits: readonly TextEdit[]) => apply(structure.yaml.text, edits);
+export type EditValue = string | EditValue[] | { [key: string]: EditValue };
+export interface Edit {
+  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template";
+  at?: (string | number)[];
+  key?: string;
+  text?: string;
+  as?: "scalar" | "list" | "quoted" | "as_is";
+  value?: EditValue;
+  fields?: { [key: string]: string };
+}
+/** Lines and letters count from 0. */
+interface Place {
+  line: number;
+  character: number;
+}
+interface PlacedText {
+  from: Place;
+  to: Place;
+  text: string;
+}
 
 /** `name`, with a number if it is taken. */
 export function freeName(name: string, taken: readonly string[]): string {
@@ -26,175 +32,74 @@ export function freeName(name: string, taken: readonly string[]): string {
 
 export const isName = (name: string) => /^[A-Za-z](?:_?[A-Za-z0-9])*$/.test(name) && name.length <= 64;
 
-// ------------------------------------------------------------------------------------------------ add
-
-export function addAgent(structure: Structure, name: string): string {
-  const body = { control: { rate: "10 Hz", behaviours: { run: "{}" } } };
-  return done(structure, structure.yaml.insert(["agents"], name, body));
+/** The text after edits that do not overlap. */
+export function applied(text: string, edits: readonly PlacedText[]): string {
+  const starts = lineStarts(text);
+  const offset = ({ line, character }: Place) => (starts[line] ?? text.length) + character;
+  return edits
+    .map(({ from, to, text: insert }) => ({ from: offset(from), to: offset(to), insert }))
+    .sort((a, b) => b.from - a.from || b.to - a.to)
+    .reduce((now, { from, to, insert }) => now.slice(0, from) + insert + now.slice(to), text);
 }
 
-export function addSubsystem(structure: Structure, agent: Agent, kind: SubsystemKind, name: string): string {
-  const body = { rate: "50 Hz", behaviours: { run: "{}" } };
-  const at = kind === "control" ? agent.body : [...agent.body, `${kind}s`];
-  return done(structure, structure.yaml.insert(at, kind === "control" ? "control" : name, body));
-}
+/** A place in the specification. */
+export type At = readonly (string | number)[];
+const path = (at: At) => [...at];
 
-export function addBehaviour(structure: Structure, subsystem: Subsystem, name: string): string {
-  return done(structure, structure.yaml.insert([...subsystem.yaml, "behaviours"], name, "{}"));
-}
+export const set = (at: At, key: string, text: string, as: NonNullable<Edit["as"]> = "scalar"): Edit => ({
+  do: "set",
+  at: path(at),
+  key,
+  text,
+  as,
+});
+export const insert = (at: At, key: string, value: EditValue): Edit => ({
+  do: "insert",
+  at: path(at),
+  key,
+  value,
+});
+export const append = (at: At, value: EditValue): Edit => ({ do: "append", at: path(at), value });
+export const replace = (at: At, value: EditValue): Edit => ({ do: "replace", at: path(at), value });
+/** Also removes what cannot be without it. */
+export const remove = (at: At): Edit => ({ do: "remove", at: path(at) });
+/** Gives it another name wherever it is used, also in C++ and params.yaml. */
+export const rename = (at: At, name: string): Edit => ({ do: "rename", at: path(at), text: name });
+export const makeTemplate = (agent: Agent): Edit => ({ do: "make_template", at: path(agent.yaml) });
+
+const fresh = (rate: string) => ({ rate, behaviours: { run: "{}" } });
+export const freshAgent = { control: fresh("10 Hz") };
+
+export const addSubsystem = (agent: Agent, kind: SubsystemKind, name: string): Edit =>
+  insert(kind === "control" ? agent.body : [...agent.body, `${kind}s`], kind === "control" ? kind : name, fresh("50 Hz"));
+export const addBehaviour = (subsystem: Subsystem, name: string): Edit => insert([...subsystem.yaml, "behaviours"], name, "{}");
 
 const bufferKey = { input: "inputs", output: "outputs", real: "real" } as const;
+export const addBuffer = (subsystem: Subsystem, direction: Buffer["direction"], name: string, type: string): Edit =>
+  insert([...subsystem.yaml, bufferKey[direction]], name, type);
 
-export function addBuffer(
-  structure: Structure,
-  subsystem: Subsystem,
-  direction: Buffer["direction"],
-  name: string,
-  type: string,
-): string {
-  return done(structure, structure.yaml.insert([...subsystem.yaml, bufferKey[direction]], name, scalarText(type)));
-}
-
-export interface ChannelModes {
+export interface ChannelFields {
   send: Channel["send"];
   receive: Channel["receive"];
   timeout: string;
+  model: string;
 }
 
-/** The short form, if it can express the channel. */
-function channelText(from: string, to: string, modes: ChannelModes): string {
-  const fields = [
-    ...(modes.send === "blocking" ? ["send: blocking"] : []),
-    ...(modes.receive === "blocking" ? ["receive: blocking"] : []),
-    ...(modes.timeout ? [`timeout: ${scalarText(modes.timeout)}`] : []),
-  ];
-  if (fields.length === 0) return `${from} -> ${to}`;
-  return `{ ${[`from: ${scalarText(from)}`, `to: ${scalarText(to)}`, ...fields].join(", ")} }`;
-}
+export const connect = (from: string, to: string): Edit => ({ do: "connect", at: ["channels"], fields: { from, to } });
+export const setChannel = ({ index }: Channel, fields: Partial<ChannelFields>): Edit => ({
+  do: "channel",
+  at: ["channels", index],
+  fields,
+});
 
-export function addChannel(structure: Structure, from: string, to: string, modes: ChannelModes): string {
-  return done(structure, structure.yaml.append(["channels"], channelText(from, to, modes)));
-}
-
-// ------------------------------------------------------------------------------------------------ change
-
-/** Sets a field such as `rate` or `terminal`; an empty text removes it. */
-export function setField(structure: Structure, at: YamlPath, key: string, text: string): string {
-  return done(structure, structure.yaml.set(at, key, text));
-}
-
-export function setType(structure: Structure, buffer: Buffer, type: string): string {
-  return done(structure, structure.yaml.set(buffer.yaml.slice(0, -1), buffer.name, type));
-}
-
-export function setChannel(structure: Structure, channel: Channel, change: Partial<ChannelModes>): string {
-  const { yaml } = structure;
-  const at = ["channels", channel.index];
-  if (!yaml.map(at)) return done(structure, yaml.replace(at, channelText(channel.from, channel.to, { ...channel, ...change })));
-  const [key, value] = Object.entries(change)[0]!;
-  return done(structure, yaml.set(at, key, value === "non_blocking" ? "" : value));
-}
-
-/** Gives a channel a communication model of `models:`; empty: one of the built-in ones. */
-export function setModel(structure: Structure, channel: Channel, model: string): string {
-  const { yaml } = structure;
-  const at = ["channels", channel.index];
-  if (!yaml.map(at)) return model ? done(structure, yaml.replace(at, channelWithModel(channel, model))) : yaml.text;
-  // A model says itself how the ends wait.
-  const rest = model ? yaml.without(at, ["send", "receive"]) : yaml;
-  return apply(rest.text, rest.set(at, "model", model));
-}
-
-const channelWithModel = ({ from, to }: Channel, model: string) =>
-  `{ ${[`from: ${scalarText(from)}`, `to: ${scalarText(to)}`, `model: ${scalarText(model)}`].join(", ")} }`;
-
-/** The safe command and the limits of a real buffer. */
-export function deviceEntries({ yaml }: Structure, subsystem: Subsystem, { direction, name }: Buffer): YamlPath[] {
-  if (direction !== "real") return [];
-  return ["safe", "limits"].flatMap((part) =>
-    yaml
-      .keys([...subsystem.yaml, part])
-      .filter((key) => key === name || key.startsWith(`${name}.`))
-      .map((key) => [...subsystem.yaml, part, key]),
-  );
-}
-
-// ------------------------------------------------------------------------------------------------ remove
-
-/** The parts of the file that cannot be without the elements that they name. Properties and checks stay, for the user to judge. */
-function dependents({ yaml }: Structure, needed: readonly Reference[]): YamlPath[] {
-  const paths = [...new Map(needed.map(({ at }) => [JSON.stringify(at), at])).values()];
-  const isIn = (...section: string[]) => paths.filter((at) => section.every((key, index) => at[index] === key));
-  return [
-    ...[isIn("channels"), isIn("drivers"), isIn("simulation", "drivers"), isIn("simulation", "models")].flat(),
-    ...processesWithout(yaml, isIn("deploy")),
-  ];
-}
-
-/** A process without agents goes, and so does a deployment without processes. */
-function processesWithout(yaml: YamlText, agents: readonly YamlPath[]): YamlPath[] {
-  const all = yaml.keys(["deploy", "processes"]);
-  const removed = all.flatMap((name): YamlPath[] => {
-    const process = ["deploy", "processes", name];
-    const mine = agents.filter((at) => at[2] === name);
-    const list = yaml.seq(yaml.map(process) ? [...process, "agents"] : process);
-    return mine.length > 0 && mine.length === (list?.items.length ?? 1) ? [process] : mine;
-  });
-  return all.length > 0 && removed.filter((at) => at.length === 3).length === all.length ? [["deploy"]] : removed;
-}
-
-/**
- * Removes several elements, one after the other: the rest of a list decides how the next one is removed.
- */
-function removeAll(structure: Structure, paths: readonly YamlPath[], reread: (text: string) => Structure): string {
-  const fromBelow = [...paths].sort(
-    (a, b) => structure.yaml.line(b) - structure.yaml.line(a) || Number(b.at(-1)) - Number(a.at(-1)),
-  );
-  return fromBelow.reduce((now, path) => reread(done(now, now.yaml.remove(path))), structure).yaml.text;
-}
-
-export function removeAgent(structure: Structure, agent: Agent, reread: (text: string) => Structure): string {
-  const needed = references(structure).filter((one) => one.agent === agent.name);
-  return removeAll(structure, [agent.yaml, ...dependents(structure, needed)], reread);
-}
-
-export function removeSubsystem(structure: Structure, subsystem: Subsystem, reread: (text: string) => Structure): string {
-  return removeAll(structure, [subsystem.yaml, ...dependents(structure, referencesTo(structure, subsystem))], reread);
-}
-
-export function removeBuffer(
-  structure: Structure,
-  subsystem: Subsystem,
-  buffer: Buffer,
-  reread: (text: string) => Structure,
-): string {
-  const needed = referencesInto(structure, subsystem).filter(
-    ({ kind, name }) => kind === buffer.direction && name === buffer.name,
-  );
-  return removeAll(
-    structure,
-    [buffer.yaml, ...deviceEntries(structure, subsystem, buffer), ...dependents(structure, needed)],
-    reread,
-  );
-}
-
-/** Also removes the entries of `next` that lead to it. */
-export function removeBehaviour(
-  structure: Structure,
-  subsystem: Subsystem,
-  behaviour: Behaviour,
-  reread: (text: string) => Structure,
-): string {
-  const paths: YamlPath[] = [behaviour.yaml];
-  if (subsystem.start === behaviour.name) paths.push([...subsystem.yaml, "start"]);
-  for (const other of subsystem.behaviours) {
-    if (other === behaviour) continue;
-    const hits = other.next.flatMap((entry, at) => (entry.to === behaviour.name ? [at] : []));
-    paths.push(...nextToRemove(structure, other, hits));
-  }
-  return removeAll(structure, paths, reread);
-}
-
-export function removeChannel(structure: Structure, channel: Channel): string {
-  return done(structure, structure.yaml.remove(["channels", channel.index]));
-}
+export const addNext = (behaviour: Behaviour, fields: Behaviour["next"][number]): Edit => ({
+  do: "next",
+  at: path(behaviour.yaml),
+  fields: { ...fields },
+});
+/** An empty `to` removes the entry, an empty `when` its condition. */
+export const changeNext = (behaviour: Behaviour, entry: number, fields: Partial<Behaviour["next"][number]>): Edit => ({
+  ...addNext(behaviour, { to: "", when: "" }),
+  key: String(entry),
+  fields,
+});

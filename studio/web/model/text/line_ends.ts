@@ -13,3 +13,8 @@ export const withFeeds = (text: string) => text.replace(/\r\n?/g, "\n");
 
 /** end: for a text whose lines end with "\n". */
 export const withEnds = (text: string, end: LineEnd) => (end === "\n" ? text : text.replaceAll("\n", end));
+
+/** The offset of each line. A line ends with LF, CRLF or CR. */
+export function lineStarts(text: string): number[] {
+  return [0, ...[...text.matchAll(/\r\n?|\n/g)].map(({ 0: end, index }) => index + end.length)];
+}

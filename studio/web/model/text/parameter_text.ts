@@ -1,6 +1,7 @@
 import { isMap, isScalar, isSeq } from "yaml";
+import { set, type Edit } from "./edits";
 import { isNumber } from "./type_text";
-import { scalarText, type TextEdit, type YamlPath, type YamlText } from "./yaml_text";
+import type { YamlPath, YamlText } from "./yaml_text";
 
 /** The parts of a parameter. Its type is empty if its value determines it. */
 export interface ParameterParts {
@@ -36,38 +37,32 @@ export function parameterParts(yaml: YamlText, at: YamlPath): ParameterParts {
   };
 }
 
-/** The value in the form of the file: a text needs its quotes. */
-const written = (value: string, type: string) => (type.startsWith("string") ? JSON.stringify(value) : scalarText(value));
+/** A part of a map in one line. */
+const inMap = (text: string) => (/^[\w./+-][^,[\]{}#:"']*$/.test(text) || text.startsWith("[") ? text : JSON.stringify(text));
 
 /** Changes parts of a parameter. It keeps its short form as long as that can express it. */
-export function setParameter(yaml: YamlText, at: YamlPath, change: Partial<ParameterParts>): TextEdit[] {
+export function setParameter(yaml: YamlText, at: YamlPath, change: Partial<ParameterParts>): Edit {
   const before = parameterParts(yaml, at);
   const after = { ...before, ...change };
   if (after.type && !isNumber(after.type.split("[")[0]!)) Object.assign(after, { unit: "", min: "", max: "" });
   if (after.type === "bool" && !/^(true|false)$/.test(after.value)) after.value = "false";
+  // A text needs its quotes.
+  const as = after.type.startsWith("string") ? "quoted" : "scalar";
   if (isMap(yaml.node(at)) && after.type === before.type) {
     const apart = yaml.node([...at, "unit"]) !== undefined;
     const [key] = Object.keys(change) as (keyof ParameterParts)[];
-    if (key === "min" || key === "max") return yaml.set(at, key, after[key]);
-    if (key === "unit" && (apart || !before.unit)) return yaml.set(at, "unit", after.unit);
-    return yaml.set(at, "default", apart || !after.unit ? after.value : `${after.value} ${after.unit}`, (text) =>
-      written(text, after.type),
-    );
+    if (key === "min" || key === "max") return set(at, key, after[key]);
+    if (key === "unit" && (apart || !before.unit)) return set(at, "unit", after.unit);
+    return set(at, "default", apart || !after.unit ? after.value : `${after.value} ${after.unit}`, as);
   }
+  const [above, name] = [at.slice(0, -1), String(at.at(-1))];
   const short = !after.min && !after.max && (after.type === "" || after.type === "bool" || after.type === "string");
-  if (short)
-    return yaml.set(
-      at.slice(0, -1),
-      String(at.at(-1)),
-      after.unit ? `${after.value} ${after.unit}` : after.value || '""',
-      (text) => written(after.value ? text : "", after.type),
-    );
-  const parts = [
-    ...(after.type ? [`type: ${scalarText(after.type)}`] : []),
-    `default: ${written(after.value, after.type)}`,
-    ...(after.min ? [`min: ${scalarText(after.min)}`] : []),
-    ...(after.max ? [`max: ${scalarText(after.max)}`] : []),
-    ...(after.unit ? [`unit: ${scalarText(after.unit)}`] : []),
-  ];
-  return yaml.set(at.slice(0, -1), String(at.at(-1)), `{ ${parts.join(", ")} }`, (text) => text);
+  if (short) return set(above, name, after.unit ? `${after.value} ${after.unit}` : after.value, after.value ? as : "quoted");
+  const held = as === "quoted" ? JSON.stringify(after.value) : inMap(after.value);
+  const parts = Object.entries({ ...after, default: held }).flatMap(([key, text]) =>
+    key === "value" || text === "" ? [] : [[key, key === "default" ? held : inMap(text)]],
+  );
+  const order = ["type", "default", "min", "max", "unit"];
+  parts.sort(([a], [b]) => order.indexOf(a!) - order.indexOf(b!));
+  return set(above, name, `{ ${parts.map(([key, text]) => `${key}: ${text}`).join(", ")} }`, "as_is");
 }

@@ -1,5 +1,5 @@
 import { accepts, fieldsOf, resolved, type FieldShape, type Schema } from "./schema_fields";
-import type { Value } from "./yaml_text";
+import type { EditValue } from "./edits";
 
 /** The form of a value of the specification. The schema decides it; among alternatives, the present value does. */
 export type ValueShape =
@@ -141,7 +141,7 @@ function isCollection(schema: Schema, root: Schema): boolean {
 }
 
 /** The least value that the schema accepts: what it needs, with texts that are to be replaced. */
-export function freshValue(schema: Schema, root: Schema): Value {
+export function freshValue(schema: Schema, root: Schema): EditValue {
   const {
     anyOf,
     enum: values,

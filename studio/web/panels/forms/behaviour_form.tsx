@@ -1,7 +1,5 @@
 import * as edits from "../../model/text/edits";
-import { addNext, changeNext, removeNext } from "../../model/text/next_edits";
-import { renameBehaviour } from "../../model/text/renames";
-import { readStructure, type Behaviour, type Structure, type Subsystem } from "../../model/structure/structure";
+import type { Behaviour, Structure, Subsystem } from "../../model/structure/structure";
 import { CodeForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
@@ -17,15 +15,15 @@ export function BehaviourForm({
 }) {
   const edit = useEdit();
   const field = (key: string) => structure.yaml.valueText([...behaviour.yaml, key]) ?? "";
-  const set = (key: string) => (text: string) => edit(edits.setField(structure, behaviour.yaml, key, text));
+  const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
   return (
     <>
       <Field
         label="Name"
         value={behaviour.name}
         wrong={nameProblem(behaviour.name, namesIn(subsystem))}
-        hint="Its C++ function has the same name"
-        onChange={(name) => edit(renameBehaviour(structure, subsystem, behaviour, name), `${subsystem.path}.${name}`)}
+        hint="Its C++ function has the same name, and changes with it"
+        onChange={(name) => edit(edits.rename(behaviour.yaml, name), `${subsystem.path}.${name}`)}
       />
       <Field
         label="Terminal condition"
@@ -36,7 +34,7 @@ export function BehaviourForm({
         onChange={set("terminal")}
       />
       <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
-      <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
+      <NextForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Sends" mono value={field("send")} placeholder="all outputs" onChange={set("send")} />
       <Field label="Receives" mono value={field("receive")} placeholder="all inputs" onChange={set("receive")} />
       <Choice
@@ -51,23 +49,17 @@ export function BehaviourForm({
       <CodeForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
       <div className="buttons">
-        <Remove
-          what="behaviour"
-          structure={structure}
-          at={behaviour.yaml}
-          after={() => edits.removeBehaviour(structure, subsystem, behaviour, readStructure)}
-          onClick={(text) => edit(text, subsystem.path)}
-        />
+        <Remove what="behaviour" structure={structure} at={behaviour.yaml} select={subsystem.path} />
       </div>
     </>
   );
 }
 
-function NextForm({ structure, behaviour, subsystem }: { structure: Structure; behaviour: Behaviour; subsystem: Subsystem }) {
+function NextForm({ behaviour, subsystem }: { behaviour: Behaviour; subsystem: Subsystem }) {
   const edit = useEdit();
   const { next } = behaviour;
   const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
-  const change = (at: number, part: Partial<Behaviour["next"][number]>) => edit(changeNext(structure, behaviour, at, part));
+  const change = (at: number, part: Partial<Behaviour["next"][number]>) => edit(edits.changeNext(behaviour, at, part));
   const other = targets.find((name) => name !== behaviour.name) ?? "end";
   return (
     <fieldset className="next">
@@ -79,7 +71,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
             label={`Then ${at + 1}: to`}
             value={entry.to}
             choices={targets}
-            onChange={(to) => (to ? change(at, { to }) : edit(removeNext(structure, behaviour, at)))}
+            onChange={(to) => change(at, { to: to.trim() })}
           />
           <Field
             label="when"
@@ -91,7 +83,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
           />
         </div>
       ))}
-      <button onClick={() => edit(addNext(structure, behaviour, { to: other, when: "" }))}>Add what follows</button>
+      <button onClick={() => void edit(edits.addNext(behaviour, { to: other, when: "" }))}>Add what follows</button>
     </fieldset>
   );
 }

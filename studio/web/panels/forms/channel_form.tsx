@@ -25,7 +25,7 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
   const at: YamlPath = ["channels", channel.index];
   const problem = useProblems(structure);
   const models = structure.yaml.keys(["models"]);
-  const set = (change: Partial<edits.ChannelModes>) => edit(edits.setChannel(structure, channel, change));
+  const set = (fields: Partial<edits.ChannelFields>) => edit(edits.setChannel(channel, fields));
   return (
     <>
       <dl>
@@ -43,7 +43,7 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
             title: one || "built in",
           }))}
           problem={problem([...at, "model"])}
-          onChange={(model) => edit(edits.setModel(structure, channel, model))}
+          onChange={(model) => set({ model })}
         />
       )}
       {!channel.model && (
@@ -61,13 +61,7 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
       />
       {structure.yaml.map(at) && <ObjectFields structure={structure} at={at} shapes={timeouts} />}
       <div className="buttons">
-        <Remove
-          what="channel"
-          structure={structure}
-          at={at}
-          after={() => edits.removeChannel(structure, channel)}
-          onClick={(text) => edit(text, null)}
-        />
+        <Remove what="channel" structure={structure} at={at} select={null} />
       </div>
     </>
   );

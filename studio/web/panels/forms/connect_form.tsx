@@ -1,5 +1,5 @@
 import { useId, useState } from "react";
-import { addChannel } from "../../model/text/edits";
+import * as edits from "../../model/text/edits";
 import { already, channelEnd, partnersOf } from "../../model/structure/connections";
 import { channelPath, type Buffer, type Structure } from "../../model/structure/structure";
 import { useEdit } from "./form_parts";
@@ -23,8 +23,7 @@ export function ConnectForm({ structure, buffer }: { structure: Structure; buffe
     if (!chosen) return;
     const ends = [buffer.path, chosen.path].map((path) => channelEnd(structure, path));
     const [from, to] = sends ? ends : ends.reverse();
-    const modes = { send: "non_blocking", receive: "non_blocking", timeout: "" } as const;
-    edit(addChannel(structure, from!, to!, modes), channelPath(structure.channels.length));
+    void edit(edits.connect(from!, to!), channelPath(structure.channels.length));
   };
   return (
     <div className="field connect">

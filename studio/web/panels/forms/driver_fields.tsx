@@ -1,11 +1,12 @@
-import { useStudio } from "../../hooks/use";
 import { driverKinds, type DriverKind, type FieldShape } from "../../model/text/schema_fields";
-import { listAsTyped, listAsWritten } from "../../model/text/list_text";
+import { replace, set } from "../../model/text/edits";
+import { listAsTyped } from "../../model/text/list_text";
 import { fieldsFor } from "../../model/text/value_shape";
 import type { Structure } from "../../model/structure/structure";
 import { withoutIndex } from "../../model/structure/structure";
-import { apply, type YamlPath } from "../../model/text/yaml_text";
+import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
+import { useEdit } from "./form_parts";
 import { MapForm } from "./map_form";
 import { ObjectFields } from "./object_fields";
 import { driverHelp } from "./form_help";
@@ -61,7 +62,7 @@ export function DriversForm({ structure, where, targets }: DriversFormProps) {
       names={buffers.map(({ path }) => path)}
       fresh={{
         name: free?.path ?? "robot.sensor.device",
-        value: `{ ${first.kind}: ${listAsWritten(firstTarget(first, targets))} }`,
+        value: { [first.kind]: firstTarget(first, targets) },
       }}
       fields={(name) => <DriverFields structure={structure} at={[...at, name]} where={where} targets={targets} />}
       {...(buffers.length === 0 ? { hint: "A driver is the device behind a real buffer of a receptor or an effector" } : {})}
@@ -83,9 +84,8 @@ interface DriverFieldsProps {
 }
 
 function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
-  const studio = useStudio();
   const { yaml } = structure;
-  const edit = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
+  const edit = useEdit();
   const problem = useProblems(structure);
   const keys = yaml.keys(at);
   const is = kinds.find(({ kind }) => keys.includes(kind));
@@ -96,8 +96,7 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
     const next = kinds.find((one) => one.kind === kind)!;
     // Options belong to a kind. A target that the new kind also has stays.
     const kept = targets[kind]?.includes(target) ? target : firstTarget(next, targets);
-    const type = kind === "ros2" ? ", type: std_msgs/msg/Float64" : "";
-    edit(yaml.replace(at, `{ ${kind}: ${listAsWritten(kept)}${type} }`));
+    return edit(replace(at, { [kind]: kept, ...(kind === "ros2" ? { type: "std_msgs/msg/Float64" } : {}) }));
   };
   return (
     <>
@@ -120,7 +119,7 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
               hint={is.description}
               choices={targets[is.kind] ?? []}
               problem={problem([...at, is.kind])}
-              onChange={(text) => text.trim() && edit(yaml.set(at, is.kind, text, listAsWritten))}
+              onChange={(text) => text.trim() !== "" && edit(set(at, is.kind, text, "list"))}
             />
           )}
           <ObjectFields

@@ -1,8 +1,6 @@
 import * as edits from "../../model/text/edits";
-import * as renames from "../../model/text/renames";
 import {
   bufferSelection,
-  readStructure,
   type Agent,
   type Buffer,
   type Structure,
@@ -10,7 +8,6 @@ import {
   type Thing,
 } from "../../model/structure/structure";
 import { fieldOf, fieldsOf, type FieldShape } from "../../model/text/schema_fields";
-import { makeTemplate } from "../../model/text/template_edits";
 import { limitNames, titled } from "../../model/structure/inside_types";
 import { BehaviourForm } from "./behaviour_form";
 import { ChannelForm } from "./channel_form";
@@ -48,7 +45,6 @@ const shownAlone = "rate start stale inputs outputs real behaviours memory param
 
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
-  const template = makeTemplate(structure, agent);
   return (
     <>
       <Field
@@ -59,21 +55,21 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
           structure.agents.map((one) => one.name),
         )}
         hint={agent.template ? "" : namespaceHint}
-        onChange={(name) => edit(renames.renameAgent(structure, agent, name), name)}
+        onChange={(name) => edit(edits.rename(agent.yaml, name), name)}
       />
       <Field
         label="How many"
         value={agent.count}
         placeholder="one"
         hint={agent.template ? "A fleet of equal agents" : "A fleet of equal agents needs a template"}
-        onChange={(text) => edit(edits.setField(structure, agent.yaml, "count", text))}
+        onChange={(text) => edit(edits.set(agent.yaml, "count", text))}
       />
       <Field
         label="Uses the template"
         value={agent.template}
         placeholder="none: it has its own subsystems"
         choices={structure.yaml.keys(["templates"])}
-        onChange={(text) => edit(edits.setField(structure, agent.yaml, "use", text))}
+        onChange={(text) => edit(edits.set(agent.yaml, "use", text))}
       />
       {agent.count && (
         <Choice
@@ -83,21 +79,15 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
             { value: "", title: "nobody" },
             { value: "true", title: "the first one: a ring" },
           ]}
-          onChange={(text) => edit(edits.setField(structure, agent.yaml, "ring", text))}
+          onChange={(text) => edit(edits.set(agent.yaml, "ring", text))}
         />
       )}
       <SharedNote structure={structure} agent={agent} />
       {agent.template && <TemplateLink name={agent.template} />}
       <div className="buttons">
-        <AddSubsystem structure={structure} agent={agent} />
-        {template !== null && <button onClick={() => edit(template, agent.name)}>Make it a template</button>}
-        <Remove
-          what="agent"
-          structure={structure}
-          at={agent.yaml}
-          after={() => edits.removeAgent(structure, agent, readStructure)}
-          onClick={(text) => edit(text, null)}
-        />
+        <AddSubsystem agent={agent} />
+        {!agent.template && <button onClick={() => void edit(edits.makeTemplate(agent), agent.name)}>Make it a template</button>}
+        <Remove what="agent" structure={structure} at={agent.yaml} select={null} />
       </div>
     </>
   );
@@ -105,16 +95,16 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
 
 function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; subsystem: Subsystem; agent: Agent }) {
   const edit = useEdit();
-  const set = (key: string) => (text: string) => edit(edits.setField(structure, subsystem.yaml, key, text));
+  const set = (key: string) => (text: string) => edit(edits.set(subsystem.yaml, key, text));
   const taken = [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
   const addBuffer = (direction: Buffer["direction"], wish: string) => {
     const name = edits.freeName(wish, taken);
-    const text = edits.addBuffer(structure, subsystem, direction, name, structure.types[0] ?? "float64");
-    edit(text, bufferSelection(direction, `${subsystem.path}.${name}`));
+    const added = edits.addBuffer(subsystem, direction, name, structure.types[0] ?? "float64");
+    void edit(added, bufferSelection(direction, `${subsystem.path}.${name}`));
   };
   const addBehaviour = () => {
     const name = edits.freeName("act", taken);
-    edit(edits.addBehaviour(structure, subsystem, name), `${subsystem.path}.${name}`);
+    void edit(edits.addBehaviour(subsystem, name), `${subsystem.path}.${name}`);
   };
   return (
     <>
@@ -127,7 +117,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
             agent.subsystems.map((one) => one.name),
           )}
           hint={namespaceHint}
-          onChange={(name) => edit(renames.renameSubsystem(structure, subsystem, name), `${agent.name}.${name}`)}
+          onChange={(name) => edit(edits.rename(subsystem.yaml, name), `${agent.name}.${name}`)}
         />
       )}
       <SharedNote structure={structure} agent={agent} />
@@ -154,13 +144,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <button onClick={() => addBuffer("input", "input")}>Add input</button>
         <button onClick={() => addBuffer("output", "output")}>Add output</button>
         {subsystem.kind !== "control" && <button onClick={() => addBuffer("real", "device")}>Add real buffer</button>}
-        <Remove
-          what="subsystem"
-          structure={structure}
-          at={subsystem.yaml}
-          after={() => edits.removeSubsystem(structure, subsystem, readStructure)}
-          onClick={(text) => edit(text, agent.name)}
-        />
+        <Remove what="subsystem" structure={structure} at={subsystem.yaml} select={agent.name} />
       </div>
       <ObjectFields structure={structure} at={subsystem.yaml} shapes={optionsOf[subsystem.kind]} />
       <MapForm
@@ -169,7 +153,6 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         title="Memory"
         one="memory"
         fresh={{ name: "count", value: "int32" }}
-        renamed={(_, from, to) => renames.renameCell(structure, subsystem, "memory", from, to)}
         hint="Values that stay from one round to the next"
         fields={(name) => <MemoryFields structure={structure} at={[...subsystem.yaml, "memory", name]} />}
       />
@@ -179,7 +162,6 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         title="Parameters"
         one="parameter"
         fresh={{ name: "limit", value: "1.0" }}
-        renamed={(_, from, to) => renames.renameCell(structure, subsystem, "parameters", from, to)}
         fields={(name) => <ParameterFields structure={structure} at={[...subsystem.yaml, "parameters", name]} />}
       />
       {subsystem.kind === "effector" && subsystem.buffers.some(({ direction }) => direction === "real") && (
@@ -240,24 +222,17 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
         label="Name"
         value={buffer.name}
         wrong={nameProblem(buffer.name, namesIn(subsystem))}
-        onChange={(name) =>
-          edit(
-            renames.renameBuffer(structure, subsystem, buffer, name),
-            bufferSelection(buffer.direction, `${subsystem.path}.${name}`),
-          )
-        }
+        onChange={(name) => edit(edits.rename(buffer.yaml, name), bufferSelection(buffer.direction, `${subsystem.path}.${name}`))}
       />
-      <TypeInputs structure={structure} value={buffer.type} onChange={(type) => edit(edits.setType(structure, buffer, type))} />
+      <TypeInputs
+        structure={structure}
+        value={buffer.type}
+        onChange={(type) => edit(edits.set(buffer.yaml.slice(0, -1), buffer.name, type))}
+      />
       <LimitsForm structure={structure} subsystem={subsystem} buffer={buffer} />
       <ConnectForm key={buffer.selection} structure={structure} buffer={buffer} />
       <div className="buttons">
-        <Remove
-          what="buffer"
-          structure={structure}
-          at={buffer.yaml}
-          after={() => edits.removeBuffer(structure, subsystem, buffer, readStructure)}
-          onClick={(text) => edit(text, subsystem.path)}
-        />
+        <Remove what="buffer" structure={structure} at={buffer.yaml} select={subsystem.path} />
       </div>
     </>
   );

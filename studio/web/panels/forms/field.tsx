@@ -1,4 +1,4 @@
-import { useEffect, useId, useState, type KeyboardEvent } from "react";
+import { useEffect, useId, useRef, useState, type KeyboardEvent } from "react";
 import { useStudio } from "../../hooks/use";
 
 interface FieldProps {
@@ -17,7 +17,8 @@ interface FieldProps {
   problem?: string | undefined;
   /** It is no part of the specification, whose changes it does not undo. */
   apart?: boolean;
-  onChange: (text: string) => void;
+  /** false: the value stays as it was. */
+  onChange: (text: string) => unknown;
 }
 
 /** Whether the keys of undo or of redo were pressed. */
@@ -50,8 +51,13 @@ export function Field({
   useEffect(() => setText(value), [value]);
   const refused = text === value ? undefined : wrong?.(text);
   const problem = text === value ? found : refused;
-  const take = () => {
-    if (text !== value && !refused) onChange(text);
+  const sent = useRef<string | null>(null);
+  const take = async () => {
+    if (text === value || refused || sent.current === text) return;
+    sent.current = text;
+    const done = await onChange(text);
+    if (sent.current === text) sent.current = null;
+    if (done === false) setText((now) => (now === text ? value : now));
   };
   const key = (event: KeyboardEvent<HTMLInputElement>) => {
     const undo = undoOf(event);
@@ -59,13 +65,13 @@ export function Field({
       // The browser would undo letters, also those of values that have taken effect long ago.
       event.preventDefault();
       event.stopPropagation();
-      if (text !== value) setText(value);
-      else if (undo === "undo") studio.draft.undo();
-      else studio.draft.redo();
+      if (text !== value && sent.current !== text) setText(value);
+      else if (undo === "undo") void studio.draft.undo();
+      else void studio.draft.redo();
     }
-    if (event.key === "Enter") take();
+    if (event.key === "Enter") void take();
     // The text of the field is saved, too.
-    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") take();
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") void take();
     if (event.key === "Escape") setText(value);
   };
   return (
@@ -83,7 +89,7 @@ export function Field({
         spellCheck={false}
         autoComplete="off"
         onChange={(event) => setText(event.target.value)}
-        onBlur={take}
+        onBlur={() => void take()}
         onKeyDown={key}
       />
       {choices && (
@@ -131,7 +137,7 @@ export function Choice<T extends string>({
   choices: readonly { value: T; title: string }[];
   hint?: string;
   problem?: string | undefined;
-  onChange: (value: T) => void;
+  onChange: (value: T) => unknown;
 }) {
   const id = useId();
   return (
@@ -142,7 +148,7 @@ export function Choice<T extends string>({
         value={value}
         aria-invalid={problem !== undefined}
         aria-describedby={problem || hint ? `${id}-hint` : undefined}
-        onChange={(event) => onChange(event.target.value as T)}
+        onChange={(event) => void onChange(event.target.value as T)}
       >
         {choices.map((choice) => (
           <option key={choice.value} value={choice.value}>

@@ -1,7 +1,5 @@
 import { limitNames } from "../../model/structure/inside_types";
 import type { Structure, Subsystem } from "../../model/structure/structure";
-import { renamePlaced, renameUsed } from "../../model/text/renames";
-import { scalarText } from "../../model/text/yaml_text";
 import type { HelpByKey } from "./object_fields";
 import type { Targets } from "./targets";
 
@@ -27,7 +25,6 @@ export const modelHelp: HelpByKey = {
     hint: "A channel chooses one of them instead of the built-in ones",
     fresh: { name: "own", value: oneValue },
     folds: true,
-    renamed: (text, from, to) => renameUsed(text, "models", from, to),
   },
   shared: {
     one: "shared place",
@@ -97,12 +94,12 @@ export function worldHelp({ yaml }: Structure, targets: Targets): HelpByKey {
     ...asked,
     checks: {
       hint: "Conditions of a simulated run",
-      fresh: { value: { name: `check ${count + 1}`, never: JSON.stringify(each(first, `contact(${first})`)) } },
+      fresh: { value: { name: `check ${count + 1}`, never: each(first, `contact(${first})`) } },
     },
     measures: {
       hint: "Numbers that a simulated run reports at its end",
       choices: [...numbers, ...pairs],
-      fresh: { name: "measure", value: JSON.stringify(numbers[0] ?? pairs[0] ?? `speed(${first})`) },
+      fresh: { name: "measure", value: numbers[0] ?? pairs[0] ?? `speed(${first})` },
     },
     models: {
       title: "Placed models",
@@ -113,7 +110,6 @@ export function worldHelp({ yaml }: Structure, targets: Targets): HelpByKey {
         .map((name) => (yaml.pair(["agents", name, "count"]) ? `${name}[*]` : name))
         .filter((name) => !placed.includes(name)),
       fresh: { name: "thing", value: "{ model: thing.xml, at: [0, 0] }" },
-      renamed: renamePlaced,
     },
     vary: { one: "range", fresh: { name: "body.mass", value: "[1, 2]" } },
     grid: { fresh: { value: "{ columns: 2, spacing: 1 m }" } },
@@ -127,7 +123,7 @@ export function deployHelp({ yaml }: Structure): HelpByKey {
     processes: {
       hint: "A process NAME[*] stands for one per member of a fleet",
       choices: agents,
-      fresh: { name: "process", value: scalarText(agents[0] ?? "robot") },
+      fresh: { name: "process", value: agents[0] ?? "robot" },
     },
     agents: { choices: agents },
   };

@@ -1,9 +1,10 @@
 import { useState } from "react";
 import { useStudio } from "../../hooks/use";
 import { changedLines } from "../../model/text/changed_lines";
-import { isName } from "../../model/text/edits";
+import type { Edit } from "../../live/protocol";
+import { isName, remove } from "../../model/text/edits";
 import { sharersOf, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
-import { YamlText, type YamlPath } from "../../model/text/yaml_text";
+import type { YamlPath } from "../../model/text/yaml_text";
 
 /** Why a name cannot be used for an element beside those that exist. */
 export const nameProblem =
@@ -16,36 +17,34 @@ export const nameProblem =
         : undefined;
 
 /** The hint below the name of a subsystem, or of an agent or template with subsystems of its own. */
-export const namespaceHint = "Its C++ namespace and headers have the same name: rename them there too";
+export const namespaceHint = "Its C++ namespace and headers have the same name, and change with it";
 
 export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
 
-/** Puts a changed text into the draft and selects the changed element. A change that would leave an alias without its anchor is refused. */
+/** Does an edit of the specification and selects the changed element. The promise is false if it was refused. */
 export function useEdit() {
   const studio = useStudio();
-  return (text: string, select?: string | null) => {
-    const lost = new YamlText(text).lostAlias();
-    if (lost && !new YamlText(studio.draft.store.get().text).lostAlias()) {
-      studio.draft.store.set({ notice: `Not changed: *${lost.name} stands for it in other places of the text` });
-      return;
-    }
-    studio.draft.edit(text, "edit");
-    if (select !== undefined) studio.view.set({ selected: select });
-  };
+  return (edit: Edit | Edit[], select?: string | null) =>
+    studio.draft.change(edit, () => select !== undefined && studio.view.set({ selected: select }));
 }
 
 /** Removes an element. It asks first if something else goes or changes with it. */
-export function Remove({ what, structure, at, after, onClick }: RemoveProps) {
-  const [asking, setAsking] = useState(false);
-  const remove = () => {
-    const others = changedLines(structure.yaml.text, after()).length;
+export function Remove({ what, structure, at, select }: RemoveProps) {
+  const studio = useStudio();
+  const edit = useEdit();
+  const [asking, ask] = useState<string[] | null>(null);
+  const removeNow = () => edit(remove(at), select);
+  const removeIfAlone = async () => {
+    const found = await studio.draft.preview(remove(at));
+    if (!found) return;
+    const lines = changedLines(found.before, found.after);
     const own = structure.yaml.endLine(at) - structure.yaml.line(at) + 1;
-    if (others > own && !asking) setAsking(true);
-    else onClick(after());
+    if (lines.length > own) ask(lines);
+    else await removeNow();
   };
   if (!asking)
     return (
-      <button className="danger" onClick={remove}>
+      <button className="danger" onClick={() => void removeIfAlone()}>
         Remove {what}
       </button>
     );
@@ -53,12 +52,12 @@ export function Remove({ what, structure, at, after, onClick }: RemoveProps) {
     <div className="asked" role="group" aria-label={`Remove ${what}?`}>
       <p>This also removes or changes what needs it:</p>
       <pre tabIndex={0} aria-label="Changed lines">
-        {changedLines(structure.yaml.text, after()).join("\n")}
+        {asking.join("\n")}
       </pre>
-      <button className="danger" onClick={remove}>
+      <button className="danger" onClick={() => void removeNow()}>
         Remove all of it
       </button>{" "}
-      <button onClick={() => setAsking(false)}>Keep it</button>
+      <button onClick={() => ask(null)}>Keep it</button>
     </div>
   );
 }
@@ -68,9 +67,8 @@ interface RemoveProps {
   structure: Structure;
   /** The element. */
   at: YamlPath;
-  /** The text without it. */
-  after: () => string;
-  onClick: (text: string) => void;
+  /** The element to select then. */
+  select: string | null;
 }
 
 /** Tells the user that a change of a template changes all agents that use it. */

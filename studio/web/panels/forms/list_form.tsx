@@ -1,6 +1,8 @@
 import { useRef, type ReactNode } from "react";
 import type { Structure } from "../../model/structure/structure";
-import { apply, type YamlPath } from "../../model/text/yaml_text";
+import { append, remove } from "../../model/text/edits";
+import type { YamlPath } from "../../model/text/yaml_text";
+import type { EditValue } from "../../live/protocol";
 import { useEdit } from "./form_parts";
 import { OwnProblem } from "./use_problems";
 
@@ -11,8 +13,8 @@ interface ListFormProps {
   title: string;
   /** The word for one item: "check". */
   one: string;
-  /** A new item, as text of the file. */
-  fresh: string;
+  /** A new item. */
+  fresh: EditValue;
   hint?: string;
   fields: (index: number) => ReactNode;
 }
@@ -22,7 +24,6 @@ export function ListForm({ structure, at, title, one, fresh, hint, fields }: Lis
   const edit = useEdit();
   const add = useRef<HTMLButtonElement>(null);
   const { yaml } = structure;
-  const change = (edits: Parameters<typeof apply>[1]) => edit(apply(yaml.text, edits));
   return (
     <fieldset className="map-form">
       <legend>{title}</legend>
@@ -36,7 +37,7 @@ export function ListForm({ structure, at, title, one, fresh, hint, fields }: Lis
             <button
               className="danger"
               onClick={() => {
-                change(yaml.remove([...at, index]));
+                void edit(remove([...at, index]));
                 add.current?.focus();
               }}
             >
@@ -46,7 +47,7 @@ export function ListForm({ structure, at, title, one, fresh, hint, fields }: Lis
         );
       })}
       {hint && <p className="faint">{hint}</p>}
-      <button ref={add} onClick={() => change(yaml.append(at, fresh))}>
+      <button ref={add} onClick={() => void edit(append(at, fresh))}>
         Add {one}
       </button>
     </fieldset>

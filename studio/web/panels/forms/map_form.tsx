@@ -1,10 +1,11 @@
 import { useState, type ReactNode } from "react";
 import { useStudio } from "../../hooks/use";
-import { freeName } from "../../model/text/edits";
+import type { EditValue } from "../../live/protocol";
+import { freeName, insert, remove, rename, set } from "../../model/text/edits";
 import type { Structure } from "../../model/structure/structure";
-import { apply, scalarText, type Value, type YamlPath } from "../../model/text/yaml_text";
+import type { YamlPath } from "../../model/text/yaml_text";
 import { Field } from "./field";
-import { nameProblem } from "./form_parts";
+import { nameProblem, useEdit } from "./form_parts";
 import { OwnProblem, useProblems } from "./use_problems";
 
 interface MapFormProps {
@@ -14,8 +15,8 @@ interface MapFormProps {
   title: string;
   /** The word for one entry: "type". */
   one: string;
-  /** A new entry, as text of the file; none: entries are not added here. */
-  fresh?: { name: string; value: Value };
+  /** A new entry; none: entries are not added here. */
+  fresh?: { name: string; value: EditValue };
   hint?: string;
   /** Why a name cannot be used; plain names can, unless this says otherwise. */
   wrong?: (name: string) => string | undefined;
@@ -23,8 +24,6 @@ interface MapFormProps {
   names?: readonly string[];
   /** Entries that are shown elsewhere. */
   without?: readonly string[];
-  /** The text after a change of a name, with all its consequences besides the key itself. */
-  renamed?: (text: string, from: string, to: string) => string;
   /** The fields of an entry; without them it is shown as text. */
   fields?: (name: string) => ReactNode;
   /** Entries are opened one at a time. */
@@ -38,7 +37,7 @@ interface MapFormProps {
 /** The entries of a map of the specification: each has a name, and fields or a value. */
 export function MapForm(props: MapFormProps) {
   const { structure, at, title, one, fresh, hint, without = [] } = props;
-  const studio = useStudio();
+  const edit = useEdit();
   const { yaml } = structure;
   const [opened, open] = useState<string | null>(null);
   const taken = yaml.keys(at);
@@ -56,7 +55,7 @@ export function MapForm(props: MapFormProps) {
         <button
           onClick={() => {
             const name = freeName(fresh.name, taken);
-            studio.draft.edit(apply(yaml.text, yaml.insert(at, scalarText(name), fresh.value)), "edit");
+            void edit(insert(at, name, fresh.value));
             open(name);
           }}
         >
@@ -76,18 +75,17 @@ interface EntryProps {
 }
 
 function Entry({ of, name, taken, opened, open }: EntryProps) {
-  const { structure, at, names, renamed, line, field } = of;
+  const { structure, at, names, line, field } = of;
   const fields = line?.(name) ? undefined : of.fields;
   const studio = useStudio();
   const problem = useProblems(structure);
   const { yaml } = structure;
   const where = [...at, name];
-  const change = (edits: Parameters<typeof apply>[1]) => studio.draft.edit(apply(yaml.text, edits), "edit");
-  const rename = (to: string) => {
-    const text = renamed ? renamed(yaml.text, name, to) : yaml.text;
-    if (text === yaml.text) change(yaml.renameKey(where, yaml.map(at)?.flow ? scalarText(to) : to));
-    else studio.draft.edit(text, "edit");
-    open(to);
+  const edit = useEdit();
+  const renameTo = async (to: string) => {
+    const done = await edit(rename(where, to));
+    if (done) open(to);
+    return done;
   };
   const wrong = (text: string) =>
     of.wrong
@@ -106,7 +104,7 @@ function Entry({ of, name, taken, opened, open }: EntryProps) {
       mono
       value={value}
       problem={fields ? undefined : problem(where)}
-      onChange={(text) => change(yaml.set(at, name, text))}
+      onChange={(text) => edit(set(at, name, text))}
     />
   );
   const unfolded = !of.folds || opened;
@@ -122,9 +120,15 @@ function Entry({ of, name, taken, opened, open }: EntryProps) {
   );
   const opening = opened && (
     <div className="map-more">
-      <Field label={`New name of ${name}`} value={name} wrong={wrong} {...(names ? { choices: names } : {})} onChange={rename} />
+      <Field
+        label={`New name of ${name}`}
+        value={name}
+        wrong={wrong}
+        {...(names ? { choices: names } : {})}
+        onChange={renameTo}
+      />
       {fields && asText}
-      <button className="danger" onClick={() => change(yaml.remove(where))}>
+      <button className="danger" onClick={() => void edit(remove(where))}>
         Remove {name}
       </button>
     </div>

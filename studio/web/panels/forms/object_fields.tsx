@@ -3,8 +3,10 @@ import { useStudio } from "../../hooks/use";
 import { fieldOf, type FieldShape, type Schema } from "../../model/text/schema_fields";
 import { freshValue, shapeOf, type Case, type ValueShape } from "../../model/text/value_shape";
 import { lineText } from "../../model/text/list_text";
+import type { Edit, EditValue } from "../../live/protocol";
 import type { Structure } from "../../model/structure/structure";
-import { apply, flowText, scalarText, type Value, type Writer, type YamlPath } from "../../model/text/yaml_text";
+import * as edits from "../../model/text/edits";
+import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { useEdit } from "./form_parts";
 import { ListForm } from "./list_form";
@@ -25,15 +27,13 @@ export interface Help {
   /** Entries with short values: several fields in a row, and what they mean as tips. */
   compact?: boolean;
   /** A new entry, and its name in a map. */
-  fresh?: { name?: string; value?: Value };
+  fresh?: { name?: string; value?: EditValue };
   /** Proposals while a value is typed, here or in an entry. */
   choices?: readonly string[];
   /** Proposals while the name of an entry is typed. */
   names?: readonly string[];
   /** The names of the parts of a list. */
   parts?: readonly string[];
-  /** The text after a change of the name of an entry. */
-  renamed?: (text: string, from: string, to: string) => string;
 }
 
 /** Help by key, for all maps below. */
@@ -86,10 +86,10 @@ export function ObjectFields(props: ObjectFieldsProps) {
   ];
   const left = known.filter((one) => !shown.includes(one));
   const label = ({ key, title }: FieldShape) => help[key]?.title ?? title ?? titleOf(key);
-  const set = (key: string, text: string, as: Writer = scalarText) => {
+  const set = (key: string, text: string, as: Edit["as"] = "scalar") => {
     const last = onEmpty && text.trim() === "" && there.length === 1 && there[0] === key;
     if (last) onEmpty();
-    edit(apply(yaml.text, last ? yaml.remove(at) : yaml.set(at, key, text, as)));
+    return edit(last ? edits.remove(at) : edits.set(at, key, text, as));
   };
   return (
     <>
@@ -166,20 +166,13 @@ function MoreOf({ structure, at, schema }: { structure: Structure; at: YamlPath;
   const { yaml } = structure;
   const shape = shapeOf(schema, root, yaml.data(at));
   if (shape.kind !== "line" || !shape.more) return null;
-  const now = scalarText(lineText(yaml, at));
-  const text = shape.more.key && now ? `{ ${shape.more.key}: ${now} }` : "{}";
+  const now = lineText(yaml, at);
+  const value: EditValue = shape.more.key && now ? { [shape.more.key]: now } : {};
   return (
     <button
       className="link"
       aria-label={`Give ${String(at.at(-1))} in several fields`}
-      onClick={() =>
-        edit(
-          apply(
-            yaml.text,
-            yaml.set(at.slice(0, -1), String(at.at(-1)), text, (as) => as),
-          ),
-        )
-      }
+      onClick={() => void edit(edits.replace(at, value))}
     >
       In several fields
     </button>
@@ -217,7 +210,7 @@ export function ValueForm({ structure, at, shape, title, hint, help = {}, onEmpt
         at={at}
         title={title}
         one={own.one ?? oneOf(String(at.at(-1)))}
-        fresh={flowText(own.fresh?.value ?? freshValue(shape.of, root))}
+        fresh={own.fresh?.value ?? freshValue(shape.of, root)}
         {...(hint ? { hint } : {})}
         fields={(index) => <Entry structure={structure} at={[...at, index]} schema={shape.of} help={help} />}
       />
@@ -236,7 +229,6 @@ export function ValueForm({ structure, at, shape, title, hint, help = {}, onEmpt
       wrong={shape.wrong}
       {...(hint ? { hint } : {})}
       {...(own.names ? { names: own.names } : {})}
-      {...(own.renamed ? { renamed: own.renamed } : {})}
       line={inOneLine}
       field={(name) => <OneEntry structure={structure} at={at} name={name} schema={shape.of(name)} own={own} />}
       folds={own.folds ?? false}
@@ -274,7 +266,7 @@ function OneEntry({ structure, at, name, schema, own }: OneEntryProps) {
         choices={own.choices ?? []}
         parts={[]}
         problem={problem(where)}
-        onChange={(text, as) => text.trim() && edit(apply(yaml.text, yaml.set(at, name, text, as)))}
+        onChange={(text, as) => text.trim() !== "" && edit(edits.set(at, name, text, as))}
       />
       {!yaml.map(where) && <MoreOf structure={structure} at={where} schema={schema} />}
     </div>
@@ -315,14 +307,12 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
   const fields = shape.kind === "record" ? shape.fields : (is?.fields ?? []);
   const choose = (key: string) => {
     const next = cases.find((one) => one.key === key);
-    if (!next) return;
-    if (!is) return edit(apply(yaml.text, yaml.set(at, key, "name")));
-    const gone = is.fields.filter((one) => one.key !== is.key && !next.fields.some((other) => other.key === one.key));
-    const rest = yaml.without(
-      at,
-      gone.map((one) => one.key),
+    if (!next) return false;
+    if (!is) return edit(edits.set(at, key, "name"));
+    const gone = is.fields.filter(
+      (one) => one.key !== is.key && keys.includes(one.key) && !next.fields.some((other) => other.key === one.key),
     );
-    edit(apply(rest.text, rest.renameKey([...at, is.key], key)));
+    return edit([...gone.map((one) => edits.remove([...at, one.key])), edits.rename([...at, is.key], key)]);
   };
   // The fields of every case, such as the name, stay in their place.
   const first = is ? fields.findIndex(({ key }) => key === is.key) : 0;

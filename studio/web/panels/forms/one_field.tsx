@@ -1,6 +1,6 @@
 import type { FieldShape } from "../../model/text/schema_fields";
-import { listAsTyped, listAsWritten } from "../../model/text/list_text";
-import type { Writer } from "../../model/text/yaml_text";
+import { listAsTyped } from "../../model/text/list_text";
+import type { Edit } from "../../live/protocol";
 import { Choice, Field } from "./field";
 
 /** "per_second" as a label: "Per second". */
@@ -15,7 +15,7 @@ interface OneFieldProps {
   label?: string;
   mono?: boolean;
   problem?: string | undefined;
-  onChange: (text: string, as?: Writer) => void;
+  onChange: (text: string, as?: Edit["as"]) => unknown;
 }
 
 /** A value of one line, as its schema says: a choice, a list, parts with a field each, or a text. */
@@ -40,7 +40,7 @@ export function OneField({ shape, value, choices, parts, label = titleOf(shape.k
     const now = value ? listAsTyped(value).split(/\s*,\s*/) : [];
     const write = (at: number, text: string) => {
       const next = Array.from({ length: shape.parts }, (_, index) => (index === at ? text : (now[index] ?? "0")) || "0");
-      onChange(`[${next.join(", ")}]`);
+      return onChange(`[${next.join(", ")}]`);
     };
     return (
       <fieldset className="tuple" aria-label={label}>
@@ -61,7 +61,7 @@ export function OneField({ shape, value, choices, parts, label = titleOf(shape.k
       problem={problem}
       {...(description ? { hint: description } : {})}
       {...(choices.length > 0 ? { choices } : {})}
-      onChange={(text) => (shape.list ? onChange(text, listAsWritten) : onChange(text))}
+      onChange={(text) => (shape.list ? onChange(text, "list") : onChange(text))}
     />
   );
 }

@@ -1,7 +1,7 @@
 import { parameterParts, setParameter, type ParameterParts } from "../../model/text/parameter_text";
 import type { Structure } from "../../model/structure/structure";
 import { isNumber, numberTypes } from "../../model/text/type_text";
-import { apply, type YamlPath } from "../../model/text/yaml_text";
+import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { useEdit } from "./form_parts";
 
@@ -11,7 +11,7 @@ export function ParameterFields({ structure, at }: { structure: Structure; at: Y
   const { yaml } = structure;
   const name = String(at.at(-1));
   const parts = parameterParts(yaml, at);
-  const set = (change: Partial<ParameterParts>) => edit(apply(yaml.text, setParameter(yaml, at, change)));
+  const set = (change: Partial<ParameterParts>) => edit(setParameter(yaml, at, change));
   const field = (key: keyof ParameterParts, label: string, placeholder = "") => (
     <Field
       label={label}
@@ -39,7 +39,7 @@ export function ParameterFields({ structure, at }: { structure: Structure; at: Y
           label="Value"
           of={`of ${name}`}
           value={parts.value}
-          onChange={(value) => value.trim() && set({ value: value.trim() })}
+          onChange={(value) => value.trim() !== "" && set({ value: value.trim() })}
         />
       )}
       {number && field("unit", "Unit", "none")}

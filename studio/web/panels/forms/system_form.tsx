@@ -1,8 +1,7 @@
-import { useStudio } from "../../hooks/use";
-import { setField } from "../../model/text/edits";
-import { renameParameter, renameType } from "../../model/text/renames";
+import { set } from "../../model/text/edits";
 import type { Structure } from "../../model/structure/structure";
 import { Field } from "./field";
+import { useEdit } from "./form_parts";
 import { DriversForm } from "./driver_fields";
 import { ParameterFields } from "./parameter_fields";
 import { PropertiesForm } from "./properties_form";
@@ -25,13 +24,12 @@ const deploy = keyOf("deploy");
  * the world and the processes.
  */
 export function SystemForm({ structure }: { structure: Structure }) {
-  const studio = useStudio();
   const targets = useTargets();
-  const edit = (text: string) => studio.draft.edit(text, "edit");
+  const edit = useEdit();
   return (
     <div className="inspect">
       <h2>System</h2>
-      <Field label="Name" value={structure.system} onChange={(name) => edit(setField(structure, [], "system", name))} />
+      <Field label="Name" value={structure.system} onChange={(name) => edit(set([], "system", name))} />
       <MapForm
         structure={structure}
         at={["types"]}
@@ -39,7 +37,6 @@ export function SystemForm({ structure }: { structure: Structure }) {
         one="type"
         fresh={{ name: "Value", value: "{ x: float64 }" }}
         fields={(name) => <StructureFields structure={structure} at={["types", name]} />}
-        renamed={(text, from, to) => renameType(text, from, to)}
       />
       <MapForm
         structure={structure}
@@ -48,7 +45,6 @@ export function SystemForm({ structure }: { structure: Structure }) {
         one="parameter"
         fresh={{ name: "speed", value: "1.0" }}
         fields={(name) => <ParameterFields structure={structure} at={["parameters", name]} />}
-        renamed={(text, from, to) => renameParameter(text, from, to)}
       />
       <PropertiesForm structure={structure} />
       <TemplatesForm structure={structure} />

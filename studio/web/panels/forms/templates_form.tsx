@@ -8,13 +8,9 @@ import {
   type Subsystem,
 } from "../../model/structure/structure";
 import * as edits from "../../model/text/edits";
-import { renameUsed } from "../../model/text/renames";
-import { apply } from "../../model/text/yaml_text";
 import { Field } from "./field";
 import { namespaceHint, nameProblem, SharedNote, useEdit } from "./form_parts";
 import { OwnProblem } from "./use_problems";
-
-const fresh = { control: { rate: "10 Hz", behaviours: { run: "{}" } } };
 
 /** The templates: each leads to its form. */
 export function TemplatesForm({ structure }: { structure: Structure }) {
@@ -23,7 +19,7 @@ export function TemplatesForm({ structure }: { structure: Structure }) {
   const names = yaml.keys(["templates"]);
   const add = () => {
     const name = edits.freeName("member", names);
-    edit(apply(yaml.text, yaml.insert(["templates"], name, fresh)), templatePath(name));
+    void edit(edits.insert(["templates"], name, edits.freshAgent), templatePath(name));
   };
   return (
     <fieldset className="map-form">
@@ -56,12 +52,12 @@ export function TemplateLink({ name }: { name: string }) {
 }
 
 /** The buttons that add a subsystem to an agent or a template. */
-export function AddSubsystem({ structure, agent }: { structure: Structure; agent: Agent }) {
+export function AddSubsystem({ agent }: { agent: Agent }) {
   const edit = useEdit();
   const names = agent.subsystems.map((one) => one.name);
   const add = (kind: Subsystem["kind"]) => {
     const name = kind === "control" ? "control" : edits.freeName(kind === "receptor" ? "sensor" : "motor", names);
-    edit(edits.addSubsystem(structure, agent, kind, name), `${agent.name}.${name}`);
+    void edit(edits.addSubsystem(agent, kind, name), `${agent.name}.${name}`);
   };
   return (
     <>
@@ -86,7 +82,7 @@ export function TemplateForm({ structure, template }: { structure: Structure; te
       name,
       structure.agents.map((one) => one.name),
     );
-    edit(apply(yaml.text, yaml.insert(["agents"], agent, `{ use: ${name} }`)), agent);
+    void edit(edits.insert(["agents"], agent, `{ use: ${name} }`), agent);
   };
   return (
     <>
@@ -96,14 +92,14 @@ export function TemplateForm({ structure, template }: { structure: Structure; te
         value={name}
         wrong={nameProblem(name, yaml.keys(["templates"]))}
         hint={template.template ? "" : namespaceHint}
-        onChange={(to) => edit(renameUsed(yaml.text, "templates", name, to), templatePath(to))}
+        onChange={(to) => edit(edits.rename(template.yaml, to), templatePath(to))}
       />
       {template.template && (
         <Field
           label="Another name for the template"
           value={template.template}
           choices={yaml.keys(["templates"]).filter((one) => one !== name)}
-          onChange={(text) => text.trim() && edit(edits.setField(structure, template.yaml, "use", text))}
+          onChange={(text) => text.trim() !== "" && edit(edits.set(template.yaml, "use", text))}
         />
       )}
       <SharedNote structure={structure} agent={template} />
@@ -115,10 +111,10 @@ export function TemplateForm({ structure, template }: { structure: Structure; te
         ))}
       </div>
       <div className="buttons">
-        <AddSubsystem structure={structure} agent={template} />
+        <AddSubsystem agent={template} />
         <button onClick={addAgent}>Add an agent of it</button>
         {!used && (
-          <button className="danger" onClick={() => edit(apply(yaml.text, yaml.remove(template.yaml)), null)}>
+          <button className="danger" onClick={() => void edit(edits.remove(template.yaml), null)}>
             Remove template
           </button>
         )}

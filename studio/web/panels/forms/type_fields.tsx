@@ -1,7 +1,7 @@
-import { freeName } from "../../model/text/edits";
+import { freeName, insert, remove, rename, replace, set } from "../../model/text/edits";
 import type { Structure } from "../../model/structure/structure";
 import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
-import { apply, scalarText, type YamlPath } from "../../model/text/yaml_text";
+import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
 import { nameProblem, useEdit } from "./form_parts";
 
@@ -12,7 +12,7 @@ interface TypeInputsProps {
   of?: string;
   /** Types that may not be chosen, such as the one that is described. */
   without?: readonly string[];
-  onChange: (text: string) => void;
+  onChange: (text: string) => unknown;
 }
 
 const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
@@ -63,7 +63,6 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
   const edit = useEdit();
   const { yaml } = structure;
   const names = yaml.keys(at);
-  const change = (edits: Parameters<typeof apply>[1]) => edit(apply(yaml.text, edits));
   return (
     <>
       {names.map((name, index) => (
@@ -72,23 +71,23 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
             label={`Field ${index + 1}`}
             value={name}
             wrong={nameProblem(name, names)}
-            onChange={(to) => change(yaml.renameKey([...at, name], to))}
+            onChange={(to) => edit(rename([...at, name], to))}
           />
           <TypeInputs
             structure={structure}
             of={`of ${name}`}
             without={[String(at.at(-1))]}
             value={yaml.valueText([...at, name]) ?? ""}
-            onChange={(type) => change(yaml.set(at, name, type))}
+            onChange={(type) => edit(set(at, name, type))}
           />
           {names.length > 1 && (
-            <button className="quiet" aria-label={`Remove the field ${name}`} onClick={() => change(yaml.remove([...at, name]))}>
+            <button className="quiet" aria-label={`Remove the field ${name}`} onClick={() => void edit(remove([...at, name]))}>
               ×
             </button>
           )}
         </div>
       ))}
-      <button onClick={() => change(yaml.insert(at, freeName("value", names), "float64"))}>Add field</button>
+      <button onClick={() => void edit(insert(at, freeName("value", names), "float64"))}>Add field</button>
     </>
   );
 }
@@ -100,25 +99,20 @@ export function MemoryFields({ structure, at }: { structure: Structure; at: Yaml
   const map = yaml.map(at) !== undefined;
   const name = String(at.at(-1));
   const type = yaml.valueText(map ? [...at, "type"] : at) ?? "";
-  const set = (to: YamlPath, key: string, text: string) => edit(apply(yaml.text, yaml.set(to, key, text)));
   return (
     <>
       <TypeInputs
         structure={structure}
         value={type}
         of={`of ${name}`}
-        onChange={(text) => (map ? set(at, "type", text) : set(at.slice(0, -1), name, text))}
+        onChange={(text) => edit(map ? set(at, "type", text) : set(at.slice(0, -1), name, text))}
       />
       <Field
         label="Start"
         of={`of ${name}`}
         value={(map && yaml.valueText([...at, "initial"])) || ""}
         placeholder="zero"
-        onChange={(text) =>
-          map
-            ? set(at, "initial", text)
-            : edit(apply(yaml.text, yaml.replace(at, `{ type: ${scalarText(type)}, initial: ${text} }`)))
-        }
+        onChange={(text) => edit(map ? set(at, "initial", text) : replace(at, { type, initial: text }))}
       />
     </>
   );

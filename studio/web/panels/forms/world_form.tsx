@@ -1,8 +1,7 @@
 import { useStore, useStudio } from "../../hooks/use";
-import { setField } from "../../model/text/edits";
+import { insert, remove, set } from "../../model/text/edits";
 import { fieldsOf } from "../../model/text/schema_fields";
 import type { Structure } from "../../model/structure/structure";
-import { apply } from "../../model/text/yaml_text";
 import { Field } from "./field";
 import { useEdit } from "./form_parts";
 import { worldHelp } from "./form_help";
@@ -33,7 +32,7 @@ export function WorldForm({ structure, targets }: { structure: Structure; target
           placeholder="none"
           choices={worlds.map(({ name }) => name)}
           hint="MuJoCo model (XML), beside the specification or one that comes with Tessera"
-          onChange={(text) => edit(setField(structure, ["simulation"], "world", text))}
+          onChange={(text) => edit(set(["simulation"], "world", text))}
         />
         {has && (
           <fieldset className="entry" aria-label="Track">
@@ -44,17 +43,13 @@ export function WorldForm({ structure, targets }: { structure: Structure; target
               shapes={trackShapes}
               help={{ image: { choices: tracks }, start: { parts: ["x", "y", "Heading"] } }}
             />
-            <button className="danger" onClick={() => edit(apply(yaml.text, yaml.remove(at)))}>
+            <button className="danger" onClick={() => void edit(remove(at))}>
               Remove the track
             </button>
           </fieldset>
         )}
         {world && !has && (
-          <button
-            onClick={() =>
-              edit(apply(yaml.text, yaml.insert(["simulation"], "track", `{ image: ${tracks.at(-1) ?? "floor.png"} }`)))
-            }
-          >
+          <button onClick={() => void edit(insert(["simulation"], "track", `{ image: ${tracks.at(-1) ?? "floor.png"} }`))}>
             Add a track
           </button>
         )}

@@ -97,7 +97,7 @@ test("an error of the build is shown beside its function, with its hint, and a f
       await button(page, "Save the function").click();
       await page.getByRole("textbox", { name: "Name", exact: true }).fill("pursue");
       await page.keyboard.press("Enter");
-      await button(page, "Rename the function follow, which no behaviour has").click();
+      await page.getByRole("dialog").getByRole("button", { name: "Rename everywhere" }).click();
       await area.waitFor();
       assert.match(await area.inputValue(), /^void pursue\(/);
       assert.doesNotMatch(readFileSync(join(root, "src/control.cpp"), "utf8"), /void follow/);

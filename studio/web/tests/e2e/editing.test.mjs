@@ -1,6 +1,7 @@
 import assert from "node:assert/strict";
 import { execFileSync } from "node:child_process";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { test } from "node:test";
 import { button, changes, draftText, drawn, environment, example, find, folder, judges, onPage, tab, until } from "./page.mjs";
 
@@ -34,11 +35,77 @@ test("renaming an agent changes its name everywhere and nothing else", () =>
   onPage(lineFollower, async (page, server) => {
     await tab(page, "Structure").click();
     await page.locator('.agent-name[data-path="robot"]').click();
+    const before = server.text();
     await page.getByRole("textbox", { name: "Name" }).fill("rover");
     await page.keyboard.press("Enter");
+    await renameEverywhere(page);
     await page.locator('.agent-name[data-path="rover"]').waitFor();
     await page.getByText("No problems").waitFor();
-    assert.equal((await draftText(page)).replaceAll("rover", "robot"), server.text());
+    assert.equal(server.text().replaceAll("rover", "robot"), before);
+    assert.notEqual(server.text(), before);
+  }));
+
+const renameEverywhere = (page) => page.getByRole("dialog").getByRole("button", { name: "Rename everywhere" }).click();
+
+test("a rename also changes C++, tests and params.yaml, says so before, and is one step of undo", () =>
+  onPage(lineFollower, async (page, server) => {
+    const names = ["spec.yaml", "src/control.cpp", "test/control_test.cpp", "params.yaml"];
+    const all = () => names.map((name) => readFileSync(join(server.root, name), "utf8"));
+    writeFileSync(join(server.root, "params.yaml"), "v: 0.1   # slow\n");
+    const before = all();
+    const count = (pattern) => all().map((text) => text.match(pattern)?.length ?? 0);
+    const name = page.getByRole("textbox", { name: "Name", exact: true });
+    const dialog = page.getByRole("dialog");
+    await tab(page, "Structure").click();
+    await page.locator('.chip[data-path="robot.control.follow"]').click();
+    await name.fill("pursue");
+    await page.keyboard.press("Enter");
+    await dialog.getByText("test/control_test.cpp").waitFor();
+    assert.deepEqual(all(), before, "nothing is written before the answer");
+    await dialog.getByRole("button", { name: "Keep the old name" }).click();
+    await until(page, async () => (await name.inputValue()) === "follow", "the old name in the field");
+    assert.deepEqual(all(), before);
+    await name.fill("pursue");
+    await page.keyboard.press("Enter");
+    await renameEverywhere(page);
+    await page.getByRole("heading", { name: "Behaviour pursue" }).waitFor();
+    assert.ok(
+      count(/\bpursue\b/g)
+        .slice(0, 3)
+        .every((times) => times > 0),
+    );
+    assert.deepEqual(count(/next: follow|follow: |void follow\(|control::follow/g), [0, 0, 0, 0]);
+    // Another program changes other lines of a file: they stay when the rename is undone.
+    const code = join(server.root, "src/control.cpp");
+    writeFileSync(code, `${readFileSync(code, "utf8")}// mine\n`);
+    await button(page, "Undo").click();
+    await until(page, async () => all()[0] === before[0], "the specification of before on disk");
+    assert.deepEqual(
+      all(),
+      before.map((text, at) => (at === 1 ? `${text}// mine\n` : text)),
+    );
+    await button(page, "Redo").click();
+    await until(page, async () => count(/\bpursue\b/g)[1] > 0, "the new name again");
+    // The same lines changed by another program: nothing is taken back, and the page says why.
+    writeFileSync(code, readFileSync(code, "utf8").replaceAll("void pursue(", "void pursue_it("));
+    const now = all();
+    await button(page, "Undo").click();
+    await page.getByText("the same lines of src/control.cpp were changed since then").waitFor();
+    assert.deepEqual(all(), now);
+  }));
+
+test("an edit that cannot be done is refused with its reason", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    await tab(page, "Structure").click();
+    await page.locator('.chip[data-path="robot.control.follow"]').click();
+    const name = page.getByRole("textbox", { name: "Name", exact: true });
+    await name.fill("while");
+    await page.keyboard.press("Enter");
+    await page.getByText(/Not changed: .*keyword of C\+\+/).waitFor();
+    await until(page, async () => (await name.inputValue()) === "follow", "the old name in the field");
+    assert.equal(await draftText(page), undefined);
+    assert.equal(server.text(), before);
   }));
 
 test("a behaviour and an output of one name have forms and names of their own", () =>
@@ -50,9 +117,10 @@ test("a behaviour and an output of one name have forms and names of their own", 
     await page.getByText("output buffer").waitFor();
     await name.fill("summon");
     await page.keyboard.press("Enter");
+    await renameEverywhere(page);
     await page.getByRole("heading", { name: "Buffer summon" }).waitFor();
     assert.deepEqual(
-      changes(before, await draftText(page)).filter((line) => line.startsWith("+")),
+      changes(before, server.text()).filter((line) => line.startsWith("+")),
       [
         "+      outputs: { summon: uint32, count: Count }",
         "+          send:     [summon, count]",
@@ -60,12 +128,14 @@ test("a behaviour and an output of one name have forms and names of their own", 
       ],
     );
     await button(page, "Undo").click();
+    await until(page, async () => server.text() === before, "the text of before on disk");
     await page.locator('.chip[data-path="supervisor.control.call"]').click({ force: true });
     await page.getByRole("heading", { name: "Behaviour call" }).waitFor();
     await name.fill("roll_call");
     await page.keyboard.press("Enter");
+    await renameEverywhere(page);
     await page.getByRole("heading", { name: "Behaviour roll_call" }).waitFor();
-    const renamed = changes(before, await draftText(page)).filter((line) => line.startsWith("+"));
+    const renamed = changes(before, server.text()).filter((line) => line.startsWith("+"));
     assert.deepEqual(
       renamed.map((line) => line.split("#")[0].trimEnd()),
       ["+          next:     [{ to: rest, when: error }, roll_call]", "+        roll_call:"],

@@ -68,12 +68,14 @@ export const element = (page, path) => page.locator(`.sheet [data-path="${path}"
 export const tab = (page, name) => page.getByRole("tab", { name, exact: true });
 export const button = (page, name) => page.getByRole("button", { name, exact: true });
 
-/** The text of the specification as the page has it. */
-export const draftText = (page) =>
-  page.evaluate(() => {
+/** The text of the page that is not saved, once the last edit is done; undefined: all is saved. */
+export async function draftText(page) {
+  await page.locator('.app[aria-busy="true"]').waitFor({ state: "detached" });
+  return page.evaluate(() => {
     const key = Object.keys(sessionStorage).find((one) => one.startsWith("tessera.draft"));
     return key && JSON.parse(sessionStorage.getItem(key)).text;
   });
+}
 
 /** Lines that differ, as `diff` shows them; for changes that keep the order of lines. */
 export function changes(before, after) {

@@ -1,12 +1,10 @@
 import { describe, expect, it } from "vitest";
-import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
+import type { Edit, SubsystemAtEnd, Verdict } from "../../live/protocol";
 import type { Api } from "../../live/api";
 import { mended, Repairs } from "../../live/repairs";
 import { causesOf, circleIn, titleOf, waitsIn } from "../../model/causes";
-import { changedLines } from "../../model/text/changed_lines";
 import { buildMessages, functionAt } from "../../model/text/cpp_function";
 import { csvOf } from "../../model/run/csv";
-import { renameParameter, renameType } from "../../model/text/renames";
 import { candidatesFor } from "../../model/text/repair_edits";
 import { readStructure } from "../../model/structure/structure";
 import { unitOf } from "../../model/text/units";
@@ -99,21 +97,19 @@ describe("candidatesFor", () => {
   const text =
     "agents:\n  a: { control: { inputs: { x: bool }, behaviours: { go: { terminal: in.x, next: [{ to: rest, when: in.x }] }, rest: { next: go } } } }\n  b: { control: { outputs: { y: bool }, behaviours: { run: {} } } }\nchannels:\n  - { from: b.control.y, to: a.control.x, receive: blocking }\n";
   const of = (one: SubsystemAtEnd) =>
-    candidatesFor({ title: "", verdicts: [], atEnd: [one], dead: [], warning: false }, readStructure(text)).map((candidate) =>
-      changedLines(text, candidate.text),
-    );
+    candidatesFor({ title: "", verdicts: [], atEnd: [one], dead: [], warning: false }, readStructure(text)).map((candidate) => [
+      candidate.title,
+      ...candidate.edits.map((edit) => JSON.stringify(edit)),
+    ]);
   it("gives the side that waits a timeout, or lets it go on", () => {
     expect(of(atEnd({}))).toEqual([
-      [
-        "- - { from: b.control.y, to: a.control.x, receive: blocking }",
-        "+ - { from: b.control.y, to: a.control.x, receive: blocking, timeout: 1 s }",
-      ],
-      ["- - { from: b.control.y, to: a.control.x, receive: blocking }", "+ - { from: b.control.y, to: a.control.x }"],
+      ["Give up waiting at a.control.x after 1 s", '{"do":"set","at":["channels",0],"key":"timeout","text":"1 s","as":"scalar"}'],
+      ["Let a.control.x go on at once", '{"do":"channel","at":["channels",0],"fields":{"receive":"non_blocking"}}'],
     ]);
   });
   it("lets something follow where nothing does", () => {
     const [again] = of(atEnd({ state: "no_successor", behaviour: "go", channel: "", from: [] }));
-    expect(again![1]).toContain("next: [{ to: rest, when: in.x }, go]");
+    expect(again![1]).toContain('"fields":{"to":"go","when":""}');
   });
 });
 
@@ -143,9 +139,23 @@ it("an edit that mends nothing costs one property, and timeouts are put together
   ];
   const asked: string[][] = [];
   // It holds only if both senders go on at once.
-  const goesOn = (edited: string) => !edited.includes("timeout") && !edited.includes("send: blocking");
+  const goesOn = (edited: string) => !edited.includes("timeout") && !/send: blocking/.test(edited);
   let last = "";
+  /** The channels after the edits, as the server would write them: one line each. */
+  const edited = (lines: string[], edits: Edit[]) =>
+    edits.reduce((all, { at, key, fields }) => {
+      const line = all.findIndex((one) => one.startsWith("channels")) + 1 + Number(at![1]);
+      const [end = ""] = Object.keys(fields ?? {});
+      const after = key
+        ? all[line]!.replace(" }", `, ${key}: 1 s }`)
+        : all[line]!.replace(`${end}: blocking`, `${end}: non_blocking`);
+      return all.with(line, after);
+    }, lines);
   const api = {
+    edit: async (of: string, edits: Edit[]) => {
+      const all = { from: { line: 0, character: 0 }, to: { line: of.split("\n").length, character: 0 } };
+      return { edits: [{ ...all, text: edited(of.split("\n"), edits).join("\n") }], files: [] };
+    },
     check: async () => ({ diagnostics: [] }),
     verify: async (edited: string, _: string, properties: string[]) => {
       asked.push(properties);
@@ -233,17 +243,4 @@ it("a value has the unit of its type", () => {
   expect(unitOf(structure, "a[2].control.all[1].linear")).toBe("m/s");
   expect(unitOf(structure, "a.control.s.SpeedUp")).toBe("");
   expect(unitOf(structure, "nobody.control.s")).toBe("");
-});
-
-it("a type and a parameter are renamed where they are used, and nowhere else", () => {
-  expect(renameType(typed, "Speed", "Motion")).toBe(
-    typed
-      .replace("  Speed:", "  Motion:")
-      .replace("one: Speed", "one: Motion")
-      .replace("s: Speed", "s: Motion")
-      .replace("'Speed[3]'", "'Motion[3]'"),
-  );
-  expect(renameParameter(typed, "v", "limit")).toBe(
-    typed.replace("{ v: 1", "{ limit: 1").replace("parameters.v", "parameters.limit"),
-  );
 });

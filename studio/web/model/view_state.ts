@@ -1,0 +1,22 @@
+/** The state of the page that is no data. */
+
+export const viewNames = ["net", "structure", "fleet"] as const;
+export type View = (typeof viewNames)[number];
+export const panelNames = ["inspect", "verify", "play", "run", "recordings"] as const;
+export type PanelName = (typeof panelNames)[number];
+
+export interface ViewState {
+  view: View;
+  panel: PanelName;
+  text: boolean;
+  theme: "light" | "dark";
+  /** Path of the selected element. */
+  selected: string | null;
+  /** Line of the specification to show in the text pane, with a number that makes each request new. */
+  line: { line: number; request: number } | null;
+  /** Path to fly to, with a number that makes each request new. */
+  flight: { path: string; request: number } | null;
+  /** Pages that the user folded or unfolded, against the rule. */
+  folds: ReadonlyMap<string, boolean>;
+  searching: boolean;
+}

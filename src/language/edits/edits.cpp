@@ -231,7 +231,9 @@ Renaming edit(const Document& document, std::span<const Edit> edits, std::span<c
   }
   std::string text = document.text();
   for (const Edit& one : edits) {
-    const Document now(text, document.grammar());
+    std::optional<Document> later;
+    if (&one != &edits.front()) later.emplace(text, document.grammar());
+    const Document& now = later ? *later : document;
     After after;
     if (one.kind == Edit::Kind::rename) {
       const Renaming renaming = renamed(now, one, {});

@@ -4,8 +4,6 @@
 #include <string_view>
 #include <vector>
 
-#include "tessera/result.hpp"
-
 namespace tessera::sim {
 
 /// The pose of a simulated robot at one time, and the readings of its light sensors.
@@ -28,8 +26,5 @@ struct Trace {
 
 inline constexpr std::string_view trace_columns = "t_s,x_m,y_m,heading_rad,eye_x_m,eye_y_m,on_line";
 inline constexpr std::string_view several_robots = "# several robots: ";
-
-/// Problem: the file cannot be read or is no trace.
-[[nodiscard]] Result<Trace> read_trace(const std::string& path);
 
 }  // namespace tessera::sim

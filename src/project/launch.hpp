@@ -32,8 +32,8 @@ struct LaunchOptions {
   bool progress = false;  ///< the controller shows its progress on standard error
   VerificationGate gate;
   // The options of the simulated world.
-  std::string world, track, start;                ///< empty: as in the specification
-  double metres_per_pixel = 0, footprint_mm = 0;  ///< 0: as in the specification
+  std::string world, track, start;  ///< empty: as in the specification
+  double metres_per_pixel = 0;      ///< 0: as in the specification
   std::uint64_t seed = 1;
 };
 

@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <stdexcept>
 
+#include "read_trace.hpp"
 #include "world_library.hpp"
 
 namespace {

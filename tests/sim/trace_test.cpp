@@ -1,10 +1,10 @@
-#include "sim/trace.hpp"
-
 #include <gtest/gtest.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+
+#include "read_trace.hpp"
 
 using tessera::sim::read_trace;
 

@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "drawing.hpp"
-#include "sim/trace.hpp"
+#include "read_trace.hpp"
 #include "tessera/device.hpp"
 #include "world_devices.hpp"
 #include "world_library.hpp"

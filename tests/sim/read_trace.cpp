@@ -1,7 +1,8 @@
-#include "sim/trace.hpp"
+#include "read_trace.hpp"
 
 #include <charconv>
 #include <fstream>
+#include <optional>
 #include <string_view>
 
 namespace tessera::sim {

@@ -20,7 +20,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
+std::string page_text(const fs::path& file) {
   std::ifstream stream(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(stream), {}};
 }
@@ -94,7 +94,7 @@ Page page_of(const std::string& text) {
 std::map<fs::path, Page> pages_of_the_tree() {
   std::map<fs::path, Page> pages;
   for (const fs::path& file : files_of_the_tree())
-    if (file.extension() == ".md") pages[file] = page_of(text_of(fs::path(TESSERA_SOURCE_DIR) / file));
+    if (file.extension() == ".md") pages[file] = page_of(page_text(fs::path(TESSERA_SOURCE_DIR) / file));
   return pages;
 }
 
@@ -142,7 +142,7 @@ TEST(Pages, AreReachedInTwoStepsFromTheReadme) {
     EXPECT_TRUE(reached.contains(file)) << file.string();
   }
   EXPECT_GT(rooms, 40U);
-  const std::string readme = text_of(fs::path(TESSERA_SOURCE_DIR) / "README.md");
+  const std::string readme = page_text(fs::path(TESSERA_SOURCE_DIR) / "README.md");
   EXPECT_LT(std::ranges::count(readme, '\n'), 120);
 }
 
@@ -150,7 +150,7 @@ TEST(Pages, ThatSourcesAndMessagesNameExist) {
   static const std::regex named(R"(\bdocs/[\w/-]+\.md\b)");
   std::size_t names = 0;
   for (const fs::path& file : files_of_the_tree()) {
-    const std::string text = text_of(fs::path(TESSERA_SOURCE_DIR) / file);
+    const std::string text = page_text(fs::path(TESSERA_SOURCE_DIR) / file);
     if (text.find("docs/") == std::string::npos || text.find('\0') != std::string::npos) continue;
     for (std::sregex_iterator at(text.begin(), text.end(), named), end; at != end; ++at, ++names)
       EXPECT_TRUE(fs::exists(fs::path(TESSERA_SOURCE_DIR) / at->str())) << file.string() << ": " << at->str();
@@ -177,15 +177,15 @@ std::string name_in(const std::string& code) {
 /// The text of a file, or of all files of a folder.
 std::string text_at(const std::string& place) {
   const fs::path root = TESSERA_SOURCE_DIR;
-  if (!fs::is_directory(root / place)) return text_of(root / place);
+  if (!fs::is_directory(root / place)) return page_text(root / place);
   std::string text;
-  for (const fs::path& file : files_below(place)) text += text_of(root / file);
+  for (const fs::path& file : files_below(place)) text += page_text(root / file);
   return text;
 }
 
 TEST(Pages, TheAnswersToWhereWouldIChangeXNameWhatIsThere) {
   static const std::regex row(R"(\| ([^|]*) ?\| ([^|]+) \| ([^|]+) \|)");
-  const std::string page = text_of(fs::path(TESSERA_SOURCE_DIR) / "docs/inside/architecture.md");
+  const std::string page = page_text(fs::path(TESSERA_SOURCE_DIR) / "docs/inside/architecture.md");
   std::istringstream lines(page.substr(page.find("## Where would I change X?")));
   std::size_t names = 0;
   for (std::string line; std::getline(lines, line);) {

@@ -1,13 +1,14 @@
 #include "cli/launch.hpp"
 
-#include <fmt/core.h>
+#include <fmt/format.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <utility>
+#include <vector>
 
-#include "cli/commands/panel.hpp"
 #include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/outcome.hpp"
@@ -15,8 +16,30 @@
 #include "cli/terminal.hpp"
 #include "project/files/installation.hpp"
 #include "project/files/state_folder.hpp"
+#include "spec/model/model.hpp"
 
 namespace tessera::cli {
+
+namespace {
+
+/// Prints the panels that cannot be operated in a simulated run without a control socket.
+void tell_of_panels(const spec::Model& model) {
+  if (!model.simulation) return;
+  std::vector<std::string> paths;
+  for (const spec::Driver& driver : model.simulation->drivers)
+    if (driver.panel) paths.push_back(model.driver_path(driver));
+  if (paths.empty()) return;
+  constexpr std::size_t most = 3;
+  const std::size_t more = paths.size() > most ? paths.size() - most : 0;
+  paths.resize(paths.size() - more);
+  fmt::print(stderr,
+             "note: nobody operates the panel{} {}{} in this run, so no value comes from there; the studio's "
+             "simulate and `tessera run --world` can be operated\n",
+             paths.size() > 1 ? "s" : "", fmt::join(paths, ", "),
+             more > 0 ? fmt::format(" and {} more", more) : "");
+}
+
+}  // namespace
 
 void declare_specification(Subcommand& command, std::string& spec) {
   command.option("spec", spec, "Specification, or the folder of its spec.yaml").shows_default();

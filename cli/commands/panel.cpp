@@ -1,5 +1,3 @@
-#include "cli/commands/panel.hpp"
-
 #include <fmt/format.h>
 #include <unistd.h>
 
@@ -121,22 +119,6 @@ int panel_command(const PanelOptions& options) {
 }
 
 }  // namespace
-
-void tell_of_panels(const spec::Model& model) {
-  if (!model.simulation) return;
-  std::vector<std::string> paths;
-  for (const spec::Driver& driver : model.simulation->drivers)
-    if (driver.panel) paths.push_back(model.driver_path(driver));
-  if (paths.empty()) return;
-  constexpr std::size_t most = 3;
-  const std::size_t more = paths.size() > most ? paths.size() - most : 0;
-  paths.resize(paths.size() - more);
-  fmt::print(stderr,
-             "note: nobody operates the panel{} {}{} in this run, so no value comes from there; the studio's "
-             "simulate and `tessera run --world` can be operated\n",
-             paths.size() > 1 ? "s" : "", fmt::join(paths, ", "),
-             more > 0 ? fmt::format(" and {} more", more) : "");
-}
 
 void add_panel(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("panel", "Operate a panel of a controller that runs in real time");

@@ -1,5 +1,5 @@
 import { History, type FileStep } from "../model/history";
-import { applied } from "../model/text/edits";
+import { after, applied } from "../model/text/edits";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
 import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
@@ -69,6 +69,8 @@ export class Draft {
   /** The edits that the server is asked for, one after the other. */
   private editing: Promise<unknown> = Promise.resolve();
   private waiting = 0;
+  /** The renames that are done: an edit that was asked for meanwhile has the old names. */
+  private readonly renamed: Edit[] = [];
   private agreed: (yes: boolean) => void = () => {};
   private name = "";
   /** The key under which this tab keeps unsaved text. Each project has its own: another may be served at this address. */
@@ -136,7 +138,14 @@ export class Draft {
    * written together. then: called with the new text. false: it was not done, and a notice says why.
    */
   change(edit: Edit | Edit[], then: () => void = () => {}): Promise<boolean> {
-    return this.queued(() => this.changeNow(edit, then));
+    const known = this.renamed.length;
+    const now = (one: Edit) => this.renamed.slice(known).reduce((all, renamed) => after(renamed, all), one);
+    return this.queued(async () => {
+      const edits = [edit].flat().map(now);
+      const done = await this.changeNow(edits, then);
+      if (done) this.renamed.push(...edits.filter((one) => one.do === "rename"));
+      return done;
+    });
   }
 
   /** The text after an edit, which is not done; undefined: it cannot be done. */
@@ -177,7 +186,7 @@ export class Draft {
     }
   }
 
-  private async changeNow(edit: Edit | Edit[], then: () => void): Promise<boolean> {
+  private async changeNow(edit: Edit[], then: () => void): Promise<boolean> {
     // Text that was typed meanwhile stays.
     for (;;) {
       const { text } = this.store.get();
@@ -196,8 +205,8 @@ export class Draft {
     this.agreed(yes);
   }
 
-  private async renameEverywhere(edit: Edit | Edit[], files: readonly FileRenamed[], then: () => void): Promise<boolean> {
-    const name = [edit].flat()[0]!.text ?? "";
+  private async renameEverywhere(edit: Edit[], files: readonly FileRenamed[], then: () => void): Promise<boolean> {
+    const name = edit[0]!.text ?? "";
     this.store.set({ renaming: { name, files } });
     const yes = await new Promise<boolean>((agreed) => (this.agreed = agreed));
     this.store.set({ renaming: null });

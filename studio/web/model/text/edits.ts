@@ -65,6 +65,15 @@ export const replace = (at: At, value: EditValue): Edit => ({ do: "replace", at:
 export const remove = (at: At): Edit => ({ do: "remove", at: path(at) });
 /** Gives it another name wherever it is used, also in C++ and params.yaml. */
 export const rename = (at: At, name: string): Edit => ({ do: "rename", at: path(at), text: name });
+/** An edit that was asked for before the rename of another, or the same, part was done. */
+export function after(renamed: Edit, { at = [], key, ...edit }: Edit): Edit {
+  const { at: from = [], text: name = "" } = renamed;
+  const isFrom = (path: At) => path.length >= from.length && from.every((step, index) => step === path[index]);
+  const moved = isFrom(at) ? at.map((step, index) => (index === from.length - 1 ? name : step)) : at;
+  const isKey = edit.do === "set" && from.length === at.length + 1 && key !== undefined && isFrom([...at, key]);
+  return { ...edit, at: moved, ...(key === undefined ? {} : { key: isKey ? name : key }) };
+}
+
 export const makeTemplate = (agent: Agent): Edit => ({ do: "make_template", at: path(agent.yaml) });
 
 const fresh = (rate: string) => ({ rate, behaviours: { run: "{}" } });

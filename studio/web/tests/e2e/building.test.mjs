@@ -98,8 +98,7 @@ test("an error of the build is shown beside its function, with its hint, and a f
       await page.getByRole("textbox", { name: "Name", exact: true }).fill("pursue");
       await page.keyboard.press("Enter");
       await page.getByRole("dialog").getByRole("button", { name: "Rename everywhere" }).click();
-      await area.waitFor();
-      assert.match(await area.inputValue(), /^void pursue\(/);
+      await until(page, async () => /^void pursue\(/.test(await area.inputValue()), "the function with its new name");
       assert.doesNotMatch(readFileSync(join(root, "src/control.cpp"), "utf8"), /void follow/);
     },
     { server: { copy: false } },

@@ -64,6 +64,15 @@ describe("edits of the server", () => {
     expect(edits.applied("one\ntwo4\n", [edit, { from: place(0, 0), to: place(0, 1), text: "" }])).toBe("ne\ntX4\n");
     expect(edits.applied("", [{ from: place(0, 0), to: place(0, 0), text: "a" }])).toBe("a");
   });
+  it("have the new names of what was renamed before them", () => {
+    const at = ["agents", "a", "control", "outputs"];
+    const renamed = edits.rename([...at, "output"], "motion");
+    expect(edits.after(renamed, edits.set(at, "output", "bool"))).toEqual(edits.set(at, "motion", "bool"));
+    expect(edits.after(renamed, edits.remove([...at, "output"]))).toEqual(edits.remove([...at, "motion"]));
+    expect(edits.after(renamed, edits.set(at, "other", "bool"))).toEqual(edits.set(at, "other", "bool"));
+    expect(edits.after(renamed, edits.insert(at, "output", "bool"))).toEqual(edits.insert(at, "output", "bool"));
+    expect(edits.after(edits.rename(["agents", "a"], "b"), edits.set(at, "x", "1")).at![1]).toBe("b");
+  });
   it("name what they change by its path", () => {
     expect(edits.addBuffer(subsystem(structure, "robot.sensor"), "real", "extra", "bool")).toEqual({
       do: "insert",

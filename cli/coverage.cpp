@@ -38,7 +38,7 @@ bool is_recording(const std::string& file) {
   std::ifstream stream(file, std::ios::binary);
   std::string beginning(recording_magic.size(), '\0');
   stream.read(beginning.data(), static_cast<std::streamsize>(beginning.size()));
-  return is_recording_magic(beginning);
+  return beginning == recording_magic;
 }
 
 Nets nets_of(const Specification& specification) {

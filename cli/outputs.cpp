@@ -45,7 +45,7 @@ void check_replaceable(const std::string& file, std::string_view text) {
 
 void check_recording(const std::string& file) {
   const std::string there = file.empty() ? std::string() : beginning_of(file, recording_magic.size());
-  if (!there.empty() && !is_recording_magic(there)) refuse(file, "recording");
+  if (!there.empty() && there != recording_magic) refuse(file, "recording");
 }
 
 void check_report(const std::string& folder) {

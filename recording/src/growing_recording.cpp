@@ -21,7 +21,7 @@ namespace {
   std::array<char, 12> start{};
   std::uint32_t length = 0;
   if (pread(descriptor, start.data(), start.size(), 0) != static_cast<ssize_t>(start.size()) ||
-      !is_recording_magic({start.data(), start.size()}))
+      !std::string_view(start.data(), start.size()).starts_with(recording_magic))
     return std::nullopt;
   std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);
   struct stat status {};

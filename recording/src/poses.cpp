@@ -4,12 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "pose_model.hpp"
-
 namespace tessera {
 namespace {
 
-constexpr std::uint8_t differences = 0, whole_frame = 1, packed_frame = 2;  // packed: added to the others
+constexpr std::uint8_t whole_frame = 1;  // 0: differences
 constexpr std::size_t head_bytes = 3, components = 7, first_of_rotation = 3;
 constexpr std::int64_t farthest = farthest_pose_step;
 constexpr auto largest_rotation = static_cast<std::int64_t>(pose_steps_per_unit);
@@ -83,6 +81,21 @@ void put_body(std::string& bytes, std::uint64_t left_out, const RoundedPose& pos
 
 constexpr RoundedPose nothing{.steps = {}};
 
+/// before: the frame before; nullptr: the frame is whole.
+[[nodiscard]] std::string frame_of(std::uint16_t number, const std::vector<RoundedPose>& poses,
+                                   const std::vector<RoundedPose>* before) {
+  std::string bytes{static_cast<char>(before == nullptr ? whole_frame : 0), static_cast<char>(number & 0xffU),
+                    static_cast<char>(number >> 8U)};
+  std::uint64_t left_out = 0;
+  for (std::size_t body = 0; body < poses.size(); ++body) {
+    if (before != nullptr && poses[body] == (*before)[body])
+      ++left_out;
+    else
+      put_body(bytes, std::exchange(left_out, 0), poses[body], before == nullptr ? nothing : (*before)[body]);
+  }
+  return bytes;
+}
+
 }  // namespace
 
 std::optional<RoundedPose> rounded(const BodyPose& pose) {
@@ -121,12 +134,6 @@ BodyPose pose_of(const RoundedPose& rounded) {
 
 // ------------------------------------------------------------------------------------------------ encoder
 
-PoseEncoder::PoseEncoder(std::size_t bodies, Form form, const PoseParents& parents)
-    : last_(bodies), model_(form == Form::packed ? std::make_unique<PoseModel>(bodies, parents) : nullptr) {}
-PoseEncoder::~PoseEncoder() = default;
-PoseEncoder::PoseEncoder(PoseEncoder&&) noexcept = default;
-PoseEncoder& PoseEncoder::operator=(PoseEncoder&&) noexcept = default;
-
 std::string_view PoseEncoder::encode(std::int64_t time_ns, std::span<const BodyPose> poses) {
   rounded_ = last_;
   for (std::size_t body = 0; body < std::min(poses.size(), rounded_.size()); ++body)
@@ -135,56 +142,20 @@ std::string_view PoseEncoder::encode(std::int64_t time_ns, std::span<const BodyP
 }
 
 std::string_view PoseEncoder::encode(std::int64_t time_ns, std::span<const RoundedPose> poses) {
-  bool whole = !whole_ns_ || time_ns - *whole_ns_ >= whole_pose_period.count();
-  bytes_.clear();
-  std::vector<RoundedPose> now(
-      poses.begin(), poses.begin() + static_cast<std::ptrdiff_t>(std::min(poses.size(), last_.size())));
-  now.insert(now.end(), last_.begin() + static_cast<std::ptrdiff_t>(now.size()), last_.end());
+  std::vector<RoundedPose> now(last_);
+  std::copy_n(poses.begin(), std::min(poses.size(), now.size()), now.begin());
   for (std::size_t body = 0; body < now.size(); ++body) turn_towards(now[body], last_[body]);
+  const bool whole = !whole_ns_ || time_ns - *whole_ns_ >= whole_pose_period.count();
   if (!whole && now == last_) return {};
-  if (model_) {
-    last_ = std::move(now);
-    put_packed(whole);
-  } else {
-    put_plain(whole, now);
-    last_ = std::move(now);
-  }
+  bytes_ = frame_of(number_++, now, whole ? nullptr : &last_);
+  last_ = std::move(now);
   if (whole) whole_ns_ = time_ns;
-  ++number_;
   return bytes_;
-}
-
-void PoseEncoder::put_head(std::uint8_t form, std::uint16_t number) {
-  bytes_ = {static_cast<char>(form), static_cast<char>(number & 0xffU), static_cast<char>(number >> 8U)};
-}
-
-void PoseEncoder::put_plain(bool whole, std::span<const RoundedPose> poses) {
-  put_head(whole ? whole_frame : differences, number_);
-  std::uint64_t left_out = 0;
-  for (std::size_t body = 0; body < last_.size(); ++body) {
-    if (!whole && poses[body] == last_[body])
-      ++left_out;
-    else
-      put_body(bytes_, std::exchange(left_out, 0), poses[body], whole ? nothing : last_[body]);
-  }
-}
-
-void PoseEncoder::put_packed(bool& whole) {
-  put_head(static_cast<std::uint8_t>(packed_frame + (whole ? whole_frame : differences)), number_);
-  model_->pack(whole, last_, bytes_);
-  if (bytes_.size() <= longest_frame(last_.size())) return;
-  whole = true;
-  put_plain(whole, last_);
-  model_->restart(last_);
 }
 
 std::string PoseEncoder::last_whole() const {
   if (!whole_ns_) return {};
-  const auto number = static_cast<std::uint16_t>(number_ - 1);
-  std::string bytes{static_cast<char>(whole_frame), static_cast<char>(number & 0xffU),
-                    static_cast<char>(number >> 8U)};
-  for (const RoundedPose& pose : last_) put_body(bytes, 0, pose, nothing);
-  return bytes;
+  return frame_of(static_cast<std::uint16_t>(number_ - 1), last_, nullptr);
 }
 
 std::size_t PoseEncoder::longest_frame(std::size_t bodies) {
@@ -194,32 +165,16 @@ std::size_t PoseEncoder::longest_frame(std::size_t bodies) {
 
 // ------------------------------------------------------------------------------------------------ decoder
 
-PoseDecoder::PoseDecoder(std::size_t bodies, PoseParents parents)
-    : poses_(bodies), parents_(std::move(parents)) {}
-PoseDecoder::~PoseDecoder() = default;
-PoseDecoder::PoseDecoder(PoseDecoder&&) noexcept = default;
-PoseDecoder& PoseDecoder::operator=(PoseDecoder&&) noexcept = default;
-
 bool PoseDecoder::take(std::string_view frame) {
-  const bool has_head =
-      frame.size() >= head_bytes && static_cast<std::uint8_t>(frame[0]) <= packed_frame + whole_frame;
-  if (!has_head) return known_ = false;
-  const bool packed = static_cast<std::uint8_t>(frame[0]) >= packed_frame;
-  const bool whole = static_cast<std::uint8_t>(frame[0]) % packed_frame == whole_frame;
+  if (frame.size() < head_bytes || static_cast<std::uint8_t>(frame[0]) > whole_frame) return known_ = false;
+  const bool whole = static_cast<std::uint8_t>(frame[0]) == whole_frame;
   const auto number = static_cast<std::uint16_t>(static_cast<std::uint8_t>(frame[1]) |
                                                  static_cast<std::uint8_t>(frame[2]) << 8U);
   const bool follows = number_ && number == static_cast<std::uint16_t>(*number_ + 1);
   number_ = number;
   known_ = whole || (known_ && follows);
   if (!known_) return true;
-  if (packed && !model_) {
-    model_ = std::make_unique<PoseModel>(poses_.size(), parents_);
-    model_->restart(poses_);
-  }
-  const std::string_view bytes = frame.substr(head_bytes);
-  known_ = packed ? model_->unpack(whole, bytes, poses_) : apply(bytes, whole);
-  if (known_ && !packed && model_) model_->restart(poses_);
-  return known_;
+  return known_ = apply(frame.substr(head_bytes), whole);
 }
 
 bool PoseDecoder::apply(std::string_view bytes, bool whole) {

@@ -28,8 +28,8 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
 [[nodiscard]] std::optional<Problem> problem_of_magic(std::string_view bytes) {
   const std::string_view name = recording_magic.substr(0, recording_magic.size() - 1);
   if (!bytes.starts_with(name.substr(0, bytes.size()))) return Problem{"is no recording of Tessera"};
-  if (bytes.size() < recording_magic.size() || is_recording_magic(bytes)) return std::nullopt;
-  const bool is_newer = bytes.back() > recording_magic_with_memory.back() && bytes.back() <= '9';
+  if (bytes.size() < recording_magic.size() || bytes == recording_magic) return std::nullopt;
+  const bool is_newer = bytes.back() > recording_magic.back() && bytes.back() <= '9';
   return Problem{is_newer ? "was recorded by a newer version of Tessera, which has to read it"
                           : "is no recording of Tessera"};
 }
@@ -68,12 +68,6 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
 
 bool is_scene_hash(std::string_view text) {
   return text.size() == 16 && text.find_first_not_of("0123456789abcdef") == std::string_view::npos;
-}
-
-std::vector<std::optional<std::size_t>> Recording::Scene::parents() const {
-  std::vector<std::optional<std::size_t>> all;
-  for (const Body& body : bodies) all.push_back(body.parent);
-  return all;
 }
 
 std::string scene_file(const std::string& recording, const std::string& hash) {
@@ -291,7 +285,8 @@ std::string without_segment_number(const std::string& path) {
 std::optional<std::uint64_t> segment_number_in(const std::string& file) {
   std::ifstream bytes(file, std::ios::binary);
   std::string start(recording_magic.size() + sizeof(std::uint32_t), '\0');
-  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) || !is_recording_magic(start))
+  if (!bytes.read(start.data(), static_cast<std::streamsize>(start.size())) ||
+      !start.starts_with(recording_magic))
     return std::nullopt;
   std::uint32_t length = 0;
   std::memcpy(&length, start.data() + recording_magic.size(), sizeof length);

@@ -6,8 +6,6 @@
 #include <string>
 #include <string_view>
 
-#include "tessera/old_names.hpp"
-
 namespace tessera {
 namespace {
 
@@ -32,16 +30,11 @@ namespace {
 
 /// false: a transition has a channel or a subsystem that does not exist.
 [[nodiscard]] bool read_transitions(const nlohmann::json& header, Recording& recording) {
-  if (header.contains("channels")) header.at("channels").get_to(recording.channels);
+  header.at("channels").get_to(recording.channels);
   for (const nlohmann::json& written : header.at("transitions")) {
     Recording::Transition& read = recording.transitions.emplace_back(
         Recording::Transition{written.at(0).get<std::string>(), written.at(1).get<std::uint32_t>()});
-    const bool is_above = read.instance == system_instance;
-    if (!is_above && read.instance >= recording.instances.size()) return false;
-    if (written.size() < 3) {
-      read.role = role_of_old_name(read.name, is_above ? "" : recording.instances[read.instance]);
-      continue;
-    }
+    if (read.instance != system_instance && read.instance >= recording.instances.size()) return false;
     read.role.step = step_named(written.at(2).get_ref<const std::string&>());
     if (written.size() > 3) written.at(3).get_to(read.role.behaviour);
     if (written.size() > 4) read.role.channel = written.at(4).get<std::uint32_t>();

@@ -1,4 +1,4 @@
-#include "value_layout.hpp"
+#include "tessera/value_layout.hpp"
 
 #include <charconv>
 #include <cstddef>

@@ -9,7 +9,7 @@
 #include <type_traits>
 #include <vector>
 
-#include "value_layout.hpp"
+#include "tessera/value_layout.hpp"
 
 namespace tessera {
 

@@ -4,107 +4,142 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <unordered_map>
 #include <vector>
 
 #include "net/net.hpp"
 #include "net/token_game.hpp"
-#include "tessera/recording.hpp"
+#include "replay/deployed_net.hpp"
 #include "tessera/result.hpp"
 
 namespace tessera::replay {
 
-/// The first name in the header of a recording that the net has not, or has elsewhere: a subsystem, a
-/// behaviour, a channel, a transition or its subsystem, a buffer, the agent of a body. A verdict and its
-/// texts speak of these names, so a recording with others is not one of this net, whatever its hash says.
-/// nullopt: all of them are right.
+/// The token game of a deployed net, played with the firings of several processes.
 ///
-/// A net without parts (of no specification) has transitions only. Recordings without roles name no channels.
-///
-/// Threads: pure. Linear.
-[[nodiscard]] std::optional<Problem> header_mismatch(const Recording& recording, const net::Net& net);
-
-/// The token game of a net, played with the firings of a recording: nothing of the runtime's own firing is
-/// used. Transitions and places are matched by name.
+/// The places of one process hold tokens as usual. Nobody records what the medium of a channel between
+/// processes does, so the play keeps the set of markings that its shared places may have. The numbers of the
+/// values say what comes before what: a value is written before it is read, and its read ends before its
+/// sender knows of it.
 ///
 /// Threads: one at a time.
-class NetPlay {
+class JointPlay {
  public:
-  NetPlay(const Recording& recording, const net::Net& net);
-  /// Why the recording does not belong to this net (header_mismatch); nullopt: it does. Otherwise nothing
-  /// else may be called.
-  [[nodiscard]] const std::optional<Problem>& mismatch() const { return mismatch_; }
+  using StartId = Id<struct StartTag>;  ///< of the starts that are given
+  /// One start of a process whose recording is given.
+  struct Start {
+    ProcessId process{0};
+    std::uint64_t incarnation = 1;
+  };
 
+  /// starts: of each process in the order of their incarnations. one_run: they are of one simulated run, in
+  /// which each process starts once and its peers are known.
+  JointPlay(const DeployedNet& net, std::vector<Start> starts, bool one_run);
+
+  struct Firing {
+    net::TransitionId transition{};
+    StartId start{};            ///< of the process that fired; none: the whole system
+    std::uint32_t version = 0;  ///< as recorded: of a word, or the number of a value
+  };
   /// Why a firing cannot be the next.
   struct Obstacle {
     enum class Kind : std::uint8_t {
-      no,       ///< nothing: it can
-      never,    ///< whatever other subsystems do, and whichever of their events are missing
-      version,  ///< version `due` of its channel comes first
-      token     ///< it lacks a token that another subsystem or the upper layers give
+      no,     ///< nothing: it can
+      never,  ///< whatever others do
+      waits   ///< for another firing
     } kind = Kind::no;
-    net::PlaceId place{};   ///< the place without a token
-    std::uint32_t due = 0;  ///< the version that comes first
+    enum class Reason : std::uint8_t {
+      token,          ///< `place` holds none
+      version,        ///< `due` of its channel comes first
+      number,         ///< it carries another number than `due`
+      no_number,      ///< it carries one, or none, and should not
+      read_already,   ///< the value `due`, or a newer one, was read before
+      taken_already,  ///< the value was acknowledged to its sender by an earlier start of the reader
+      no_peer,        ///< the recording does not name its sender
+      unwritten,      ///< the value has not been written
+      untaken         ///< the value has not been taken
+    } reason = Reason::token;
+    net::PlaceId place{};
+    std::uint32_t due = 0;
+    StartId awaited{};  ///< the start that has to go on
   };
-  [[nodiscard]] Obstacle obstacle(const Event& firing) const;
-  /// "2.500000 s: 'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
-  [[nodiscard]] std::string complaint(const Event& firing, const Obstacle& obstacle) const;
+  [[nodiscard]] Obstacle obstacle(const Firing& firing) const;
+  /// "'robot.control.follow.t1' fired, but 'robot.control.follow.in' holds no token".
+  [[nodiscard]] std::string complaint(const Firing& firing, const Obstacle& obstacle) const;
+  /// Fires. Returns what is wrong afterwards. Precondition: no obstacle.
+  [[nodiscard]] std::optional<Problem> fire(const Firing& firing);
 
-  /// Fires. Returns what is wrong afterwards, a second token in a place.
-  /// Precondition: no obstacle.
-  [[nodiscard]] std::optional<Problem> fire(const Event& firing);
+  /// From here on a side of a channel hears this incarnation of the other process. Returns what is wrong.
+  [[nodiscard]] std::optional<Problem> hear(net::ChannelId channel, StartId start, std::uint64_t incarnation);
+  /// The transition of the system that starts all agents; no process records it.
+  void start_system();
+  /// The rest of what this start did is not known: whatever others need of it, it has done.
+  void assume_rest(StartId start) { assumed_[start] = true; }
+  /// A process begins again: what it held is gone. Its start before has been played.
+  void restart(StartId start);
 
-  /// The tokens where a segment begins; nullopt and `wrong` when the event names a place that is not there.
-  [[nodiscard]] std::optional<std::vector<std::uint32_t>> read_marking(const Recording::Entry& entry,
-                                                                       std::string& wrong);
-  /// Continues from this marking. The versions of the channels are then unknown.
-  void start_from(std::vector<std::uint32_t> marking);
-  /// The first place that holds another number of tokens; none: they are the same.
-  [[nodiscard]] net::PlaceId difference(const std::vector<std::uint32_t>& marking) const;
-
-  [[nodiscard]] std::uint32_t channels() const { return static_cast<std::uint32_t>(versions_.size()); }
-  /// The channel that a firing touches, or none.
-  [[nodiscard]] net::ChannelId channel_of(const Event& firing) const { return channels_[firing.subject]; }
-  [[nodiscard]] bool knows_version(net::ChannelId channel) const {
-    return versions_[channel.value].is != Version::unknown;
-  }
-  /// The next firing of the channel carries this version, if none is missing.
-  void guess_version(net::ChannelId channel, std::uint32_t version);
-  /// No firing was missing: the guessed versions are right.
-  void confirm_versions();
-
-  [[nodiscard]] const std::vector<std::uint32_t>& marking() const { return marking_; }
+  [[nodiscard]] const net::Marking& marking() const { return marking_; }
   [[nodiscard]] std::uint64_t firings() const { return firings_; }
-  [[nodiscard]] const std::string& place_name(net::PlaceId place) const { return net_[place].name; }
+  /// For a start that was heard and whose recording is not given; empty: none.
+  [[nodiscard]] const std::string& unknown_peer() const { return unknown_peer_; }
 
  private:
-  void match_transitions();
-  void find_makers();
-  struct Version {
-    std::uint32_t last = 0;
-    enum : std::uint8_t { unknown, guessed, known } is = known;
-    [[nodiscard]] std::uint32_t due() const { return last == UINT32_MAX ? 1 : last + 1; }
+  static constexpr StartId unknown{UINT32_MAX - 1};  ///< a start whose recording is not given
+  [[nodiscard]] static bool is_given(StartId start) { return start < unknown; }
+  /// The numbers that one start of the receiver has read from one start of the sender.
+  struct Read {
+    StartId start{};
+    std::uint32_t first = 0, ended = 0;
+  };
+  /// One side of a channel between processes, in one start of its process.
+  struct Sending {
+    std::uint32_t written = 0, acknowledged = 0;  ///< the last numbers; 0: none
+    StartId peer{};                               ///< the start that acknowledges
+    std::uint64_t peer_incarnation = 0;
+    std::vector<Read> reads{};  ///< of the starts of the receiver, in their order
+  };
+  struct Receiving {
+    std::uint32_t last = 0;  ///< the number that was last read of this peer; 0: none
+    StartId peer{};
+    std::uint64_t peer_incarnation = 0;
+  };
+  struct Link {
+    std::uint64_t markings = 0;  ///< a set: one bit per marking
+    bool tracked = false;
+    std::vector<Sending> sending;      ///< per start of the sending process, in their order
+    std::vector<Receiving> receiving;  ///< per start of the receiving process
   };
 
-  const Recording& recording_;
-  const net::Net& net_;
-  std::optional<Problem> mismatch_;
-  net::Marking marking_;
+  [[nodiscard]] Sending& sending(net::ChannelId channel, StartId start);
+  [[nodiscard]] const Sending& sending(net::ChannelId channel, StartId start) const;
+  [[nodiscard]] Receiving& receiving(net::ChannelId channel, StartId start);
+  [[nodiscard]] const Receiving& receiving(net::ChannelId channel, StartId start) const;
+  [[nodiscard]] Obstacle token_obstacle(const Firing& firing) const;
+  [[nodiscard]] Obstacle version_obstacle(const Firing& firing) const;
+  [[nodiscard]] Obstacle number_obstacle(const Firing& firing) const;
+  [[nodiscard]] Obstacle read_obstacle(const Firing& firing, bool exchange) const;
+  [[nodiscard]] Obstacle acknowledgement_obstacle(const Firing& firing) const;
+  [[nodiscard]] bool was_left_behind(net::ChannelId channel, const Firing& firing,
+                                     const Receiving& side) const;
+  [[nodiscard]] bool is_read_later(const Firing& firing, const Sending& side) const;
+  [[nodiscard]] Read* read_by(const Firing& firing);
+  void stop_tracking(const Firing& firing);
+  void count(const Firing& firing);
+  [[nodiscard]] bool move_markings(const Firing& firing);
+  [[nodiscard]] std::uint64_t with_medium(net::ChannelId channel, std::uint64_t markings) const;
+  [[nodiscard]] StartId find_start(ProcessId process, std::uint64_t incarnation) const;
+  [[nodiscard]] bool turn(Sending& side, StartId peer, std::uint64_t incarnation) const;
+  [[nodiscard]] bool turn(net::ChannelId channel, StartId start, StartId peer, std::uint64_t incarnation);
+  void link_up(net::ChannelId id, bool one_run);
+
+  const DeployedNet& net_;
+  Numbered<StartId, Start> starts_;
+  Numbered<StartId, bool> assumed_;            // what is not recorded of it is assumed
+  Numbered<StartId, std::uint32_t> ordinals_;  // which of its process
+  Numbered<ProcessId, std::vector<StartId>> of_process_;
+  net::Marking marking_, after_start_;
+  std::vector<std::uint32_t> versions_;  // per local channel: the last
+  std::vector<Link> links_;              // per channel
   std::uint64_t firings_ = 0;
-  std::vector<net::TransitionId> transitions_;  // per transition of the recording
-  std::vector<net::ChannelId> channels_;        // per transition of the recording
-  /// Per place: the instance of the recording that fills it; nullopt: none, or several.
-  std::vector<std::optional<std::uint32_t>> makers_;
-  std::vector<Version> versions_;                               // per channel
-  std::unordered_map<std::string_view, std::uint32_t> places_;  // by name; empty: not needed yet
+  std::string unknown_peer_;
 };
-
-/// "2.500000 s".
-[[nodiscard]] std::string seconds_text(std::int64_t time_ns);
-
-/// `a` comes before `b`; versions and sequences begin again after the largest number.
-[[nodiscard]] inline bool is_before(std::uint32_t a, std::uint32_t b) {
-  return static_cast<std::int32_t>(a - b) < 0;
-}
 
 }  // namespace tessera::replay

@@ -105,7 +105,7 @@ void PoseReader::follow(const Recording::Entry& entry) {
   const std::optional<Recording::Scene>& scene = reader_->recording().scene;
   if (entry.event.kind() != Event::Kind::poses || !scene) return;
   if (!decoder_ || scene_ != scene->hash) {
-    decoder_.emplace(scene->bodies.size(), scene->parents());
+    decoder_.emplace(scene->bodies.size());
     scene_ = scene->hash;
   }
   static_cast<void>(decoder_->take(entry.text));

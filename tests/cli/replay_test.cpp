@@ -118,7 +118,9 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
 
 /// A text of user code, which may come from a robot, or from somebody who sent the recording.
 TEST_F(Replay, ATextOfARecordingDoesNotCommandTheTerminal) {
-  std::string recording = content_of(TESSERA_SOURCE_DIR "/tests/golden/recordings/without_roles.tsr");
+  example("01_line_follower");
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 1s --record run.tsr").code, 0);
+  std::string recording = content_of(folder_ / "run.tsr");
   const std::string ended = "duration", hidden = "\x1b[2Jgone";
   ASSERT_EQ(hidden.size(), ended.size());
   recording.replace(recording.rfind(ended), ended.size(), hidden);

@@ -11,11 +11,8 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   const std::size_t bodies = data[0];
   std::string_view rest(reinterpret_cast<const char*>(data) + 1, size - 1);
-  tessera::PoseParents chain(bodies);
-  for (std::size_t body = 1; body < bodies; ++body) chain[body] = body - 1;
-  tessera::PoseDecoder decoder(bodies, chain), again(bodies, chain);
-  using Form = tessera::PoseEncoder::Form;
-  tessera::PoseEncoder encoder(bodies, bodies % 2 == 0 ? Form::plain : Form::packed, chain);
+  tessera::PoseDecoder decoder(bodies), again(bodies);
+  tessera::PoseEncoder encoder(bodies);
   for (std::int64_t time_ns = 0; !rest.empty(); time_ns += tessera::pose_period.count()) {
     const std::size_t length = static_cast<std::uint8_t>(rest.front());
     rest.remove_prefix(1);

@@ -33,17 +33,9 @@ constexpr std::int64_t period_ns = pose_period.count();
   return 2 * std::acos(std::min(1.0, std::abs(product)));
 }
 
-using Form = PoseEncoder::Form;
-
-/// Frames of both forms.
-class Poses : public ::testing::TestWithParam<Form> {};
-INSTANTIATE_TEST_SUITE_P(Forms, Poses, ::testing::Values(Form::plain, Form::packed), [](const auto& form) {
-  return std::string(form.param == Form::plain ? "Plain" : "Packed");
-});
-
-TEST_P(Poses, ComeBackWithinHalfAStep) {
+TEST(Poses, ComeBackWithinHalfAStep) {
   constexpr std::size_t bodies = 17;
-  PoseEncoder encoder(bodies, GetParam());
+  PoseEncoder encoder(bodies);
   PoseDecoder decoder(bodies);
   for (int frame = 0; frame < 200; ++frame) {
     const std::vector<BodyPose> poses = moved(bodies, frame);
@@ -58,117 +50,17 @@ TEST_P(Poses, ComeBackWithinHalfAStep) {
   }
 }
 
-TEST_P(Poses, OfBodiesThatRestTakeNoFrameExceptTheWholeOneOfEachSecond) {
-  PoseEncoder encoder(4, GetParam());
+TEST(Poses, OfBodiesThatRestTakeNoFrameExceptTheWholeOneOfEachSecond) {
+  PoseEncoder encoder(4);
   int frames = 0;
   for (int frame = 0; frame < 250; ++frame)
     if (!encoder.encode(frame * period_ns, std::vector<BodyPose>(4)).empty()) ++frames;
   EXPECT_EQ(frames, 10);  // of ten seconds
 }
 
-/// Robots of a base and two turning wheels each, whose poses are rough as those of contacts are.
-[[nodiscard]] std::vector<BodyPose> rovers(std::size_t robots, int frame, std::mt19937_64& random) {
-  std::normal_distribution<double> rough(0, 0.1e-3);
-  const auto multiplied = [](const std::array<double, 4>& a, const std::array<double, 4>& b) {
-    return std::array<double, 4>{a[0] * b[0] - a[1] * b[1] - a[2] * b[2] - a[3] * b[3],
-                                 a[0] * b[1] + a[1] * b[0] + a[2] * b[3] - a[3] * b[2],
-                                 a[0] * b[2] - a[1] * b[3] + a[2] * b[0] + a[3] * b[1],
-                                 a[0] * b[3] + a[1] * b[2] - a[2] * b[1] + a[3] * b[0]};
-  };
-  std::vector<BodyPose> poses;
-  for (std::size_t robot = 0; robot < robots; ++robot) {
-    const double time = 0.04 * frame, heading = 0.5 * time + static_cast<double>(robot);
-    const double x = std::sin(heading) + rough(random), y = -std::cos(heading) + rough(random);
-    const std::array<double, 4> turn{std::cos(heading / 2), rough(random), rough(random),
-                                     std::sin(heading / 2)};
-    poses.push_back({{x, y, 0.03 + rough(random)}, turn});
-    for (const double side : {1.0, -1.0}) {
-      const double angle = time * (10 - 0.7 * side);
-      poses.push_back({{x - side * 0.14 * std::sin(heading), y + side * 0.14 * std::cos(heading), 0.03},
-                       multiplied(turn, {std::cos(angle / 2), 0, std::sin(angle / 2), 0})});
-    }
-  }
-  return poses;
-}
-
-[[nodiscard]] PoseParents parents_of_rovers(std::size_t robots) {
-  PoseParents parents(3 * robots);
-  for (std::size_t index = 0; index < parents.size(); ++index)
-    if (index % 3 != 0) parents[index] = index / 3 * 3;
-  return parents;
-}
-
-/// The bar of a day of 50 robots: 1.5 GB are 17.4 kB a second.
-TEST(PackedPoses, OfFiftyRoversWithTurningWheelsTakeLessThanSeventeenKilobytesASecond) {
-  constexpr std::size_t robots = 50;
-  std::mt19937_64 random(3);
-  const PoseParents parents = parents_of_rovers(robots);
-  PoseEncoder encoder(3 * robots, Form::packed, parents), alone(3 * robots, Form::packed), plain(3 * robots);
-  PoseDecoder decoder(3 * robots, parents);
-  std::size_t bytes = 0, alone_bytes = 0, plain_bytes = 0;
-  for (int frame = 0; frame < 250; ++frame) {
-    const std::vector<BodyPose> poses = rovers(robots, frame, random);
-    const std::string packed(encoder.encode(frame * period_ns, poses));
-    bytes += packed.size();
-    alone_bytes += alone.encode(frame * period_ns, poses).size();
-    plain_bytes += plain.encode(frame * period_ns, poses).size();
-    ASSERT_TRUE(decoder.take(packed));
-  }
-  EXPECT_LT(bytes / 10, 17'000u);
-  EXPECT_LT(bytes, alone_bytes) << "wheels go along with their robot";
-  EXPECT_LT(2 * bytes, plain_bytes);
-  RecordProperty("bytes_per_second", static_cast<int>(bytes / 10));
-  RecordProperty("plain_bytes_per_second", static_cast<int>(plain_bytes / 10));
-}
-
-TEST(PackedPoses, HoldTheSameStepsAsPlainOnes) {
-  constexpr std::size_t robots = 3;
-  std::mt19937_64 random(5);
-  // A parent that comes later, or is far away, is none that helps.
-  PoseParents parents = parents_of_rovers(robots);
-  parents[0] = 5;
-  parents[7] = 1;
-  PoseEncoder packed(3 * robots, Form::packed, parents), plain(3 * robots);
-  PoseDecoder from_packed(3 * robots, parents), from_plain(3 * robots);
-  for (int frame = 0; frame < 300; ++frame) {
-    // Half of the time they stand still.
-    const std::vector<BodyPose> poses = rovers(robots, frame / 40 % 2 == 0 ? frame : 40, random);
-    ASSERT_TRUE(from_packed.take(packed.encode(frame * period_ns, poses)));
-    ASSERT_TRUE(from_plain.take(plain.encode(frame * period_ns, poses)));
-    ASSERT_EQ(from_packed.poses(), from_plain.poses()) << frame;
-  }
-}
-
-/// A body that jumps about at random defeats what both ends expect.
-TEST(PackedPoses, BecomePlainWhereTheyWouldBeLonger) {
-  constexpr std::size_t bodies = 1;
-  std::mt19937_64 random(9);
-  PoseEncoder encoder(bodies, Form::packed);
-  PoseDecoder decoder(bodies);
-  bool became_plain = false;
-  for (int frame = 0; frame < 400; ++frame) {
-    std::vector<RoundedPose> poses(bodies);
-    for (RoundedPose& pose : poses)
-      for (std::size_t at = 0; at < 7; ++at) {
-        const std::int64_t limit = at < 3 ? farthest_pose_step : 8191;
-        const std::int64_t step = frame % 50 < 48 ? 0 : limit;
-        pose.steps[at] = random() % 2 == 0 ? step : -step;
-      }
-    const std::string bytes(encoder.encode(frame * period_ns, poses));
-    ASSERT_LE(bytes.size(), PoseEncoder::longest_frame(bodies));
-    became_plain = became_plain || (!bytes.empty() && bytes[0] < 2);
-    if (bytes.empty()) continue;
-    ASSERT_TRUE(decoder.take(bytes)) << frame;
-    for (std::size_t body = 0; body < bodies; ++body)
-      for (std::size_t at = 0; at < 3; ++at)
-        ASSERT_EQ(decoder.poses()[body].steps[at], poses[body].steps[at]) << frame;
-  }
-  EXPECT_TRUE(became_plain);
-}
-
-TEST_P(Poses, AreKnownFromTheFirstWholeFrameOnAndNeverWrong) {
+TEST(Poses, AreKnownFromTheFirstWholeFrameOnAndNeverWrong) {
   constexpr std::size_t bodies = 5;
-  PoseEncoder encoder(bodies, GetParam());
+  PoseEncoder encoder(bodies);
   std::vector<std::string> frames;
   std::vector<std::vector<RoundedPose>> truth;
   PoseDecoder all(bodies);
@@ -190,8 +82,8 @@ TEST_P(Poses, AreKnownFromTheFirstWholeFrameOnAndNeverWrong) {
   }
 }
 
-TEST_P(Poses, ThatAreNotFiniteLeaveTheBodyWhereItWas) {
-  PoseEncoder encoder(2, GetParam());
+TEST(Poses, ThatAreNotFiniteLeaveTheBodyWhereItWas) {
+  PoseEncoder encoder(2);
   PoseDecoder decoder(2);
   std::vector<BodyPose> poses(2);
   poses[0].position_m = {1, 2, 3};
@@ -206,13 +98,12 @@ TEST_P(Poses, ThatAreNotFiniteLeaveTheBodyWhereItWas) {
   EXPECT_EQ(decoder.poses()[1], before[1]);
 }
 
-TEST_P(Poses, FromDamagedBytesAreRefusedOrWithinTheirLimits) {
+TEST(Poses, FromDamagedBytesAreRefusedOrWithinTheirLimits) {
   constexpr std::size_t bodies = 6;
   std::mt19937_64 random(7);
-  const PoseParents chain{std::nullopt, 0, 1, 2, 3, 4};
   for (int run = 0; run < 3000; ++run) {
-    PoseEncoder encoder(bodies, GetParam(), chain);
-    PoseDecoder decoder(bodies, chain);
+    PoseEncoder encoder(bodies);
+    PoseDecoder decoder(bodies);
     for (int frame = 0; frame < 4; ++frame) {
       std::string bytes(encoder.encode(frame * period_ns, moved(bodies, frame)));
       if (frame > 0) bytes[random() % bytes.size()] = static_cast<char>(random());
@@ -226,7 +117,7 @@ TEST_P(Poses, FromDamagedBytesAreRefusedOrWithinTheirLimits) {
 }
 
 /// The page decodes the same bytes (studio/web/tests/live/world.test.ts).
-TEST(PlainPoses, HaveTheseBytes) {
+TEST(Poses, HaveTheseBytes) {
   PoseEncoder encoder(3);
   std::vector<BodyPose> poses(3);
   poses[0].position_m = {1.5, -2, 0.03};
@@ -244,7 +135,7 @@ TEST(PlainPoses, HaveTheseBytes) {
                                               "0001000001f6010168b2060b12", "0002000001f601000280a8d6b907"}));
 }
 
-TEST(PlainPoses, WholeFrameListsEveryBody) {
+TEST(Poses, WholeFrameListsEveryBody) {
   PoseEncoder encoder(3);
   const std::string frame(encoder.encode(0, std::vector<BodyPose>(3)));
   PoseDecoder more(4), fewer(2);

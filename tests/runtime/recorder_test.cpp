@@ -75,16 +75,15 @@ TEST(Recording, WhatIsNoneIsRefusedWithoutACrash) {
 TEST(Recording, OfANewerVersionIsRefusedByThatName) {
   TestSystem system;
   std::string bytes = make_recording(system);
-  EXPECT_TRUE(bytes.starts_with("TESSREC1")) << "without a world, older versions can read it";
-  for (const char version : {'2', '3', '4', '9', 'x'}) {
+  for (const char version : {'1', '2', '9', '0', 'x'}) {
     bytes[7] = version;
     RecordingReader reader;
     reader.feed(bytes);
     EXPECT_EQ(reader.problem().value_or(Problem{}).text,
-              version <= '3'   ? ""
-              : version == 'x' ? "is no recording of Tessera"
-                               : "was recorded by a newer version of Tessera, which has to "
-                                 "read it");
+              version == '1'                     ? ""
+              : version == 'x' || version == '0' ? "is no recording of Tessera"
+                                                 : "was recorded by a newer version of Tessera, which has to "
+                                                   "read it");
   }
 }
 

@@ -199,8 +199,9 @@ TEST(Segments, ATooSmallLimitIsSaidBeforeTheRun) {
       {"system", "s"}, {"net_hash", ""}, {"verification_hash", ""}, {"clock", "steady"}, {"seed", 1}};
   for (std::uint32_t index = 0; index < instances; ++index)
     header["instances"].push_back(std::to_string(index));
+  header["channels"] = nlohmann::json::array();
   for (const FlatNet::FlatTransition& transition : net.transitions)
-    header["transitions"].push_back({transition.name, transition.instance});
+    header["transitions"].push_back({transition.name, transition.instance, "other"});
   std::string error;
   auto recorder = Recorder::open(
       scratch_file("run.tsr"), {header.dump()}, instances, Recorder::Mode::threaded, error, 0, limit,

@@ -402,20 +402,6 @@ TEST(RecordedValues, OfLargeMemoryAreRecordedOnlyWithAllValues) {
   EXPECT_TRUE(recorded(system, options).buffers.empty());
 }
 
-TEST(RecordedValues, OfMemoryAreRefusedByOlderVersionsByName) {
-  TestSystem system;
-  add_one_that_remembers(system);
-  RunOptions options = simulated(15ms);
-  const auto beginning = [&] {
-    options.recording = scratch_file("run");
-    static_cast<void>(run(system, options));
-    return file_bytes(options.recording).substr(0, 8);
-  };
-  EXPECT_EQ(beginning(), "TESSREC3");
-  options.values = RunOptions::Values::none;
-  EXPECT_EQ(beginning(), "TESSREC1");
-}
-
 TEST(RecordedValues, OfMemoryCountAgainstTheLimitOfARecording) {
   TestSystem system;
   Script script;

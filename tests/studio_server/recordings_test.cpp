@@ -24,13 +24,15 @@ class RecordingOfTheStudio : public Served {
 
   [[nodiscard]] std::string header(std::uint64_t segment, const json& scene = {}) const {
     json transitions = json::array();
-    for (const auto& transition : analysis_.net->transitions()) transitions.push_back({transition.name, 0});
+    for (const auto& transition : analysis_.net->transitions())
+      transitions.push_back({transition.name, 0, "other"});
     json header{{"system", "line_follower"},
                 {"net_hash", analysis_.net_hash},
                 {"verification_hash", ""},
                 {"seed", 1},
                 {"clock", "steady"},
                 {"instances", {"robot.control"}},
+                {"channels", json::array()},
                 {"transitions", transitions},
                 {"values",
                  {{"limit", 4096},
@@ -43,7 +45,7 @@ class RecordingOfTheStudio : public Served {
     text.back() = ',';
     text += "\"segment\":" + std::to_string(segment) + "}";
     const auto length = static_cast<std::uint32_t>(text.size());
-    std::string bytes(scene.is_null() ? recording_magic_with_memory : recording_magic_with_poses);
+    std::string bytes(recording_magic);
     bytes.append(reinterpret_cast<const char*>(&length), sizeof length).append(text);
     bytes.resize((bytes.size() + 7) / 8 * 8);
     return bytes;
@@ -169,7 +171,7 @@ TEST_F(RecordingOfTheStudio, NumbersThatJsonHasNotAreTexts) {
 
 TEST_F(RecordingOfTheStudio, HasThePathAndTheTrackOfItsRun) {
   const fs::path last = folder_ / "project/.tessera/last";
-  PoseEncoder encoder(2, PoseEncoder::Form::packed);
+  PoseEncoder encoder(2);
   std::string events;
   std::vector<BodyPose> poses(2);
   poses[0].rotation = {std::cos(0.25), 0, 0, std::sin(0.25)};

@@ -65,10 +65,10 @@ TEST_F(ViewsOfTheStudio, HaveTheirNumbersInRecordings) {
     const std::array<float, 2> both{first, second};
     return std::string(reinterpret_cast<const char*>(both.data()), sizeof both);
   };
-  json header{{"system", "scout"},           {"net_hash", ""},
-              {"verification_hash", ""},     {"seed", 1},
-              {"clock", "simulated"},        {"instances", {"robot.laser"}},
-              {"transitions", json::array()}};
+  json header{{"system", "scout"},         {"net_hash", ""},
+              {"verification_hash", ""},   {"seed", 1},
+              {"clock", "simulated"},      {"instances", {"robot.laser"}},
+              {"channels", json::array()}, {"transitions", json::array()}};
   header["values"] = {
       {"limit", 4096},
       {"buffers", json::array({json::array({"robot.laser.ranges", 0, "real_in", "float32[2]"}),

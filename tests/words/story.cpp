@@ -7,7 +7,7 @@
 #include "layers/layers.hpp"
 #include "replay/coverage.hpp"
 #include "replay/events.hpp"
-#include "replay/joint_legality.hpp"
+#include "replay/legality.hpp"
 #include "replay/perfetto.hpp"
 #include "replay/statistics.hpp"
 #include "replay/timeline.hpp"
@@ -70,7 +70,7 @@ void tell_of(const Recording& recording) {
 }
 
 void compare_with_the_net(const Recording& recording, const test::Generated& made) {
-  const replay::Legality legality = replay::check_joint(
+  const replay::Legality legality = replay::check_legal(
       {&recording, 1}, made.net, {.names = {"robot", "station"}, .of_agents = {{0}, {1}}});
   out << "legal: " << static_cast<int>(legality.verdict) << ' ' << legality.firings << ' ' << legality.why
       << '\n';

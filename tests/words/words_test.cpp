@@ -41,24 +41,5 @@ TEST(Words, OtherWordsChangeNamesAndNothingElse) {
   EXPECT_EQ(without_strange_words(usual), without_strange_words(other));
 }
 
-/// By the names of its version, an old recording of the same system tells the roles that a new one holds, in the
-/// same order. The new net also has a transition for each failure that `next` does not name.
-TEST(Words, OfOldRecordingsTellTheRolesThatNewOnesHold) {
-  std::string error;
-  const auto old = read_recording(TESSERA_SOURCE_DIR "/tests/golden/recordings/without_roles.tsr", error);
-  ASSERT_TRUE(old) << error;
-  const std::string story = told_by(TESSERA_USUAL_WORDS);
-  std::size_t at = story.find("roles:\n");
-  ASSERT_NE(at, std::string::npos) << story;
-  at += std::string("roles:").size();
-  for (const Recording::Transition& transition : old->transitions) {
-    const std::string role =
-        '\n' + std::string(name_of(transition.role.step)) + ' ' + transition.role.behaviour + '\n';
-    at = story.find(role, at);
-    ASSERT_NE(at, std::string::npos) << role << story;
-    at += role.size() - 1;
-  }
-}
-
 }  // namespace
 }  // namespace tessera::test

@@ -4,7 +4,6 @@
 #include <chrono>
 #include <cstddef>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -20,14 +19,10 @@
 /// A pose is x, y, z in steps of 0.1 mm and the unit quaternion w + i + j + k in steps of 1/8191. Every form
 /// of frame stores exactly these rounded values. A frame begins with
 ///
-///     uint8    its form
+///     uint8    its form: 0: differences; 1: whole
 ///     uint16   its number, little-endian: one more than that of the previous frame
 ///
-/// Forms 2 (differences) and 3 (whole) are *packed*, as in recordings. Both ends predict that each body
-/// continues its motion of the last frames, or follows the body that it is attached to; an arithmetic coder
-/// writes the difference from the prediction (pose_model.hpp beside the source). Forms 0 (differences) and 1
-/// (whole) are *plain*, for the page of the studio and in older recordings. They list, per body in ascending
-/// order of index,
+/// and lists, per body in ascending order of index,
 ///
 ///     varint   bodies skipped since the previous one
 ///     uint8    which of x, y, z, w, i, j, k follow, in this order: bits 0 to 6
@@ -56,38 +51,24 @@ struct RoundedPose {
 [[nodiscard]] std::optional<RoundedPose> rounded(const BodyPose& pose);
 [[nodiscard]] BodyPose pose_of(const RoundedPose& rounded);
 
-class PoseModel;
-/// For each body the body that it is attached to, which has a lower index. nullopt, or a list that is too
-/// short: none.
-using PoseParents = std::vector<std::optional<std::size_t>>;
-
 /// Makes the frames of one stream of poses. The same poses give the same bytes, on every machine.
 ///
 /// Threads: one at a time.
 class PoseEncoder {
  public:
-  enum class Form : std::uint8_t { plain, packed };
-  /// parents: both ends of a stream of packed frames must use the same.
-  explicit PoseEncoder(std::size_t bodies, Form form = Form::plain, const PoseParents& parents = {});
-  ~PoseEncoder();
-  PoseEncoder(PoseEncoder&&) noexcept;
-  PoseEncoder& operator=(PoseEncoder&&) noexcept;
+  explicit PoseEncoder(std::size_t bodies) : last_(bodies) {}
 
   /// poses: of all bodies. A body whose pose is not finite keeps its last pose. Empty: no body has moved, and
   /// no whole frame is due. The bytes are valid until the next call.
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const BodyPose> poses);
   [[nodiscard]] std::string_view encode(std::int64_t time_ns, std::span<const RoundedPose> poses);
-  /// The poses of the last frame as a whole plain frame with the same number; empty: there is none yet.
+  /// The poses of the last frame as a whole frame with the same number; empty: there is none yet.
   [[nodiscard]] std::string last_whole() const;
-  /// The largest size of a frame of so many bodies. A packed frame that would be larger becomes a plain one.
+  /// The largest size of a frame of so many bodies.
   [[nodiscard]] static std::size_t longest_frame(std::size_t bodies);
 
  private:
-  void put_head(std::uint8_t form, std::uint16_t number);
-  void put_plain(bool whole, std::span<const RoundedPose> poses);
-  void put_packed(bool& whole);
   std::vector<RoundedPose> last_, rounded_;
-  std::unique_ptr<PoseModel> model_;      // of packed frames
   std::optional<std::int64_t> whole_ns_;  // time of the last whole frame
   std::uint16_t number_ = 0;
   std::string bytes_;
@@ -98,10 +79,7 @@ class PoseEncoder {
 /// Threads: one at a time.
 class PoseDecoder {
  public:
-  explicit PoseDecoder(std::size_t bodies, PoseParents parents = {});
-  ~PoseDecoder();
-  PoseDecoder(PoseDecoder&&) noexcept;
-  PoseDecoder& operator=(PoseDecoder&&) noexcept;
+  explicit PoseDecoder(std::size_t bodies) : poses_(bodies) {}
 
   /// false: the bytes are no frame of these bodies.
   bool take(std::string_view frame);
@@ -113,8 +91,6 @@ class PoseDecoder {
  private:
   [[nodiscard]] bool apply(std::string_view bytes, bool whole);
   std::vector<RoundedPose> poses_;
-  PoseParents parents_;
-  std::unique_ptr<PoseModel> model_;
   std::optional<std::uint16_t> number_;  // of the last frame
   bool known_ = false;
 };

@@ -37,16 +37,8 @@ enum class SafeEvent : std::uint8_t {
 
 /// The name of a recording in a folder.
 inline constexpr const char* recording_file_name = "recording.tsr";
-/// The first bytes of a recording: of a plain one, of one with poses, and of one with memory of subsystems.
-/// Versions of Tessera that are too old for a kind refuse it.
-inline constexpr std::string_view recording_magic = "TESSREC1", recording_magic_with_poses = "TESSREC2",
-                                  recording_magic_with_memory = "TESSREC3";
-/// Whether this version reads a file that begins with these bytes.
-[[nodiscard]] constexpr bool is_recording_magic(std::string_view bytes) {
-  const std::string_view magic = bytes.substr(0, recording_magic.size());
-  return magic == recording_magic || magic == recording_magic_with_poses ||
-         magic == recording_magic_with_memory;
-}
+/// The first bytes of a recording. The digit is the version of the format.
+inline constexpr std::string_view recording_magic = "TESSREC1";
 inline constexpr std::uint32_t longest_recording_header = 1U << 28U;
 
 /// Replaces the index of a subsystem in events of the layers above the subsystems.
@@ -63,8 +55,7 @@ inline constexpr std::uint32_t system_instance = 0xffffff;
 ///      "scene": {"hash", "bodies": [[name, agent, parent]...], "eyes": [[body, x, y, z, footprint]...]}}
 ///
 /// For a transition, "step" is a name of a Step, "behaviour" a name and "channel" an index into "channels".
-/// An absent value is left out at the end, or "". Versions before roles wrote [name, instance] and no
-/// "channels" (tessera/old_names.hpp); they read what is written today.
+/// An absent value is left out at the end, or "".
 ///
 /// "process" belongs to a run of one process of a deployed system; its recording has the firings of its own
 /// agents and none of the system's. "processes" and "networked", the channels between processes, belong to
@@ -92,9 +83,8 @@ struct Event {
     marking = 8,
     safe = 9,  ///< like log: "DEVICE: what", about the safe command of a real effector; version: SafeEvent
     parameter = 10,  ///< like log: "PATH=VALUE": a subsystem has taken a new value of a parameter
-    /// Like log: a frame of the poses of the bodies of the world (tessera/poses.hpp). Only with "scene", in
-    /// files that begin with recording_magic_with_poses or recording_magic_with_memory. Not counted in
-    /// `sequence`.
+    /// Like log: a frame of the poses of the bodies of the world (tessera/poses.hpp). Only with "scene". Not
+    /// counted in `sequence`.
     poses = 11,
     /// Like log: "CHANNEL\nINCARNATION": the start of the process at the other end of a channel that the
     /// instance works with from now on. A receiver writes it before it reads a value of that start; a sender,
@@ -170,7 +160,7 @@ struct Recording {
   std::string system, net_hash, verification_hash, clock;
   std::uint64_t seed = 0;
   std::vector<std::string> instances;
-  std::vector<std::string> channels;  ///< empty: recorded without roles
+  std::vector<std::string> channels;
   std::vector<Transition> transitions;
   std::vector<std::vector<std::string>> behaviours;             ///< per instance
   std::vector<std::pair<std::string, std::string>> parameters;  ///< given to the run
@@ -200,8 +190,6 @@ struct Recording {
     std::string hash;          ///< of the scene, which stands beside the recording as HASH.glb
     std::vector<Body> bodies;  ///< those whose poses are recorded
     std::vector<Eye> eyes;
-    /// The `parent` of each body, as the poses of a recording need them.
-    [[nodiscard]] std::vector<std::optional<std::size_t>> parents() const;
   };
   std::optional<Scene> scene;     ///< nullopt: recorded without poses
   std::vector<Buffer> buffers;    ///< empty: recorded without values

@@ -49,8 +49,10 @@ class ValueLayout {
   /// "{linear: 0.3, angular: -1}", cut after `most` bytes.
   [[nodiscard]] std::string shown(std::string_view bytes, std::size_t most = 200) const;
 
+  struct Node;  ///< tessera/value_layout.hpp
+  [[nodiscard]] const Node& root() const { return *root_; }
+
  private:
-  struct Node;
   explicit ValueLayout(std::shared_ptr<const Node> root) : root_(std::move(root)) {}
   friend class ValueLayoutParser;
   std::shared_ptr<const Node> root_;

@@ -88,14 +88,6 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
     eyes.push_back(ordered_json::array({eye.body, eye.at_m[0], eye.at_m[1], eye.at_m[2], eye.footprint_m}));
 }
 
-/// The number of fields of memory that are recorded.
-[[nodiscard]] std::uint32_t count_all_memory(const RunOptions& options, std::span<const SubsystemParts> all) {
-  if (options.values == RunOptions::Values::none) return 0;
-  std::uint32_t count = 0;
-  for (const SubsystemParts& parts : all) count += count_memory(parts.bindings, value_limit(options));
-  return count;
-}
-
 /// The JSON at the beginning: the net, and with values also the fields that `tessera rerun` needs. scene:
 /// nullptr: no poses are recorded.
 [[nodiscard]] RecordingHeader recording_header(const ProcessPart& part, network::Incarnation incarnation,
@@ -119,8 +111,7 @@ void describe_scene(const WorldScene& scene, ordered_json& header) {
   if (options.values != RunOptions::Values::none) describe_values(options, part, all, header);
   describe_deployment(part, incarnation, header);
   if (scene != nullptr) describe_scene(*scene, header);
-  return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr,
-          count_all_memory(options, all) > 0};
+  return {header.dump(-1, ' ', false, ordered_json::error_handler_t::replace), scene != nullptr};
 }
 
 /// The most bytes that a value, or a frame of poses, takes in the recording; 0: none is recorded.
@@ -159,13 +150,39 @@ void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scen
   assembly.world->show_poses(*assembly.poses);
 }
 
+/// Leaves out the places on which several processes act: the transitions of the network between them change
+/// these places as well, and are not recorded. The channels between processes have no versions.
+void leave_out_shared_places(const System& system, FlatNet& net, std::vector<ChannelId>& channels) {
+  std::vector<std::optional<std::uint32_t>> owners(net.places.size());
+  std::vector<bool> shared(net.places.size(), false);
+  for (std::size_t index = 0; index < net.transitions.size(); ++index) {
+    const FlatNet::FlatTransition& transition = net.transitions[index];
+    if (channels[index].valid() && system.is_networked(system.channels[channels[index].value]))
+      channels[index] = {};
+    const bool is_of_network = transition.role.step >= Step::deliver;
+    if (transition.instance == system_instance && !is_of_network) continue;
+    for (const auto* places : {&transition.inputs, &transition.outputs})
+      for (const std::uint32_t place : *places) {
+        std::optional<std::uint32_t>& owner = owners[place];
+        const std::uint32_t process = is_of_network ? UINT32_MAX : system.process_of[transition.instance];
+        shared[place] = shared[place] || owner.value_or(process) != process;
+        owner = process;
+      }
+  }
+  for (FlatNet::FlatTransition& transition : net.transitions)
+    for (auto* places : {&transition.inputs, &transition.outputs})
+      std::erase_if(*places, [&](std::uint32_t place) { return shared[place]; });
+}
+
 /// nullptr: the recording has no limit, so it needs no marking.
-[[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, const FlatNet& net,
+[[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, FlatNet net,
                                                      std::vector<ChannelId> channels) {
   if (assembly.options.record_limit.segment_bytes == 0) return nullptr;
+  const bool in_order = assembly.options.clock == RunOptions::Clock::simulated;
+  if (assembly.links != nullptr && in_order) leave_out_shared_places(*assembly.part.whole, net, channels);
   auto track = std::make_unique<MarkingTrack>(net, std::move(channels));
-  // The transitions of the network between processes change the marking, but are not recorded.
-  if (assembly.links != nullptr) track->forget();
+  // One process does not record what the layers above all of them do.
+  if (assembly.links != nullptr && !in_order) track->forget();
   return track;
 }
 

@@ -14,20 +14,8 @@
 
 namespace tessera {
 
-namespace {
-
-PoseParents parents_of(const WorldScene& scene) {
-  PoseParents parents;
-  for (const WorldScene::Body& body : scene.bodies) parents.push_back(body.parent);
-  return parents;
-}
-
-}  // namespace
-
 PoseRecorder::PoseRecorder(RecordingLane& lane, const Clock& clock, const WorldScene& scene)
-    : lane_(lane),
-      clock_(clock),
-      encoder_(scene.bodies.size(), PoseEncoder::Form::packed, parents_of(scene)) {}
+    : lane_(lane), clock_(clock), encoder_(scene.bodies.size()) {}
 
 void PoseRecorder::take(Time time, std::span<const BodyPose> poses) {
   const Time at = clock_.simulated() ? time : clock_.now();

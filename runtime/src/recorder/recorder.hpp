@@ -25,9 +25,7 @@ namespace tessera {
 /// The beginning of a recording.
 struct RecordingHeader {
   std::string json;
-  // Parts that older versions cannot read:
-  bool has_scene = false;   ///< there may be poses
-  bool has_memory = false;  ///< the memory of subsystems is among the values
+  bool has_scene = false;  ///< there may be poses
 };
 
 /// Writes the bytes of a recording. Errors are remembered, not thrown; after an error nothing is written.
@@ -81,7 +79,6 @@ class RecordingFile {
   void write_all(const char* bytes, std::size_t count);
   void await_room(std::int64_t& stuck_ns);
   std::string path_, header_;
-  std::string_view magic_ = recording_magic;
   RunOptions::Limit limit_;
   std::unique_ptr<MarkingTrack> track_;
   std::uint64_t segment_ = 0, segment_bytes_ = 0;

@@ -77,8 +77,6 @@ bool RecordingFile::open(const std::string& path, const RecordingHeader& header,
                          RunOptions::Limit limit, std::unique_ptr<MarkingTrack> track) {
   path_ = path;
   header_ = header.json;
-  if (header.has_scene) magic_ = recording_magic_with_poses;
-  if (header.has_memory) magic_ = recording_magic_with_memory;
   if (!is_pipe_or_device(path)) limit_ = limit;
   track_ = limit_.segment_bytes == 0 ? nullptr : std::move(track);
   if (!take_file()) {
@@ -144,7 +142,7 @@ void RecordingFile::begin_file() {
   const auto length = static_cast<std::uint32_t>(header.size());
   std::string start;
   start.reserve(recording_magic.size() + sizeof length + header.size() + 8);  // including the padding
-  start.append(magic_);
+  start.append(recording_magic);
   start.append(reinterpret_cast<const char*>(&length), sizeof length);
   start.append(header);
   start.resize((start.size() + 7) / 8 * 8, '\0');
@@ -177,6 +175,8 @@ void RecordingFile::keep_track(const Event& event) {
   if (segment_bytes_ + (2 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
     begin_segment(event.time_ns);
   if (event.kind() == Event::Kind::firing) track_->fire(event);
+  // What a process held is gone when it begins again.
+  if (event.kind() == Event::Kind::process) track_->forget();
 }
 
 void RecordingFile::put_end(std::uint64_t lost, bool goes_on) {

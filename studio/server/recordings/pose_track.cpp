@@ -16,7 +16,7 @@ void PoseTrack::begin(const Recording& header) {
   json scene{{"hash", header.scene->hash}, {"bodies", std::move(bodies)}};
   if (scene == scene_) return;  // the next segment of the same run
   scene_ = std::move(scene);
-  recorded_.emplace(header.scene->bodies.size(), header.scene->parents());
+  recorded_.emplace(header.scene->bodies.size());
   shown_.emplace(header.scene->bodies.size());
   const std::vector<replay::Robot> robots = replay::robots_of(*header.scene);
   robot_ = robots.size() == 1 ? std::optional(robots.front().body) : std::nullopt;

@@ -134,13 +134,14 @@ export function writeWorld(folder, name, { hash, net_hash, transitions, agent, r
       seed: 1,
       clock: "simulated",
       instances: [],
-      transitions: transitions.map((one) => [one, systemInstance]),
+      channels: [],
+      transitions: transitions.map((one) => [one, systemInstance, "other"]),
       scene: { hash, bodies },
     }),
   );
   const length = Buffer.alloc(4);
   length.writeUInt32LE(header.length, 0);
-  const start = Buffer.concat([Buffer.from("TESSREC2"), length, header]);
+  const start = Buffer.concat([Buffer.from("TESSREC1"), length, header]);
   const events = [event(0, firing, {})];
   const across = Math.ceil(Math.sqrt(robots));
   for (let frame = 0; frame < 250; frame += 1) {

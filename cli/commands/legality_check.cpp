@@ -1,4 +1,4 @@
-#include "cli/commands/joint_check.hpp"
+#include "cli/commands/legality_check.hpp"
 
 #include <fmt/core.h>
 
@@ -8,7 +8,7 @@
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/verification/pipeline.hpp"
-#include "replay/joint_legality.hpp"
+#include "replay/legality.hpp"
 #include "verify/hashes.hpp"
 
 namespace tessera::cli {
@@ -69,11 +69,11 @@ std::optional<replay::Legality> check_against(const std::string& specification,
            std::nullopt;
   const std::optional<project::Nets> nets = project::build(*read, terminal());
   if (!nets || !is_of_this_net(recordings, verify::hash_of(nets->flat), *read)) return std::nullopt;
-  if (!deployed) return replay::check_legal(recordings.front(), nets->flat);
+  if (!deployed) return replay::check_legal(recordings, nets->flat);
   const replay::ProcessMap processes = processes_of(read->model);
   if (const auto wrong = replay::cannot_be_joined(recordings, processes))
     return complain(*wrong), std::nullopt;
-  return replay::check_joint(recordings, nets->flat, processes);
+  return replay::check_legal(recordings, nets->flat, processes);
 }
 
 }  // namespace tessera::cli

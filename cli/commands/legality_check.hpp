@@ -14,7 +14,7 @@ namespace tessera::cli {
 [[nodiscard]] std::vector<std::string> recordings_of(const std::string& given);
 
 /// Checks that the recordings are a legal run of the net of the specification: one recording, or several of
-/// the processes of a deployed system (replay/joint_legality.hpp). nullopt: there is no net to check against,
+/// the processes of a deployed system (replay/legality.hpp). nullopt: there is no net to check against,
 /// or they cannot be judged together; the reason has been printed.
 [[nodiscard]] std::optional<replay::Legality> check_against(const std::string& specification,
                                                             const std::vector<Recording>& recordings);

@@ -12,7 +12,7 @@
 #include <sstream>
 
 #include "cli/commands/commands.hpp"
-#include "cli/commands/joint_check.hpp"
+#include "cli/commands/legality_check.hpp"
 #include "cli/commands/legality_text.hpp"
 #include "cli/coverage.hpp"
 #include "cli/film.hpp"
@@ -256,7 +256,7 @@ int film_command(const ReplayOptions& options) {
 }
 
 /// The check of the recordings of a deployed system's processes.
-int joint_command(const ReplayOptions& options) {
+int check_command(const ReplayOptions& options) {
   std::vector<Recording> recordings;
   for (const std::string& file : options.recordings) {
     std::string error;
@@ -300,7 +300,7 @@ int replay_command(ReplayOptions options) {
   options.recording = options.recordings.front();
   if (!options.coverage.empty()) return coverage_command(options);
   if (options.recordings.size() > 1 && options.film.file.empty() && only_checks(options))
-    return joint_command(options);
+    return check_command(options);
   if (options.recordings.size() > 1)
     return complain("several recordings are read together with --check alone, or with --coverage"), usage;
   if (!options.film.file.empty()) return film_command(options);

@@ -1,7 +1,5 @@
 #include "checks/dimension.hpp"
 
-#include <array>
-#include <cstdlib>
 #include <optional>
 #include <tuple>
 #include <utility>
@@ -20,15 +18,7 @@ Dimension dimension_of_unit(std::string_view unit) {
 }
 
 std::string unit_of(const Dimension& dimension) {
-  std::string above, below;
-  for (const auto& [unit, power] : std::to_array<std::pair<const char*, int>>(
-           {{"m", dimension.length}, {"rad", dimension.angle}, {"s", dimension.time}}))
-    for (int count = 0; count < std::abs(power); ++count) {
-      std::string& part = power > 0 ? above : below;
-      part += (part.empty() ? "" : power > 0 ? " " : "/") + std::string(unit);
-    }
-  if (above.empty() && below.empty()) return {};
-  return (above.empty() ? "1" : above) + (below.empty() ? "" : "/" + below);
+  return si_name(Unit{.powers = {dimension.length, dimension.angle, dimension.time}});
 }
 
 std::string name_of(const Dimension& dimension) {

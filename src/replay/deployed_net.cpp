@@ -94,6 +94,7 @@ void DeployedNet::find_transitions(const ProcessMap& processes) {
     }
     transition.step = step_of(id);
     transition.carries_number = net_.channel_of(id).valid();
+    channels_[transition.channel.value].sides.push_back(move_of(id));
   }
 }
 
@@ -118,7 +119,8 @@ void DeployedNet::join_groups() {
 void DeployedNet::find_owners(const ProcessMap& processes) {
   for (std::uint32_t index = 0; index < net_.places().size(); ++index) {
     const net::Place& place = net_.places()[index];
-    const bool local = place.fused() && !channels_[place.channel.value].networked;
+    hidden_.push_back(place.fused() && channels_[place.channel.value].networked);
+    const bool local = place.fused() && !hidden_.back();
     process_of_places_.push_back(place.agent.valid() ? processes.of_agents[place.agent]
                                  : local             ? channels_[place.channel.value].sending
                                                      : ProcessId{});
@@ -128,8 +130,8 @@ void DeployedNet::find_owners(const ProcessMap& processes) {
   for (std::uint32_t index = 0; index < transitions_.size(); ++index)
     for (const Arc& arc : net_.postset({index})) {
       const net::SubsystemId subsystem = net_.transitions()[index].subsystem;
-      net::SubsystemId& maker = makers_[arc.place.value];
-      maker = seen[arc.place.value] && maker != subsystem ? net::SubsystemId{} : subsystem;
+      std::optional<net::SubsystemId>& maker = makers_[arc.place.value];
+      maker = seen[arc.place.value] && maker != subsystem ? std::nullopt : std::optional(subsystem);
       seen[arc.place.value] = true;
     }
 }

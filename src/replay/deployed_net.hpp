@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -44,6 +45,7 @@ class DeployedNet {
     ProcessId sending{}, receiving{};
     std::vector<net::PlaceId> places;  ///< networked: its shared places, a bit each
     std::vector<Move> medium;          ///< the moves that are not recorded
+    std::vector<Move> sides;           ///< those of its sender and its receiver
     bool exchange = false;             ///< both sides are non-blocking
   };
   struct Transition {
@@ -64,10 +66,8 @@ class DeployedNet {
   /// The process that owns the tokens of a place; none: the system, or a channel between processes.
   [[nodiscard]] ProcessId process_of(net::PlaceId place) const { return process_of_places_[place.value]; }
   /// Is it a shared place of a channel between processes?
-  [[nodiscard]] bool is_hidden(net::PlaceId place) const {
-    return net_[place].fused() && (*this)[net_[place].channel].networked;
-  }
-  /// Do only firings of this subsystem fill the place?
+  [[nodiscard]] bool is_hidden(net::PlaceId place) const { return hidden_[place.value]; }
+  /// Do only firings of this subsystem fill the place? none: only those of the layers above.
   [[nodiscard]] bool is_made_by(net::PlaceId place, net::SubsystemId subsystem) const {
     return makers_[place.value] == subsystem;
   }
@@ -88,7 +88,9 @@ class DeployedNet {
   std::vector<Transition> transitions_;
   std::vector<std::uint32_t> bits_;  // per place: its bit in its channel
   std::vector<ProcessId> process_of_places_;
-  std::vector<net::SubsystemId> makers_;  // per place: the subsystem that alone fills it
+  std::vector<bool> hidden_;  // per place
+  /// Per place: the subsystem that alone fills it, or none for the layers above; nullopt: nobody, or several.
+  std::vector<std::optional<net::SubsystemId>> makers_;
   net::TransitionId start_{};
 };
 

@@ -9,7 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
-#include "replay/net_play.hpp"
+#include "replay/source.hpp"
 
 namespace tessera::replay {
 

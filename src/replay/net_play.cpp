@@ -1,4 +1,4 @@
-#include "replay/joint_play.hpp"
+#include "replay/net_play.hpp"
 
 #include <fmt/core.h>
 
@@ -6,25 +6,23 @@
 #include <bit>
 #include <utility>
 
-#include "replay/net_play.hpp"
+#include "replay/source.hpp"
 
 namespace tessera::replay {
 
 using net::Arc;
 using net::ChannelId;
 using net::TransitionId;
-using Kind = JointPlay::Obstacle::Kind;
-using Reason = JointPlay::Obstacle::Reason;
 using Move = DeployedNet::Move;
 
-JointPlay::JointPlay(const DeployedNet& net, std::vector<Start> starts, bool one_run)
+NetPlay::NetPlay(const DeployedNet& net, std::vector<Start> starts, bool one_run)
     : net_(net),
       starts_(std::move(starts)),
       assumed_(starts_.size(), false),
       of_process_(net.process_count()),
       marking_(net::initial_marking(net.net())),
       after_start_(marking_),
-      versions_(net.channel_count(), 0),
+      versions_(net.channel_count()),
       links_(net.channel_count()) {
   for (const StartId start : starts_.ids()) {
     std::vector<StartId>& all = of_process_[starts_[start].process];
@@ -36,7 +34,7 @@ JointPlay::JointPlay(const DeployedNet& net, std::vector<Start> starts, bool one
   if (net_.start().valid()) net::fire(net_.net(), net_.start(), after_start_);
 }
 
-void JointPlay::link_up(ChannelId id, bool one_run) {
+void NetPlay::link_up(ChannelId id, bool one_run) {
   const DeployedNet::Channel& channel = net_[id];
   Link& link = links_[id.value];
   // A side that no behaviour uses has no process.
@@ -48,198 +46,126 @@ void JointPlay::link_up(ChannelId id, bool one_run) {
   link.receiving.resize(receivers.size());
   link.tracked = (!channel.sending.valid() || senders.size() == 1) &&
                  (!channel.receiving.valid() || receivers.size() == 1);
-  if (one_run && !senders.empty() && !receivers.empty()) {
+  link.fixed_peers = one_run && senders.size() == 1 && receivers.size() == 1;
+  if (link.fixed_peers) {
     link.sending.front().peer = receivers.front();
     link.receiving.front().peer = senders.front();
   }
   std::uint64_t initial = 0;
   for (std::size_t place = 0; place < channel.places.size(); ++place)
     initial |= std::uint64_t{marking_[channel.places[place].value]} << place;
-  link.markings = with_medium(id, std::uint64_t{1} << initial);
+  link.initial = link.markings = with_medium(id, std::uint64_t{1} << initial);
 }
 
-void JointPlay::start_system() { marking_ = after_start_; }
+void NetPlay::start_system() { marking_ = after_start_; }
 
-void JointPlay::restart(StartId start) {
+void NetPlay::restart(StartId start) {
   const ProcessId process = starts_[start].process;
   for (std::uint32_t place = 0; place < marking_.size(); ++place)
     if (net_.process_of({place}) == process) marking_[place] = after_start_[place];
   for (std::uint32_t channel = 0; channel < versions_.size(); ++channel)
     if (!net_[ChannelId{channel}].networked && net_[ChannelId{channel}].sending == process)
-      versions_[channel] = 0;
+      versions_[channel] = {};
 }
 
-JointPlay::Sending& JointPlay::sending(ChannelId channel, StartId start) {
-  return links_[channel.value].sending[ordinals_[start]];
-}
-const JointPlay::Sending& JointPlay::sending(ChannelId channel, StartId start) const {
-  return links_[channel.value].sending[ordinals_[start]];
-}
-JointPlay::Receiving& JointPlay::receiving(ChannelId channel, StartId start) {
-  return links_[channel.value].receiving[ordinals_[start]];
-}
-const JointPlay::Receiving& JointPlay::receiving(ChannelId channel, StartId start) const {
-  return links_[channel.value].receiving[ordinals_[start]];
+// ----------------------------------------------------------------------------------------------- segments
+
+bool NetPlay::is_of(net::PlaceId place, StartId start) const {
+  return !net_.is_hidden(place) && (!start.valid() || net_.process_of(place) == starts_[start].process);
 }
 
-// --------------------------------------------------------------------------------------------- obstacles
-
-JointPlay::Obstacle JointPlay::obstacle(const Firing& firing) const {
-  const DeployedNet::Transition& transition = net_[firing.transition];
-  Obstacle found;
-  if (transition.step != ChannelStep::none)
-    found = number_obstacle(firing);
-  else if (transition.channel.valid() || firing.version != 0)
-    found = version_obstacle(firing);
-  return found.kind == Kind::no ? token_obstacle(firing) : found;
+/// Do both sides of the channel run in the process of the start?
+bool NetPlay::is_within(ChannelId channel, StartId start) const {
+  return !net_[channel].networked && (!start.valid() || net_[channel].sending == starts_[start].process);
 }
 
-JointPlay::Obstacle JointPlay::token_obstacle(const Firing& firing) const {
-  for (const Arc& arc : net_.net().preset(firing.transition)) {
-    if (net_.is_hidden(arc.place) || net::suffices(marking_, arc)) continue;
-    // All firings of a local channel up to this one have been played, and so have those of its own subsystem.
-    const net::SubsystemId subsystem = net_.net()[firing.transition].subsystem;
-    const bool own =
-        net_.net()[arc.place].fused() || (subsystem.valid() && net_.is_made_by(arc.place, subsystem));
-    return {.kind = own ? Kind::never : Kind::waits, .place = arc.place, .awaited = firing.start};
+std::optional<Problem> NetPlay::read_marking(std::string_view text, net::Marking& marking) {
+  if (places_.empty())
+    for (std::uint32_t index = 0; index < marking_.size(); ++index)
+      places_.emplace(net_.net().places()[index].name, index);
+  marking.assign(marking_.size(), 0);
+  while (!text.empty()) {
+    const std::string_view name = text.substr(0, text.find('\n'));
+    text.remove_prefix(std::min(text.size(), name.size() + 1));
+    const auto found = places_.find(name);
+    if (found == places_.end())
+      return Problem{fmt::format("the marking names '{}', which is no place of the net", name)};
+    marking[found->second] = 1;
   }
-  return {};
+  return std::nullopt;
 }
 
-JointPlay::Obstacle JointPlay::version_obstacle(const Firing& firing) const {
-  const ChannelId channel = net_[firing.transition].channel;
-  if (!channel.valid() || firing.version == 0) return {.kind = Kind::never, .reason = Reason::no_number};
-  const std::uint32_t last = versions_[channel.value], due = last == UINT32_MAX ? 1 : last + 1;
-  if (firing.version == due) return {};
-  return {.kind = is_before(firing.version, due) ? Kind::never : Kind::waits,
-          .reason = Reason::version,
-          .due = due,
-          .awaited = firing.start};
+std::optional<Problem> NetPlay::compare(std::string_view marking, StartId start) {
+  net::Marking other;
+  if (std::optional<Problem> wrong = read_marking(marking, other)) return wrong;
+  for (std::uint32_t place = 0; place < marking_.size(); ++place)
+    if (is_of({place}, start) && marking_[place] != other[place])
+      return Problem{
+          fmt::format("a segment begins with another marking than the one before it ends with: '{}' holds {} "
+                      "tokens there",
+                      net_.net().places()[place].name, other[place])};
+  return std::nullopt;
 }
 
-JointPlay::Obstacle JointPlay::number_obstacle(const Firing& firing) const {
-  const DeployedNet::Transition& transition = net_[firing.transition];
-  const auto must_be = [&](std::uint32_t due) -> Obstacle {
-    if (firing.version == due) return {};
-    return {.kind = Kind::never, .reason = Reason::number, .due = due};
+std::optional<Problem> NetPlay::start_from(std::string_view marking, StartId start) {
+  net::Marking other;
+  if (std::optional<Problem> wrong = read_marking(marking, other)) return wrong;
+  for (std::uint32_t place = 0; place < marking_.size(); ++place)
+    if (is_of({place}, start)) marking_[place] = other[place];
+  for (std::uint32_t channel = 0; channel < links_.size(); ++channel)
+    if (net_[ChannelId{channel}].networked)
+      forget({channel}, start);
+    else if (is_within({channel}, start))
+      versions_[channel] = {.last = 0, .is = Version::unknown};
+  return std::nullopt;
+}
+
+/// Forgets what is known of a channel between processes, as far as it is that of the start.
+void NetPlay::forget(ChannelId channel, StartId start) {
+  Link& link = links_[channel.value];
+  const auto is_concerned = [&](ProcessId process) {
+    return process.valid() && (!start.valid() || process == starts_[start].process);
   };
-  const ChannelId channel = transition.channel;
-  switch (transition.step) {
-    case ChannelStep::none:
-      return {};
-    case ChannelStep::begins_write:
-    case ChannelStep::writes:
-      return must_be(sending(channel, firing.start).written + 1);
-    case ChannelStep::gives_up:
-      return must_be(transition.carries_number ? sending(channel, firing.start).written : 0);
-    case ChannelStep::is_acknowledged:
-      return acknowledgement_obstacle(firing);
-    case ChannelStep::begins_read:
-      return read_obstacle(firing, net_[channel].exchange);
-    case ChannelStep::ends_read:
-      return must_be(receiving(channel, firing.start).last);
-    case ChannelStep::skips:
-      return must_be(0);
-  }
-  return {};
+  const bool sends = is_concerned(net_[channel].sending), receives = is_concerned(net_[channel].receiving);
+  if (!sends && !receives) return;
+  link.markings = reachable(channel);
+  link.tracked = link.tracked && link.fixed_peers;
+  const auto make_unknown = [&](auto& side) {
+    side.known = false;
+    if (!link.fixed_peers) side.peer = not_given;
+  };
+  if (sends) std::ranges::for_each(link.sending, make_unknown);
+  if (receives) std::ranges::for_each(link.receiving, make_unknown);
 }
 
-JointPlay::Obstacle JointPlay::acknowledgement_obstacle(const Firing& firing) const {
-  const ChannelId channel = net_[firing.transition].channel;
-  const Sending& side = sending(channel, firing.start);
-  if (firing.version != side.written)
-    return {.kind = Kind::never, .reason = Reason::number, .due = side.written};
-  if (!side.peer.valid()) return {.kind = Kind::never, .reason = Reason::no_peer};
-  if (side.peer == unknown) return {};
-  if (is_read_later(firing, side)) return {.kind = Kind::never, .reason = Reason::taken_already};
-  const auto read = std::ranges::find(side.reads, side.peer, &Read::start);
-  if (read != side.reads.end() && read->ended == firing.version) return {};
-  if (assumed_[side.peer]) return {};
-  return {.kind = Kind::waits, .reason = Reason::untaken, .awaited = side.peer};
+void NetPlay::guess_version(ChannelId channel, std::uint32_t version) {
+  versions_[channel.value] = {.last = version == 1 ? UINT32_MAX : version - 1, .is = Version::guessed};
 }
 
-JointPlay::Obstacle JointPlay::read_obstacle(const Firing& firing, bool exchange) const {
-  const ChannelId channel = net_[firing.transition].channel;
-  const Receiving& side = receiving(channel, firing.start);
-  const std::uint32_t number = firing.version;
-  if (number == 0 && exchange && side.last == 0 && side.peer_incarnation == 0) return {};
-  if (number == 0) return {.kind = Kind::never, .reason = Reason::no_number};
-  if (!side.peer.valid()) return {.kind = Kind::never, .reason = Reason::no_peer};
-  if (side.last != 0 && (is_before(number, side.last) || (number == side.last && !exchange)))
-    return {.kind = Kind::never, .reason = Reason::read_already, .due = side.last};
-  if (was_left_behind(channel, firing, side)) return {.kind = Kind::never, .reason = Reason::taken_already};
-  if (side.peer == unknown || assumed_[side.peer]) return {};
-  if (!is_before(sending(channel, side.peer).written, number)) return {};
-  return {.kind = Kind::waits, .reason = Reason::unwritten, .awaited = side.peer};
+void NetPlay::confirm_versions(StartId start) {
+  for (std::uint32_t channel = 0; channel < versions_.size(); ++channel)
+    if (Version& version = versions_[channel]; is_within({channel}, start) && version.is == Version::guessed)
+      version.is = Version::known;
 }
 
-/// An earlier start of the reader took a newer value, or told the sender that it had taken this one. The first
-/// read of a start decides, since the numbers of its reads grow.
-bool JointPlay::was_left_behind(ChannelId channel, const Firing& firing, const Receiving& side) const {
-  const std::uint32_t ordinal = ordinals_[firing.start];
-  if (ordinal == 0 || side.last != 0) return false;
-  if (is_given(side.peer)) {
-    const Sending& sender = sending(channel, side.peer);
-    if (sender.acknowledged != 0 && is_given(sender.peer) && ordinals_[sender.peer] < ordinal &&
-        !is_before(sender.acknowledged, firing.version))
-      return true;
-  }
-  const std::vector<Receiving>& all = links_[channel.value].receiving;
-  return std::any_of(all.begin(), all.begin() + ordinal, [&](const Receiving& before) {
-    return before.peer_incarnation == side.peer_incarnation && before.last != 0 &&
-           is_before(firing.version, before.last);
-  });
-}
+// -------------------------------------------------------------------------------------------------- sides
 
-/// A later start of the reader has read the value that an earlier one acknowledges.
-bool JointPlay::is_read_later(const Firing& firing, const Sending& side) const {
-  return std::ranges::any_of(side.reads, [&](const Read& read) {
-    return ordinals_[read.start] > ordinals_[side.peer] && !is_before(firing.version, read.first);
-  });
+NetPlay::Sending& NetPlay::sending(ChannelId channel, StartId start) {
+  return links_[channel.value].sending[ordinals_[start]];
 }
-
-std::string JointPlay::complaint(const Firing& firing, const Obstacle& obstacle) const {
-  const DeployedNet::Transition& transition = net_[firing.transition];
-  const auto channel = [&] { return "'" + net_.net().parts()[transition.channel] + "'"; };
-  std::string why;
-  switch (obstacle.reason) {
-    case Reason::token:
-      why = fmt::format("'{}' holds no token", net_.net()[obstacle.place].name);
-      break;
-    case Reason::version:
-      why = fmt::format("it is version {} of its channel, of which {} is due", firing.version, obstacle.due);
-      break;
-    case Reason::number:
-      why = fmt::format("it carries number {} of {}, of which {} is due", firing.version, channel(),
-                        obstacle.due);
-      break;
-    case Reason::no_number:
-      why = "it is recorded with the wrong kind of version";
-      break;
-    case Reason::read_already:
-      why = fmt::format("it reads value {} of {} after value {}", firing.version, channel(), obstacle.due);
-      break;
-    case Reason::taken_already:
-      why = fmt::format("value {} of {} was taken before a restart, and is read again after it",
-                        firing.version, channel());
-      break;
-    case Reason::no_peer:
-      why = fmt::format("the recording does not say which start of the other process it hears at {}",
-                        channel());
-      break;
-    case Reason::unwritten:
-      why = fmt::format("value {} of {} is not written before it is read", firing.version, channel());
-      break;
-    case Reason::untaken:
-      why = fmt::format("value {} of {} is not taken before that", firing.version, channel());
-      break;
-  }
-  return fmt::format("'{}' fired, but {}", net_.net()[firing.transition].name, why);
+const NetPlay::Sending& NetPlay::sending(ChannelId channel, StartId start) const {
+  return links_[channel.value].sending[ordinals_[start]];
+}
+NetPlay::Receiving& NetPlay::receiving(ChannelId channel, StartId start) {
+  return links_[channel.value].receiving[ordinals_[start]];
+}
+const NetPlay::Receiving& NetPlay::receiving(ChannelId channel, StartId start) const {
+  return links_[channel.value].receiving[ordinals_[start]];
 }
 
 // ------------------------------------------------------------------------------------------------- firing
 
-std::optional<Problem> JointPlay::fire(const Firing& firing) {
+std::optional<Problem> NetPlay::fire(const Firing& firing) {
   const TransitionId id = firing.transition;
   for (const Arc& arc : net_.net().preset(id))
     if (!net_.is_hidden(arc.place)) marking_[arc.place.value] -= arc.weight;
@@ -257,14 +183,16 @@ std::optional<Problem> JointPlay::fire(const Firing& firing) {
                                  net_.net().parts()[net_[id].channel])};
     count(firing);
   } else if (net_[id].channel.valid()) {
-    versions_[net_[id].channel.value] = firing.version;
+    Version& version = versions_[net_[id].channel.value];
+    version.last = firing.version;
+    if (version.is == Version::unknown) version.is = Version::guessed;
   }
   ++firings_;
   return std::nullopt;
 }
 
 /// A firing that needs what is not recorded: the markings after that are not known.
-void JointPlay::stop_tracking(const Firing& firing) {
+void NetPlay::stop_tracking(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
   const DeployedNet::Channel& ends = net_[channel];
   const bool sends = starts_[firing.start].process == ends.sending;
@@ -273,7 +201,7 @@ void JointPlay::stop_tracking(const Firing& firing) {
 }
 
 /// nullptr: the sender is not given.
-JointPlay::Read* JointPlay::read_by(const Firing& firing) {
+NetPlay::Read* NetPlay::read_by(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
   const StartId sender = receiving(channel, firing.start).peer;
   if (!is_given(sender)) return nullptr;
@@ -282,14 +210,16 @@ JointPlay::Read* JointPlay::read_by(const Firing& firing) {
   return &reads.back();
 }
 
-void JointPlay::count(const Firing& firing) {
+void NetPlay::count(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
   switch (net_[firing.transition].step) {
     case ChannelStep::writes:
       sending(channel, firing.start).written = firing.version;
+      sending(channel, firing.start).known = true;
       break;
     case ChannelStep::begins_read:
       receiving(channel, firing.start).last = firing.version;
+      receiving(channel, firing.start).known = true;
       if (Read* read = read_by(firing); read != nullptr && read->first == 0) read->first = firing.version;
       break;
     case ChannelStep::ends_read:
@@ -306,47 +236,55 @@ void JointPlay::count(const Firing& firing) {
   }
 }
 
-bool JointPlay::move_markings(const Firing& firing) {
+bool NetPlay::move_markings(const Firing& firing) {
   const DeployedNet::Transition& transition = net_[firing.transition];
   Link& link = links_[transition.channel.value];
   if (!link.tracked) return true;
-  std::uint64_t after = 0;
-  for (std::uint64_t left = link.markings; left != 0; left &= left - 1) {
-    const auto marking = static_cast<std::uint32_t>(std::countr_zero(left));
-    for (const Move& move : transition.moves)
-      if ((marking & move.takes) == move.takes)
-        after |= std::uint64_t{1} << ((marking & ~move.takes) | move.gives);
-  }
-  link.markings = with_medium(transition.channel, after);
+  link.markings = with_medium(transition.channel, moved(link.markings, transition.moves));
   return link.markings != 0;
 }
 
+/// The markings after one of the moves.
+std::uint64_t NetPlay::moved(std::uint64_t markings, std::span<const Move> moves) {
+  std::uint64_t after = 0;
+  for (; markings != 0; markings &= markings - 1) {
+    const auto marking = static_cast<std::uint32_t>(std::countr_zero(markings));
+    for (const Move& move : moves)
+      if ((marking & move.takes) == move.takes)
+        after |= std::uint64_t{1} << ((marking & ~move.takes) | move.gives);
+  }
+  return after;
+}
+
 /// Whatever the medium may do meanwhile, it may have done.
-std::uint64_t JointPlay::with_medium(ChannelId channel, std::uint64_t markings) const {
-  std::uint64_t all = markings;
-  for (std::uint64_t fresh = markings; fresh != 0;) {
-    const auto marking = static_cast<std::uint32_t>(std::countr_zero(fresh));
-    fresh &= fresh - 1;
-    for (const Move& move : net_[channel].medium) {
-      if ((marking & move.takes) != move.takes) continue;
-      const std::uint64_t next = std::uint64_t{1} << ((marking & ~move.takes) | move.gives);
-      fresh |= next & ~all;
-      all |= next;
-    }
+std::uint64_t NetPlay::with_medium(ChannelId channel, std::uint64_t markings) const {
+  for (std::uint64_t before = 0; before != markings;) {
+    before = markings;
+    markings |= moved(markings, net_[channel].medium);
+  }
+  return markings;
+}
+
+/// All markings that the shared places of a channel can have.
+std::uint64_t NetPlay::reachable(ChannelId channel) const {
+  std::uint64_t all = links_[channel.value].initial;
+  for (std::uint64_t before = 0; before != all;) {
+    before = all;
+    all = with_medium(channel, all | moved(all, net_[channel].sides));
   }
   return all;
 }
 
 // -------------------------------------------------------------------------------------------------- peers
 
-JointPlay::StartId JointPlay::find_start(ProcessId process, std::uint64_t incarnation) const {
+NetPlay::StartId NetPlay::find_start(ProcessId process, std::uint64_t incarnation) const {
   for (const StartId start : of_process_[process])
     if (starts_[start].incarnation == incarnation) return start;
-  return unknown;
+  return not_given;
 }
 
 /// false: it is an earlier one.
-bool JointPlay::turn(Sending& side, StartId peer, std::uint64_t incarnation) const {
+bool NetPlay::turn(Sending& side, StartId peer, std::uint64_t incarnation) const {
   if (incarnation <= side.peer_incarnation) return false;
   side.peer = peer;
   side.peer_incarnation = incarnation;
@@ -354,7 +292,7 @@ bool JointPlay::turn(Sending& side, StartId peer, std::uint64_t incarnation) con
   return true;
 }
 
-bool JointPlay::turn(ChannelId channel, StartId start, StartId peer, std::uint64_t incarnation) {
+bool NetPlay::turn(ChannelId channel, StartId start, StartId peer, std::uint64_t incarnation) {
   std::vector<Receiving>& all = links_[channel.value].receiving;
   Receiving& side = receiving(channel, start);
   const bool goes_back =
@@ -365,7 +303,7 @@ bool JointPlay::turn(ChannelId channel, StartId start, StartId peer, std::uint64
   return !goes_back;
 }
 
-std::optional<Problem> JointPlay::hear(ChannelId channel, StartId start, std::uint64_t incarnation) {
+std::optional<Problem> NetPlay::hear(ChannelId channel, StartId start, std::uint64_t incarnation) {
   const DeployedNet::Channel& ends = net_[channel];
   const std::string& name = net_.net().parts()[channel];
   const ProcessId process = starts_[start].process;
@@ -379,7 +317,7 @@ std::optional<Problem> JointPlay::hear(ChannelId channel, StartId start, std::ui
       sends ? turn(sending(channel, start), peer, incarnation) : turn(channel, start, peer, incarnation);
   if (!forwards)
     return Problem{fmt::format("at '{}' it turns back to an earlier start of the other process", name)};
-  if (peer == unknown) {
+  if (peer == not_given) {
     links_[channel.value].tracked = false;
     unknown_peer_ = fmt::format("incarnation {} at the other end of '{}'", incarnation, name);
   }

@@ -1,44 +1,42 @@
-#include "replay/joint_source.hpp"
+#include "replay/source.hpp"
 
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <charconv>
 #include <functional>
 #include <map>
 #include <optional>
 #include <utility>
 
-#include "replay/joint_legality.hpp"
-#include "replay/net_play.hpp"
-
 namespace tessera::replay {
 
-std::optional<Problem> JointSource::match(
-    const net::Net& net, const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
+std::optional<Problem> Source::match(const net::Net& net,
+                                     const std::unordered_map<std::string_view, std::uint32_t>& transitions) {
   if (std::optional<Problem> wrong = header_mismatch(recording_, net)) return wrong;
   for (const Recording::Transition& named : recording_.transitions)
     transitions_.push_back({transitions.at(named.name)});
   return std::nullopt;
 }
 
-std::string JointSource::path_of(const Event& event) const {
+std::string Source::path_of(const Event& event) const {
   return event.instance() == system_instance ? "the upper layers" : recording_.instances[event.instance()];
 }
 
-std::string JointSource::place_of(const Event& event) const {
+std::string Source::place_of(const Event& event) const {
   const std::string process = recording_.process ? recording_.process->name + ": " : "";
-  return process + seconds_text(event.time_ns) + ": ";
+  return fmt::format("{}{:.6f} s: ", process, static_cast<double>(event.time_ns) * 1e-9);
 }
 
-std::string JointSource::twice(const Event& event) const {
+std::string Source::twice(const Event& event) const {
   return fmt::format("{}an event of {} is there twice, or not in its place", place_of(event), path_of(event));
 }
 
-std::string JointSource::missing(const Event& event) const {
+std::string Source::missing(const Event& event) const {
   return fmt::format("{}events of {} are missing", place_of(event), path_of(event));
 }
 
-std::optional<Problem> JointSource::stranger(const Event& event, const DeployedNet& net) const {
+std::optional<Problem> Source::stranger(const Event& event, const DeployedNet& net) const {
   if (event.kind() != Event::Kind::firing) return std::nullopt;
   const net::TransitionId id = transition(event);
   const char* whose = nullptr;
@@ -49,6 +47,15 @@ std::optional<Problem> JointSource::stranger(const Event& event, const DeployedN
   if (whose == nullptr) return std::nullopt;
   return Problem{fmt::format("{}'{}' fired, which is no transition of this {}", place_of(event),
                              net.net()[id].name, whose)};
+}
+
+std::optional<std::uint64_t> incarnation_in(std::string_view text) {
+  const std::size_t line = text.find('\n');
+  if (line == std::string_view::npos) return std::nullopt;
+  std::uint64_t number = 0;
+  const char* end = text.data() + text.size();
+  const auto [rest, problem] = std::from_chars(text.data() + line + 1, end, number);
+  return problem == std::errc{} && rest == end && number != 0 ? std::optional(number) : std::nullopt;
 }
 
 std::string names_without(const ProcessMap& processes, const std::vector<bool>& given) {
@@ -69,29 +76,6 @@ std::vector<const Recording*> in_order(std::span<const Recording> recordings) {
   };
   std::ranges::stable_sort(sorted, std::less{}, key);
   return sorted;
-}
-
-bool is_of_deployed(const Recording& recording) {
-  return recording.process.has_value() || !recording.processes.empty();
-}
-
-std::optional<std::string> cannot_be_joined(std::span<const Recording> recordings,
-                                            const ProcessMap& processes) {
-  std::map<std::pair<std::uint32_t, std::uint64_t>, std::size_t> seen;
-  for (const Recording& recording : recordings) {
-    if (!recording.process && recordings.size() > 1)
-      return "one of them is of a whole system, which is judged alone; give recordings of processes only";
-    if (recording.processes != processes.names)
-      return "the recording is of other processes than those that the specification deploys";
-    if (!recording.process) continue;
-    const Recording::OneProcess& own = *recording.process;
-    if (own.number >= processes.names.size() || processes.names[own.number] != own.name)
-      return fmt::format("the specification deploys no process '{}' with number {}", own.name, own.number);
-    if (++seen[{own.number, own.incarnation}] > 1)
-      return fmt::format("two of them are of '{}' in the same start (incarnation {}); give one", own.name,
-                         own.incarnation);
-  }
-  return std::nullopt;
 }
 
 }  // namespace tessera::replay

@@ -78,7 +78,7 @@ class Recordings : public Command {
     std::string error;
     const std::optional<Recording> recording = read_recording(file.string(), error);
     if (!recording) return {.verdict = Verdict::illegal, .why = error, .firings = 0, .marking = {}};
-    return replay::check_legal(*recording, nets_->flat);
+    return replay::check_legal({&*recording, 1}, nets_->flat);
   }
   /// The command that makes a recording of `milliseconds`.
   [[nodiscard]] std::string record(const fs::path& file, unsigned milliseconds,

@@ -1,5 +1,3 @@
-#include "replay/joint_legality.hpp"
-
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -10,12 +8,14 @@
 #include "../environment.hpp"
 #include "deployed_run.hpp"
 #include "layers/models.hpp"
-#include "naive_joint.hpp"
+#include "naive_legality.hpp"
+#include "net/token_game.hpp"
+#include "replay/legality.hpp"
 
 namespace tessera::replay {
 namespace {
 
-using JointVerdict = Legality::Verdict;
+using Verdict = Legality::Verdict;
 using test::B;
 using test::N;
 
@@ -57,25 +57,25 @@ spec::Model small_model(std::mt19937& engine) {
   return builder.result();
 }
 
-TEST(JointLegality, RandomRunsOfDeployedSystemsAreLegal) {
+TEST(DeployedLegality, RandomRunsOfDeployedSystemsAreLegal) {
   std::mt19937 random(3);
   std::size_t networked = 0;
   for (std::uint32_t seed = 0; seed < share_of(150); ++seed) {
     const Deployed system = each_apart(seed % 2 == 0 ? test::random_model(seed) : small_model(random));
     const std::vector<Recording> run = deployed_run(system, 600, random);
     EXPECT_EQ(cannot_be_joined(run, system.processes), std::nullopt);
-    const Legality joint = check_joint(run, system.net, system.processes);
-    EXPECT_EQ(joint.verdict, JointVerdict::legal) << seed << ": " << joint.why;
+    const Legality judged = check_legal(run, system.net, system.processes);
+    EXPECT_EQ(judged.verdict, Verdict::legal) << seed << ": " << judged.why;
     std::size_t firings = 0;
     for (const Recording& one : run)
       for (const Recording::Entry& entry : one.entries) {
         firings += entry.event.kind() == Event::Kind::firing ? 1 : 0;
         networked += entry.event.kind() == Event::Kind::peer ? 1 : 0;
       }
-    EXPECT_EQ(joint.firings, firings) << seed;
+    EXPECT_EQ(judged.firings, firings) << seed;
     const Recording simulated = simulated_run(system, 600, random);
-    const Legality in_order = check_joint({&simulated, 1}, system.net, system.processes);
-    EXPECT_EQ(in_order.verdict, JointVerdict::legal) << seed << ": " << in_order.why;
+    const Legality in_order = check_legal({&simulated, 1}, system.net, system.processes);
+    EXPECT_EQ(in_order.verdict, Verdict::legal) << seed << ": " << in_order.why;
     EXPECT_EQ(in_order.firings, simulated.entries.size()) << seed;
   }
   EXPECT_GT(networked, share_of(100)) << "channels between processes were used";
@@ -88,7 +88,7 @@ void renumber(Recording& recording) {
 }
 
 /// Each makes something of the event with that number that is seldom a run.
-const std::map<std::string, std::function<void(Recording&, std::size_t, std::mt19937&)>> joint_mutations = {
+const std::map<std::string, std::function<void(Recording&, std::size_t, std::mt19937&)>> mutations = {
     {"left out",
      [](Recording& run, std::size_t at, std::mt19937&) {
        run.entries.erase(run.entries.begin() + static_cast<std::ptrdiff_t>(at));
@@ -121,25 +121,25 @@ const std::map<std::string, std::function<void(Recording&, std::size_t, std::mt1
        run.entries.insert(run.entries.begin() + static_cast<std::ptrdiff_t>(at), run.entries[at]);
      }}};
 
-/// TESSERA_JOINT_RUNS=2000 asks for more. The naive search tries all orders of all firings and all firings of the media.
-TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
+/// TESSERA_DEPLOYED_RUNS=2000 asks for more. The naive search tries all orders of all firings and all firings of the media.
+TEST(DeployedLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
   std::mt19937 random(7);
   std::map<bool, std::size_t> verdicts;
-  const std::uint64_t runs = from_environment("TESSERA_JOINT_RUNS", share_of(30));
+  const std::uint64_t runs = from_environment("TESSERA_DEPLOYED_RUNS", share_of(30));
   for (std::uint32_t seed = 0; seed < runs; ++seed) {
     const Deployed system = each_apart(small_model(random));
     const std::vector<Recording> run = deployed_run(system, 40, random);
-    EXPECT_TRUE(naive_joint(run, system.net)) << seed;
-    for (const auto& [name, mutate] : joint_mutations) {
+    EXPECT_TRUE(naive_legality(run, system.net)) << seed;
+    for (const auto& [name, mutate] : mutations) {
       std::vector<Recording> wrong = run;
       Recording& changed = wrong[random() % wrong.size()];
       if (changed.entries.empty()) continue;
       mutate(changed, random() % changed.entries.size(), random);
       renumber(changed);
-      const bool possible = naive_joint(wrong, system.net);
-      const Legality joint = check_joint(wrong, system.net, system.processes);
-      EXPECT_EQ(joint.verdict, possible ? JointVerdict::legal : JointVerdict::illegal)
-          << seed << ", " << name << ": " << joint.why;
+      const bool possible = naive_legality(wrong, system.net);
+      const Legality judged = check_legal(wrong, system.net, system.processes);
+      EXPECT_EQ(judged.verdict, possible ? Verdict::legal : Verdict::illegal)
+          << seed << ", " << name << ": " << judged.why;
       ++verdicts[possible];
     }
   }
@@ -147,25 +147,126 @@ TEST(JointLegality, AgreesWithTheSearchOfAllOrdersOnRunsAndOnMutatedOnes) {
   EXPECT_GT(verdicts[false], share_of(50));
 }
 
-TEST(JointLegality, AFiringOfAnotherProcessOrSubsystemIsIllegal) {
+/// A simulated run in which the order alone tells what came first.
+Recording timeless_run(const Deployed& system, std::size_t firings, std::mt19937& random) {
+  Recording run = simulated_run(system, firings, random);
+  for (Recording::Entry& entry : run.entries) entry.event.time_ns = 0;
+  return run;
+}
+
+/// The part of a simulated run that a limit leaves: it begins with the marking at this entry, in which nobody
+/// knows the places between the processes.
+Recording left_by_a_limit(const Deployed& system, Recording run, std::size_t from) {
+  const DeployedNet deployed(system.net, system.processes);
+  std::map<std::string, net::TransitionId> by_name;
+  for (std::uint32_t index = 0; index < system.net.transitions().size(); ++index)
+    by_name[system.net.transitions()[index].name] = {index};
+  net::Marking marking = net::initial_marking(system.net);
+  for (std::size_t at = 0; at < from; ++at) {
+    const Event& event = run.entries[at].event;
+    if (event.kind() != Event::Kind::firing) continue;
+    const net::TransitionId id = by_name.at(run.transitions[event.subject].name);
+    for (const net::Arc& arc : system.net.preset(id))
+      if (!deployed.is_hidden(arc.place)) marking[arc.place.value] -= arc.weight;
+    for (const net::Arc& arc : system.net.postset(id))
+      if (!deployed.is_hidden(arc.place)) marking[arc.place.value] += arc.weight;
+  }
+  Recording::Entry begins{
+      .event = {.origin = system_instance << 8U | static_cast<std::uint32_t>(Event::Kind::marking)},
+      .text = {}};
+  for (std::uint32_t place = 0; place < marking.size(); ++place)
+    if (marking[place] > 0 && !deployed.is_hidden({place}))
+      begins.text += (begins.text.empty() ? "" : "\n") + system.net.places()[place].name;
+  begins.event.subject = static_cast<std::uint32_t>(begins.text.size());
+  run.entries.erase(run.entries.begin(), run.entries.begin() + static_cast<std::ptrdiff_t>(from));
+  run.entries.insert(run.entries.begin(), std::move(begins));
+  run.segment = 1;
+  return run;
+}
+
+TEST(DeployedLegality, ASimulatedRunIsJudgedFromTheMarkingThatALimitLeaves) {
+  std::mt19937 random(23);
+  std::size_t found = 0, mutated = 0;
+  for (std::uint32_t seed = 0; seed < share_of(60); ++seed) {
+    const Deployed system = each_apart(seed % 2 == 0 ? test::random_model(seed) : small_model(random));
+    const Recording whole = timeless_run(system, 300, random);
+    if (whole.entries.size() < 100) continue;
+    for (std::size_t from : {whole.entries.size() / 3, whole.entries.size() / 2}) {
+      const Recording run = left_by_a_limit(system, whole, from);
+      const Legality judged = check_legal({&run, 1}, system.net, system.processes);
+      EXPECT_EQ(judged.verdict, Verdict::legal) << seed << ": " << judged.why;
+      EXPECT_EQ(judged.firings, whole.entries.size() - from) << seed;
+      for (const auto& [name, mutate] : mutations) {
+        Recording wrong = whole;
+        mutate(wrong, from + random() % (wrong.entries.size() - from - 20), random);
+        renumber(wrong);
+        if (check_legal({&wrong, 1}, system.net, system.processes).verdict == Verdict::legal) continue;
+        if (name == "moved") continue;  // perhaps to a place before
+        const Recording rest = left_by_a_limit(system, wrong, from);
+        found += check_legal({&rest, 1}, system.net, system.processes).verdict == Verdict::illegal ? 1 : 0;
+        ++mutated;
+      }
+    }
+  }
+  // Only what needs a number, or a token between the processes, from before the marking is missed.
+  EXPECT_GT(found, mutated * 9 / 10) << mutated;
+}
+
+/// Whatever mutation the whole run allows, the rest of it allows.
+TEST(DeployedLegality, WhatIsLegalAsAWholeIsLegalFromEachMarkingOn) {
+  std::mt19937 random(29);
+  std::size_t legal = 0;
+  for (std::uint32_t seed = 0; seed < share_of(100); ++seed) {
+    const Deployed system = each_apart(small_model(random));
+    const Recording whole = timeless_run(system, 60, random);
+    for (std::size_t from = 1; from < whole.entries.size(); from += 3) {
+      Recording other = whole;
+      mutations.at("exchanged with the next")(other, random() % other.entries.size(), random);
+      renumber(other);
+      if (check_legal({&other, 1}, system.net, system.processes).verdict != Verdict::legal) continue;
+      ++legal;
+      const Recording rest = left_by_a_limit(system, other, from);
+      const Legality judged = check_legal({&rest, 1}, system.net, system.processes);
+      EXPECT_EQ(judged.verdict, Verdict::legal) << seed << ", " << from << ": " << judged.why;
+    }
+  }
+  EXPECT_GT(legal, share_of(100));
+}
+
+TEST(DeployedLegality, WithoutAMarkingARunWithoutItsBeginningIsIncomplete) {
+  std::mt19937 random(31);
+  const Deployed system = each_apart(test::fleet(2));
+  Recording run = simulated_run(system, 100, random);
+  run.segment = 1;
+  const Legality judged = check_legal({&run, 1}, system.net, system.processes);
+  EXPECT_EQ(judged.verdict, Verdict::incomplete);
+  EXPECT_EQ(judged.why, "its beginning is gone, and the marking after that is not known");
+  EXPECT_EQ(judged.firings, 0U);
+  std::vector<Recording> processes = deployed_run(system, 100, random);
+  processes[1].segment = 1;
+  EXPECT_EQ(check_legal(processes, system.net, system.processes).why,
+            "p1: its beginning is gone, and the marking after that is not known");
+}
+
+TEST(DeployedLegality, AFiringOfAnotherProcessOrSubsystemIsIllegal) {
   std::mt19937 random(13);
   const Deployed system = each_apart(test::fleet(2));
   const std::vector<Recording> run = deployed_run(system, 200, random);
   std::vector<Recording> wrong = run;
   wrong[0].entries.push_back(run[1].entries.front());
   renumber(wrong[0]);
-  const Legality other = check_joint(wrong, system.net, system.processes);
-  EXPECT_EQ(other.verdict, JointVerdict::illegal);
+  const Legality other = check_legal(wrong, system.net, system.processes);
+  EXPECT_EQ(other.verdict, Verdict::illegal);
   EXPECT_NE(other.why.find("which is no transition of this process"), std::string::npos) << other.why;
   wrong = run;
   Event& event = wrong[0].entries.back().event;
   event.origin = (event.instance() == 0 ? 1U : 0U) << 8 | static_cast<std::uint32_t>(Event::Kind::firing);
   renumber(wrong[0]);
-  EXPECT_NE(check_joint(wrong, system.net, system.processes).why.find("no transition of this subsystem"),
+  EXPECT_NE(check_legal(wrong, system.net, system.processes).why.find("no transition of this subsystem"),
             std::string::npos);
 }
 
-TEST(JointLegality, RecordingsThatDoNotBelongTogetherAreRefused) {
+TEST(DeployedLegality, RecordingsThatDoNotBelongTogetherAreRefused) {
   std::mt19937 random(17);
   const Deployed system = each_apart(test::fleet(2));
   std::vector<Recording> run = deployed_run(system, 50, random);
@@ -178,10 +279,10 @@ TEST(JointLegality, RecordingsThatDoNotBelongTogetherAreRefused) {
   std::vector<Recording> renamed = run;
   renamed[1].process->name = "p7";
   EXPECT_EQ(refused(renamed), "the specification deploys no process 'p7' with number 1");
-  EXPECT_EQ(check_joint({run.data(), 1}, system.net, system.processes).why,
+  EXPECT_EQ(check_legal({run.data(), 1}, system.net, system.processes).why,
             "no recording of p1 is given: what it did is assumed");
   run[1].truncated = true;
-  EXPECT_EQ(check_joint(run, system.net, system.processes).why, "the recording of p1 is cut off at its end");
+  EXPECT_EQ(check_legal(run, system.net, system.processes).why, "the recording of p1 is cut off at its end");
 }
 
 }  // namespace

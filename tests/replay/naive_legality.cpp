@@ -1,4 +1,4 @@
-#include "naive_joint.hpp"
+#include "naive_legality.hpp"
 
 #include <algorithm>
 #include <map>
@@ -212,7 +212,7 @@ class AllOrders {
 
 }  // namespace
 
-bool naive_joint(std::span<const Recording> recordings, const net::Net& net) {
+bool naive_legality(std::span<const Recording> recordings, const net::Net& net) {
   return AllOrders(recordings, net).possible();
 }
 

@@ -13,6 +13,6 @@ namespace tessera::replay {
 /// of the tested check.
 ///
 /// Precondition: short recordings.
-[[nodiscard]] bool naive_joint(std::span<const Recording> recordings, const net::Net& net);
+[[nodiscard]] bool naive_legality(std::span<const Recording> recordings, const net::Net& net);
 
 }  // namespace tessera::replay

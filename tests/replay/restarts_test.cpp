@@ -13,7 +13,7 @@
 #include "net/token_game.hpp"
 #include "network/receiver.hpp"
 #include "network/sender.hpp"
-#include "replay/joint_legality.hpp"
+#include "replay/legality.hpp"
 
 /// Recordings of processes that restart, made by the real protocol over a bad network.
 namespace tessera::replay {
@@ -272,8 +272,8 @@ TEST(Restarts, WhatTheProtocolDoesIsLegalWithAndWithoutRestarts) {
     const Deployed system = two_agents(ends);
     for (std::uint32_t seed = 0; seed < 60; ++seed) {
       const std::vector<Recording> run = run_of<network::Receiver>(system, ends, seed % 4, random);
-      const Legality joint = check_joint(run, system.net, system.processes);
-      EXPECT_EQ(joint.verdict, RestartVerdict::legal) << seed << ": " << joint.why;
+      const Legality judged = check_legal(run, system.net, system.processes);
+      EXPECT_EQ(judged.verdict, RestartVerdict::legal) << seed << ": " << judged.why;
     }
   }
 }
@@ -287,11 +287,11 @@ TEST(Restarts, WhatKilledProcessesLeaveIsNeverIllegal) {
       Recording& cut = run[random() % run.size()];
       cut.entries.resize(cut.entries.size() - random() % (cut.entries.size() + 1));
       cut.truncated = true;
-      const Legality joint = check_joint(run, system.net, system.processes);
-      EXPECT_EQ(joint.verdict, RestartVerdict::incomplete) << seed << ": " << joint.why;
+      const Legality judged = check_legal(run, system.net, system.processes);
+      EXPECT_EQ(judged.verdict, RestartVerdict::incomplete) << seed << ": " << judged.why;
       // A recording that is not given is no fault of the others.
       run.erase(run.begin() + static_cast<std::ptrdiff_t>(random() % run.size()));
-      EXPECT_NE(check_joint(run, system.net, system.processes).verdict, RestartVerdict::illegal);
+      EXPECT_NE(check_legal(run, system.net, system.processes).verdict, RestartVerdict::illegal);
     }
   }
 }
@@ -319,7 +319,7 @@ std::size_t found(std::size_t restarts) {
     for (std::uint32_t seed = 0; seed < 20; ++seed) {
       const std::vector<Recording> run =
           run_of<network::BasicReceiver<Rules>>(system, ends, restarts, random);
-      illegal += check_joint(run, system.net, system.processes).verdict == RestartVerdict::illegal ? 1 : 0;
+      illegal += check_legal(run, system.net, system.processes).verdict == RestartVerdict::illegal ? 1 : 0;
     }
   }
   return illegal;

@@ -2,82 +2,58 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
+#include <bit>
+#include <utility>
+
+#include "tessera/value_layout.hpp"
 
 namespace tessera::ros2 {
 namespace {
 
-constexpr int deepest_structure = 64;
+using Node = ValueLayout::Node;
 
-class ValueTypeReader {
- public:
-  explicit ValueTypeReader(std::string_view text) : left_(text) {}
-
-  std::optional<ValueType> read_all() {
-    auto type = read(0);
-    return type && left_.empty() ? type : std::nullopt;
+/// nullopt: bytes of unknown fields, or a sequence of sequences.
+std::optional<Primitive> primitive_of(const Node& node) {
+  using Kind = Node::Kind;
+  const int doubled = std::countr_zero(node.size);  // from one byte on
+  switch (node.kind) {
+    case Kind::boolean:
+      return Primitive::boolean;
+    case Kind::integer:
+      return std::array{Primitive::int8, Primitive::int16, Primitive::int32, Primitive::int64}.at(doubled);
+    case Kind::natural:
+      return std::array{Primitive::uint8, Primitive::uint16, Primitive::uint32, Primitive::uint64}.at(
+          doubled);
+    case Kind::real:
+      return node.size == sizeof(float) ? Primitive::float32 : Primitive::float64;
+    case Kind::text:
+      return Primitive::string;
+    case Kind::structure:
+      return Primitive::structure;
+    case Kind::bytes:
+    case Kind::sequence:
+      return std::nullopt;
   }
+  return std::nullopt;
+}
 
- private:
-  bool skip(std::string_view what) {
-    if (!left_.starts_with(what)) return false;
-    left_.remove_prefix(what.size());
-    return true;
+std::optional<ValueType> type_of(const Node& node) {
+  ValueType type;
+  const bool repeated = node.kind == Node::Kind::sequence;
+  const Node& one = repeated ? *node.element : node;
+  const std::optional<Primitive> primitive = primitive_of(one);
+  if (!primitive || (repeated && node.size == 0) || one.size > UINT32_MAX) return std::nullopt;
+  type.primitive = *primitive;
+  if (one.kind == Node::Kind::text) type.capacity = static_cast<std::uint32_t>(one.size);
+  type.count = repeated ? static_cast<std::uint32_t>(node.size) : 0;
+  type.is_sequence = node.bounded;
+  for (const Node::Field& field : one.fields) {
+    std::optional<ValueType> member = type_of(*field.type);
+    if (!member) return std::nullopt;
+    type.members.push_back({field.name, std::move(*member)});
   }
-
-  std::optional<std::uint32_t> number() {
-    std::uint32_t number = 0;
-    const auto [end, problem] = std::from_chars(left_.data(), left_.data() + left_.size(), number);
-    if (problem != std::errc()) return std::nullopt;
-    left_.remove_prefix(static_cast<std::size_t>(end - left_.data()));
-    return number;
-  }
-
-  std::optional<ValueType> read(int depth) {
-    if (depth > deepest_structure) return std::nullopt;
-    ValueType type;
-    if (left_.starts_with('{') ? !read_members(type, depth) : !read_scalar(type)) return std::nullopt;
-    if (!skip("[")) return type;
-    type.is_sequence = skip("<=");
-    const auto count = number();
-    if (!count || *count == 0 || !skip("]")) return std::nullopt;
-    type.count = *count;
-    return type;
-  }
-
-  bool read_members(ValueType& type, int depth) {
-    type.primitive = Primitive::structure;
-    skip("{");
-    while (!skip("}")) {
-      if (!type.members.empty() && !skip(", ")) return false;
-      const std::size_t colon = left_.find(": ");
-      if (colon == std::string_view::npos) return false;
-      std::string name(left_.substr(0, colon));
-      left_.remove_prefix(colon + 2);
-      auto member = read(depth + 1);
-      if (!member) return false;
-      type.members.push_back({std::move(name), std::move(*member)});
-    }
-    return true;
-  }
-
-  bool read_scalar(ValueType& type) {
-    if (skip("string(")) {
-      type.primitive = Primitive::string;
-      const auto capacity = number();
-      type.capacity = capacity.value_or(0);
-      return capacity && skip(")");
-    }
-    const std::string_view word = left_.substr(0, left_.find_first_of("[,}"));
-    for (std::size_t one = 0; one <= static_cast<std::size_t>(Primitive::float64); ++one) {
-      type.primitive = static_cast<Primitive>(one);
-      if (word == name_of(type.primitive)) return skip(word);
-    }
-    return false;
-  }
-
-  std::string_view left_;
-};
+  return type;
+}
 
 }  // namespace
 
@@ -95,6 +71,9 @@ const ValueType::Member* ValueType::find(std::string_view name) const {
   return found == members.end() ? nullptr : &*found;
 }
 
-std::optional<ValueType> parse_value_type(std::string_view text) { return ValueTypeReader(text).read_all(); }
+std::optional<ValueType> parse_value_type(std::string_view text) {
+  const std::optional<ValueLayout> layout = ValueLayout::parse(text);
+  return layout ? type_of(layout->root()) : std::nullopt;
+}
 
 }  // namespace tessera::ros2

@@ -150,16 +150,17 @@ void record_poses(Assembly& assembly, const Clock& clock, const WorldScene& scen
   assembly.world->show_poses(*assembly.poses);
 }
 
-/// Leaves out the places on which several processes act: the transitions of the network between them change
+/// The net without the places on which several processes act: the transitions of the network between them change
 /// these places as well, and are not recorded. The channels between processes have no versions.
-void leave_out_shared_places(const System& system, FlatNet& net, std::vector<ChannelId>& channels) {
+[[nodiscard]] FlatNet without_shared_places(const System& system, FlatNet net,
+                                            std::vector<ChannelId>& channels) {
   std::vector<std::optional<std::uint32_t>> owners(net.places.size());
   std::vector<bool> shared(net.places.size(), false);
   for (std::size_t index = 0; index < net.transitions.size(); ++index) {
     const FlatNet::FlatTransition& transition = net.transitions[index];
     if (channels[index].valid() && system.is_networked(system.channels[channels[index].value]))
       channels[index] = {};
-    const bool is_of_network = transition.role.step >= Step::deliver;
+    const bool is_of_network = is_of_medium(transition.role.step);
     if (transition.instance == system_instance && !is_of_network) continue;
     for (const auto* places : {&transition.inputs, &transition.outputs})
       for (const std::uint32_t place : *places) {
@@ -172,17 +173,18 @@ void leave_out_shared_places(const System& system, FlatNet& net, std::vector<Cha
   for (FlatNet::FlatTransition& transition : net.transitions)
     for (auto* places : {&transition.inputs, &transition.outputs})
       std::erase_if(*places, [&](std::uint32_t place) { return shared[place]; });
+  return net;
 }
 
 /// nullptr: the recording has no limit, so it needs no marking.
-[[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, FlatNet net,
+[[nodiscard]] std::unique_ptr<MarkingTrack> track_of(const Assembly& assembly, const FlatNet& net,
                                                      std::vector<ChannelId> channels) {
   if (assembly.options.record_limit.segment_bytes == 0) return nullptr;
-  const bool in_order = assembly.options.clock == RunOptions::Clock::simulated;
-  if (assembly.links != nullptr && in_order) leave_out_shared_places(*assembly.part.whole, net, channels);
-  auto track = std::make_unique<MarkingTrack>(net, std::move(channels));
+  if (assembly.links == nullptr) return std::make_unique<MarkingTrack>(net, std::move(channels));
+  const FlatNet tracked = without_shared_places(*assembly.part.whole, net, channels);
+  auto track = std::make_unique<MarkingTrack>(tracked, std::move(channels));
   // One process does not record what the layers above all of them do.
-  if (assembly.links != nullptr && !in_order) track->forget();
+  if (assembly.options.clock != RunOptions::Clock::simulated) track->forget();
   return track;
 }
 

@@ -18,10 +18,10 @@ namespace tessera::replay {
 /// The token game of a net, played with the firings of one or several processes: nothing of the runtime's own
 /// firing is used.
 ///
-/// The places of one process hold tokens as usual, and the versions of a channel within it follow each other. Nobody records what the medium of a channel between
-/// processes does, so the play keeps the set of markings that its shared places may have. The numbers of the
-/// values say what comes before what: a value is written before it is read, and its read ends before its
-/// sender knows of it.
+/// The places of one process hold tokens as usual, and the versions of a channel within it follow each other.
+/// Nobody records what the medium of a channel between processes does, so the play keeps the set of markings
+/// that its shared places may have. The numbers of the values say what comes before what: a value is written
+/// before it is read, and its read ends before its sender knows of it.
 ///
 /// Threads: one at a time.
 class NetPlay {

@@ -63,7 +63,7 @@ class Source {
 [[nodiscard]] inline bool is_before(std::uint32_t a, std::uint32_t b) {
   return static_cast<std::int32_t>(a - b) < 0;
 }
-/// What follows the first line of the text of a peer or a process: an incarnation. nullopt: it is none.
+/// The incarnation in the second line of the text of a peer or a process; nullopt: there is none.
 [[nodiscard]] std::optional<std::uint64_t> incarnation_in(std::string_view text);
 /// Does a check of legality look at it?
 [[nodiscard]] inline bool is_played(const Event& event) {

@@ -14,7 +14,9 @@ using nlohmann::json;
 [[nodiscard]] Snapshot process_of(std::size_t subsystems) {
   Snapshot snapshot;
   snapshot.system = "depot";
-  snapshot.process = {"cart[0]", "cart.local", 7};
+  snapshot.process = "cart[0]";
+  snapshot.host = "cart.local";
+  snapshot.incarnation = "7";
   snapshot.recording = "/somewhere/private.tsr";
   snapshot.deployment = Snapshot::Deployment{};
   for (std::size_t count = 0; count < subsystems; ++count) {

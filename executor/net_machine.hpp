@@ -11,6 +11,7 @@
 #include "executor/turns.hpp"
 #include "executor/worker_pool.hpp"
 #include "tessera/net_executor.hpp"
+#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -8,20 +9,34 @@
 
 namespace tessera::codegen {
 
+/// A line of a generated file whose text stands in the specification.
+struct SourceLine {
+  std::uint32_t line = 0;  ///< of the generated file
+  std::uint32_t spec_line = 0;
+  std::uint32_t column = 0;  ///< in the specification, of the text that begins in column 1
+};
+
 /// A file of the project, in memory.
 struct File {
   std::string path;  ///< relative to the folder of its kind
   std::string text;
+  std::vector<SourceLine> lines = {};  ///< ascending; empty for Lines::marked
+};
+
+/// Where the lines of conditions stand, for messages of the compiler.
+enum class Lines : std::uint8_t {
+  marked,  ///< in the source, as #line: for builds whose messages nobody translates
+  listed   ///< in File::lines: a source does not change when its conditions move in the specification
 };
 
 /// The controller that executes exactly `net`: headers, tables and bindings to the user's functions, plus the
 /// CMakeLists.txt that builds them. Paths are relative to `.tessera/generated`.
 ///
-/// spec_path: the name of the specification in messages of the compiler about conditions (#line).
+/// spec_path: the name of the specification in messages of the compiler about conditions (Lines::marked).
 /// Threads:   pure; same input, same bytes. Linear in the net.
 /// Source:    paper, sec. V-B: places, transitions, arcs and pages to C++.
 [[nodiscard]] std::vector<File> generate(const verify::VerifiedNet& net, const spec::Model& model,
-                                         const std::string& spec_path);
+                                         const std::string& spec_path, Lines lines = Lines::marked);
 
 /// A transition function the user has to write.
 struct Stub {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "codegen/cpp_text.hpp"
+#include "codegen/emit.hpp"
 #include "spec/conditions/tokens.hpp"
 #include "spec/model/endings.hpp"
 
@@ -26,9 +27,9 @@ std::string goal(const spec::Subsystem& subsystem, const spec::Next& next) {
   return next.behaviour.valid() ? subsystem.behaviours[next.behaviour].name : "end";
 }
 
-/// The expression at its column in the specification; further lines of a block text at the same one.
-std::string at_column(const spec::Expression& expression) {
-  const std::string indent(std::max(expression.span.column, 1U) - 1, ' ');
+/// The expression at a column; further lines of a block text at the same one.
+std::string at_column(const spec::Expression& expression, std::uint32_t column) {
+  const std::string indent(column - 1, ' ');
   const std::string text = spec::with_cpp_durations(expression.text);
   std::string out;
   for (std::size_t begin = 0; begin <= text.size();) {
@@ -38,6 +39,19 @@ std::string at_column(const spec::Expression& expression) {
     begin = end + 1;
   }
   return out;
+}
+
+/// Whether a condition names something of the standard library, or calls a function that is no member. Such a
+/// condition gets headers that most do not need.
+bool calls_library(const spec::Expression& expression) {
+  const std::vector<spec::Token> tokens = spec::tokens_of(expression.text);
+  for (std::size_t at = 0; at + 2 < tokens.size(); ++at) {
+    if (tokens[at].kind != spec::Token::Kind::name) continue;
+    if (tokens[at].is("std") && !tokens[at + 2].is("chrono")) return true;
+    const bool is_call = tokens[at + 1].is("(") && !tokens[at].is_one_of({"and", "or", "not"});
+    if (is_call && (at == 0 || !tokens[at - 1].is_one_of({".", "->", "::"}))) return true;
+  }
+  return false;
 }
 
 bool names(const spec::Expression& expression, spec::Reference::Kind kind) {
@@ -238,15 +252,23 @@ std::string Conditions::members() const {
                      conditions, held);
 }
 
-std::string Conditions::declaration() const {
-  if (functions_.empty()) return {};
+std::string Conditions::header_name() const {
+  return unit_.definition->name + '/' + unit_.subsystem->name + ".conditions.hpp";
+}
+
+File Conditions::header() const {
   std::string functions;
   for (const Function& function : functions_)
     functions += fmt::format("  [[nodiscard]] bool {}() const;\n", function.name);
-  return fmt::format(R"(namespace {0} {{
-namespace {{
+  const bool times = name(spec::Reference::Kind::elapsed), index = name(spec::Reference::Kind::index);
+  std::set<std::string> headers;
+  if (index) headers.insert("<cstdint>");
+  if (times) headers.insert("<tessera/time.hpp>");
+  return {header_name(), fmt::format(R"({}#pragma once
 
-using namespace std::chrono_literals;
+{}#include "{}.data.hpp"
+
+namespace {} {{
 
 /// The conditions of the specification, with what they may name.
 struct tessera_Conditions {{
@@ -254,41 +276,68 @@ struct tessera_Conditions {{
   const Outputs& out;
   const Memory& memory;
   const Parameters& parameters;
-{2}{3}
-{1}}};
+{}{}
+{}}};
 
-}}  // namespace
-}}  // namespace {0}
-
+}}  // namespace {}
 )",
-                     unit_namespace(project_.model, unit_), functions,
-                     name(spec::Reference::Kind::elapsed) ? "  const tessera::Duration& elapsed;\n" : "",
-                     name(spec::Reference::Kind::index) ? "  const std::uint32_t& index;\n" : "");
+                                     project_.banner(), include_block(headers), subsystem_.name,
+                                     unit_namespace(project_.model, unit_),
+                                     times ? "  const tessera::Duration& elapsed;\n" : "",
+                                     index ? "  const std::uint32_t& index;\n" : "", functions,
+                                     unit_namespace(project_.model, unit_))};
 }
 
-std::string Conditions::definitions() const {
-  if (functions_.empty()) return {};
-  std::string out = R"(
-// The conditions, as the specification states them: lines and columns from here on are its own.
-namespace )" + unit_namespace(project_.model, unit_) +
-                    R"( {
-namespace {
+void Conditions::add_marked(const Function& function, std::string& out) const {
+  const std::string head =
+      fmt::format("bool tessera_Conditions::{}() const {{ return static_cast<bool>(  // {}\n", function.name,
+                  comment_text(function.says));
+  const std::uint32_t line = std::max(function.expression->span.line, 1U);
+  const auto marker = [&](std::uint32_t number) {
+    return fmt::format("#line {} {}\n", number, string_literal(project_.spec_path));
+  };
+  // There is no line 0 for the head of an expression on line 1.
+  out += line > 1 ? marker(line - 1) + head : head + marker(line);
+  out += at_column(*function.expression, std::max(function.expression->span.column, 1U)) + "); }\n";
+}
+
+/// Each line of the expression is a line of the file, and begins in column 1.
+void Conditions::add_listed(const Function& function, File& file) const {
+  const spec::Span& span = function.expression->span;
+  const std::string text = at_column(*function.expression, 1);
+  file.text +=
+      fmt::format("// {}\nbool tessera_Conditions::{}() const {{ return static_cast<bool>(\n{}); }}\n",
+                  comment_text(function.says), function.name, text);
+  const auto lines = static_cast<std::uint32_t>(std::ranges::count(text, '\n')) + 1;
+  const auto end = static_cast<std::uint32_t>(std::ranges::count(file.text, '\n'));
+  for (std::uint32_t at = 0; at < lines; ++at)
+    file.lines.push_back({end - lines + 1 + at, span.line + at, std::max(span.column, 1U)});
+}
+
+File Conditions::source() const {
+  const std::string space = unit_namespace(project_.model, unit_);
+  std::set<std::string> headers{"<cstdint>"};
+  if (std::ranges::any_of(functions_, [](const Function& one) { return calls_library(*one.expression); }))
+    headers.insert({"<algorithm>", "<array>", "<cmath>", "<cstdlib>", "<limits>", "<string>", "<string_view>",
+                    "<tuple>", "<utility>"});
+  File file{unit_path(unit_) + ".conditions.cpp",
+            fmt::format(R"({}{}{}#include "{}"
+
+// The conditions, as the specification states them.
+namespace {} {{
+
+using namespace std::chrono_literals;
+
 // clang-format off
-)";
-  for (const Function& function : functions_) {
-    const std::string head =
-        fmt::format("bool tessera_Conditions::{}() const {{ return static_cast<bool>(  // {}\n",
-                    function.name, comment_text(function.says));
-    const std::uint32_t line = std::max(function.expression->span.line, 1U);
-    const auto marker = [&](std::uint32_t number) {
-      return fmt::format("#line {} {}\n", number, string_literal(project_.spec_path));
-    };
-    // There is no line 0 for the head of an expression on line 1.
-    out += line > 1 ? marker(line - 1) + head : head + marker(line);
-    out += at_column(*function.expression) + "); }\n";
-  }
-  return out += "// clang-format on\n}  // namespace\n}  // namespace " +
-                unit_namespace(project_.model, unit_) + "\n";
+)",
+                        project_.banner(), only_durations, include_block(headers), header_name(), space)};
+  for (const Function& function : functions_)
+    if (project_.lines == Lines::listed)
+      add_listed(function, file);
+    else
+      add_marked(function, file.text);
+  file.text += "// clang-format on\n\n}  // namespace " + space + "\n";
+  return file;
 }
 
 }  // namespace tessera::codegen

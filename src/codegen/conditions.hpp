@@ -8,9 +8,10 @@
 
 namespace tessera::codegen {
 
-/// The conditions of one unit: the expressions, and the two functions that evaluate them. Each
-/// expression is compiled in the scope of the user's transition functions, with the line and column that
-/// it has in the specification.
+/// The conditions of one unit: the expressions, and the two functions that evaluate them. The expressions are
+/// compiled in the scope of the user's transition functions, in a source of their own that includes little: a
+/// changed condition compiles nothing else. Messages of the compiler lead to their lines and columns in the
+/// specification (Lines).
 class Conditions {
  public:
   Conditions(const Project& project, const Unit& unit);
@@ -22,11 +23,14 @@ class Conditions {
   /// remembers for `route`.
   /// Empty: none.
   [[nodiscard]] std::string members() const;
-  /// `tessera_Conditions`, in the namespace of the unit: the functions. Empty: there are none.
-  [[nodiscard]] std::string declaration() const;
-  /// The functions. Their lines count as lines of the specification, so nothing else may follow them
-  /// in the file.
-  [[nodiscard]] std::string definitions() const;
+  [[nodiscard]] bool empty() const { return functions_.empty(); }
+  /// "robot/control.conditions.hpp"
+  [[nodiscard]] std::string header_name() const;
+  /// `tessera_Conditions`, in the namespace of the unit: declares the functions.
+  [[nodiscard]] File header() const;
+  /// Defines them. With Lines::marked, their lines count as lines of the specification, so nothing else may
+  /// follow them in the file.
+  [[nodiscard]] File source() const;
 
  private:
   struct Function {
@@ -42,6 +46,8 @@ class Conditions {
     Numbered<spec::NextId, std::size_t> next;  ///< only meaningful for expressions
   };
 
+  void add_marked(const Function& function, std::string& out) const;
+  void add_listed(const Function& function, File& file) const;
   /// Whether some condition names such a thing.
   [[nodiscard]] bool name(spec::Reference::Kind kind) const;
   std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);

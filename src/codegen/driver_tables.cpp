@@ -45,19 +45,23 @@ class Writer {
  public:
   explicit Writer(const Project& project) : project_(project), model_(project.model) {}
 
-  std::string rows(const std::vector<spec::Driver>& drivers) {
+  DriverTables::Table rows(const std::vector<spec::Driver>& drivers) {
     std::vector<std::pair<std::string, const spec::Driver*>> sorted;
     for (const spec::Driver& driver : drivers)
       if (!driver.is_of_world()) sorted.emplace_back(model_.driver_path(driver), &driver);
     std::ranges::stable_sort(sorted, {}, [](const auto& one) { return one.first; });
-    std::string rows;
-    for (const auto& [path, driver] : sorted) rows += row(path, *driver);
-    return rows;
+    DriverTables::Table table{"", sorted.size()};
+    for (const auto& [path, driver] : sorted) table.rows += row(path, *driver);
+    return table;
   }
 
-  DriverTables finish(std::string real, std::string simulated) {
-    return {definitions_.empty() ? "" : definitions_ + '\n', std::move(real), std::move(simulated), classes(),
-            headers_};
+  DriverTables finish(DriverTables::Table real, DriverTables::Table simulated) {
+    return {definitions_.empty() ? "" : definitions_ + '\n',
+            std::move(real),
+            std::move(simulated),
+            classes(),
+            std::move(headers_),
+            std::move(places_)};
   }
 
  private:
@@ -70,8 +74,7 @@ class Writer {
     const std::string make = fmt::format("tessera::make_driver<tessera::{}, {}, {}>",
                                          reads ? "RealReceptor" : "RealEffector", value(driver), device);
     return fmt::format(
-        "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target(),
-        string_literal(project_.at(driver.span)), options(driver),
+        "    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, driver.target(), place(driver), options(driver),
         reads ? make + ", nullptr" : fmt::format("nullptr, {}, tessera::is_guarded<{}>", make, device));
   }
 
@@ -86,8 +89,8 @@ class Writer {
     const auto role = driver.options.find("role");
     const bool is_server = role != driver.options.end() &&
                            role->second.value == decltype(role->second.value)(std::string("server"));
-    return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, "ros2",
-                       string_literal(project_.at(driver.span)), options(with_topic),
+    return fmt::format("    {{\"{}\", \"{}\", {}, {}, {}}},\n", path, "ros2", place(driver),
+                       options(with_topic),
                        reads ? make + ", nullptr" : "nullptr, " + make + (is_server ? "" : ", true"));
   }
 
@@ -98,8 +101,13 @@ class Writer {
     with_controls.options["stale"] =
         spec::DriverOption{std::chrono::duration<double>(driver.panel->stale).count(), "s"};
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, tessera::panel_receptor<{}>, nullptr}},\n", path,
-                       "panel", string_literal(project_.at(driver.span)), options(with_controls),
-                       value(driver));
+                       "panel", place(driver), options(with_controls), value(driver));
+  }
+
+  /// Its place in the specification stands in a table of its own, so that a moved line changes no row.
+  std::string place(const spec::Driver& driver) {
+    places_.push_back(project_.at(driver.span));
+    return fmt::format("&driver_places[{}]", places_.size() - 1);
   }
 
   /// The type that the driver reads or writes.
@@ -156,13 +164,14 @@ namespace {{
   std::map<std::string, std::string> aliases_;  ///< class -> what the rows call it
   std::string using_;
   std::set<std::string> headers_;
+  std::vector<std::string> places_;
 };
 
 }  // namespace
 
 DriverTables driver_tables(const Project& project) {
   Writer writer(project);
-  std::string real = writer.rows(project.model.drivers);
+  DriverTables::Table real = writer.rows(project.model.drivers);
   return writer.finish(std::move(real), writer.rows(simulated_drivers(project.model)));
 }
 

@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <vector>
 
 #include "codegen/project.hpp"
 
@@ -9,10 +10,17 @@
 namespace tessera::codegen {
 
 struct DriverTables {
-  std::string options;          ///< definitions of tables that the rows name; ends with an empty line
-  std::string real, simulated;  ///< rows of CppDriver; empty: none
-  std::string classes;          ///< names of the driver classes in the rows; ends with an empty line
+  struct Table {
+    std::string rows;  ///< of CppDriver
+    std::size_t size = 0;
+  };
+  std::string options;  ///< definitions of tables that the rows name; ends with an empty line
+  Table real, simulated;
+  std::string classes;  ///< names of the driver classes in the rows; ends with an empty line
   std::set<std::string> headers;
+  std::vector<std::string> places;  ///< "spec.yaml:41", per row; first the real ones
+
+  [[nodiscard]] bool empty() const { return places.empty(); }
 };
 [[nodiscard]] DriverTables driver_tables(const Project& project);
 

@@ -111,8 +111,7 @@ std::string group_lines(Rows rows) {
   return out + packed(bare);
 }
 
-std::string table(const Project& project, const spec::Subsystem& subsystem, std::string_view head,
-                  Rows rows) {
+std::string table(const spec::Subsystem& subsystem, std::string_view head, Rows rows) {
   if (rows.empty()) return {};
   std::string out = fmt::format("{}[] = {{\n", head);
   for (std::size_t begin = 0; begin < rows.size();) {
@@ -120,8 +119,7 @@ std::string table(const Project& project, const spec::Subsystem& subsystem, std:
     std::size_t end = begin;
     while (end < rows.size() && rows[end].behaviour == id) ++end;
     if (id.valid()) {
-      const spec::Behaviour& behaviour = subsystem.behaviours[id];
-      out += fmt::format("    // {}, {}\n", behaviour.name, project.at(behaviour.span));
+      out += fmt::format("    // {}\n", subsystem.behaviours[id].name);
     }
     out += group_lines(rows.subspan(begin, end - begin));
     begin = end;
@@ -168,12 +166,12 @@ std::string net_tables(const Project& project, const Unit& unit, const NetVarian
       out += fmt::format("\n// The net of {}.\n", executed_by(project, unit, variants, variant));
     std::vector<Row> ports;
     for (const LocalNet::Port& port : net.ports) ports.push_back(row(port));
-    out += table(project, *unit.subsystem, "constexpr tessera::Port ports" + suffix, ports);
+    out += table(*unit.subsystem, "constexpr tessera::Port ports" + suffix, ports);
     std::vector<Row> places = grouped(net.places, *unit.subsystem);
     for (std::size_t place = 0; place < places.size(); ++place) places[place].comment = std::to_string(place);
-    out += table(project, *unit.subsystem, "constexpr tessera::Place places" + suffix, places);
+    out += table(*unit.subsystem, "constexpr tessera::Place places" + suffix, places);
     // Not constexpr: GCC 12 rejects constant initializer_lists in aggregates.
-    out += table(project, *unit.subsystem, "const tessera::Transition transitions" + suffix,
+    out += table(*unit.subsystem, "const tessera::Transition transitions" + suffix,
                  grouped(net.transitions, *unit.subsystem));
   }
   return out += "// clang-format on\n";

@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "codegen/codegen.hpp"
 #include "codegen/local_net.hpp"
 #include "spec/model/model.hpp"
 #include "verify/verify.hpp"
@@ -33,6 +34,8 @@ struct Unit {
 [[nodiscard]] std::string generated_namespace(const Unit& unit);
 /// "robot/control.hpp"
 [[nodiscard]] std::string unit_header(const Unit& unit);
+/// "robot/control.data.hpp": the part of it that conditions need.
+[[nodiscard]] std::string data_header(const Unit& unit);
 /// The parameters a unit sees: those of the system that it does not shadow, then its own.
 [[nodiscard]] std::vector<const spec::Parameter*> parameters_of(const spec::Model& model, const Unit& unit);
 /// "src/control.cpp", or "src/robot/control.cpp" when there are several definitions.
@@ -43,13 +46,15 @@ struct Project {
   const spec::Model& model;
   const verify::VerifiedNet& net;
   std::string spec_path;  ///< its name in #line
+  Lines lines;
   std::string spec_name;  ///< its name in comments: "spec.yaml"
   std::vector<Unit> units;
   std::vector<NetVariants> nets;  ///< one per unit
 
   /// "spec.yaml:12"
   [[nodiscard]] std::string at(const spec::Span& span) const;
-  /// The first line of every file; `marker` starts a comment.
+  /// The first line of every file; `marker` starts a comment. It states no hash and no line: a file changes only
+  /// when its meaning does.
   [[nodiscard]] std::string banner(std::string_view marker = "//") const;
 };
 

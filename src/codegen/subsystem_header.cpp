@@ -31,15 +31,31 @@ class Header {
     for (const spec::Parameter* parameter : parameters_) add_headers(parameter->type, headers_);
   }
 
-  std::string text() {
+  std::string data() {
     return fmt::format(R"({}#pragma once
 
 {}#include "../types.hpp"
 
+/// The data of {}.
+namespace {} {{
+
+{}}}  // namespace {}
+)",
+                       project_.banner(), include_block(headers_), unit_path(unit_), space(), structures(),
+                       space());
+  }
+
+  std::string text() {
+    return fmt::format(R"({}#pragma once
+
+#include <tessera/context.hpp>
+
+#include "{}.data.hpp"  // Inputs, Outputs, Memory, Parameters
+
 /// {}
 namespace {} {{
 
-{}struct Context : tessera::Context {{
+struct Context : tessera::Context {{
   explicit Context(const Parameters& values) : parameters(values) {{}}
   const Parameters& parameters;
 }};
@@ -48,8 +64,8 @@ namespace {} {{
 {}
 }}  // namespace {}
 )",
-                       project_.banner(), include_block(headers_), title(), space(), structures(),
-                       user_file(project_.units, unit_), functions(), space());
+                       project_.banner(), subsystem_.name, title(), space(), user_file(project_.units, unit_),
+                       functions(), space());
   }
 
  private:
@@ -58,8 +74,7 @@ namespace {} {{
   [[nodiscard]] std::string title() const {
     constexpr std::array kinds{"Control subsystem", "Virtual receptor", "Virtual effector"};
     const std::string every = subsystem_.period ? ", every " + duration(*subsystem_.period) : "";
-    return fmt::format("{} {}{}; {}", kinds[static_cast<std::size_t>(subsystem_.kind)], unit_path(unit_),
-                       every, project_.at(subsystem_.span));
+    return fmt::format("{} {}{}", kinds[static_cast<std::size_t>(subsystem_.kind)], unit_path(unit_), every);
   }
 
   /// Empty ones stand together.
@@ -135,14 +150,15 @@ namespace {} {{
   const Unit& unit_;
   const spec::Subsystem& subsystem_;
   std::vector<const spec::Parameter*> parameters_;
-  std::set<std::string> headers_{"<tessera/buffer.hpp>", "<tessera/context.hpp>"};
+  std::set<std::string> headers_{"<tessera/buffer.hpp>"};
   std::set<std::string_view> hidden_{"Inputs", "Outputs", "Memory", "Parameters", "Context", "Real"};
 };
 
 }  // namespace
 
-File subsystem_header(const Project& project, const Unit& unit) {
-  return {unit_header(unit), Header(project, unit).text()};
+std::vector<File> subsystem_headers(const Project& project, const Unit& unit) {
+  Header header(project, unit);
+  return {{data_header(unit), header.data()}, {unit_header(unit), header.text()}};
 }
 
 }  // namespace tessera::codegen

@@ -159,33 +159,33 @@ bool needs_literals(const spec::Subsystem& subsystem) {
 
 std::string source_name(const Unit& unit) { return unit_path(unit) + ".cpp"; }
 
-File subsystem_source(const Project& project, const Unit& unit, const NetVariants& variants) {
-  const Conditions conditions(project, unit);
-  std::set<std::string> headers{"<cstdint>", "<memory>", "<tessera/tables.hpp>"};
+File subsystem_source(const Project& project, const Unit& unit, const NetVariants& variants,
+                      const Conditions& conditions) {
+  std::set<std::string> headers{"<cstdint>", "<memory>", "<tessera/subsystem.hpp>", "<tessera/tables.hpp>"};
+  std::set<std::string> own{string_literal("subsystems.hpp"), string_literal(unit_header(unit))};
+  if (!conditions.empty()) own.insert(string_literal(conditions.header_name()));
   const std::string body = subsystem_class(project, unit, conditions);
   const bool times = needs_literals(*unit.subsystem);
-  if (times || !conditions.declaration().empty()) headers.insert("<chrono>");
+  if (times) headers.insert("<tessera/time.hpp>");
   const std::string space = generated_namespace(unit);
   return {
       source_name(unit),
-      fmt::format(R"({0}{1}{2}{3}namespace {4} {{
+      fmt::format(R"({0}{9}{1}{2}namespace {3} {{
 namespace {{
 
-namespace yours = ::{5};
+namespace yours = ::{4};
+{5}
 {6}
 {7}
-{8}
 }}  // namespace
 
-{9}std::unique_ptr<tessera::Subsystem> make() {{ return std::make_unique<Subsystem>(); }}
+{8}std::unique_ptr<tessera::Subsystem> make() {{ return std::make_unique<Subsystem>(); }}
 
-}}  // namespace {4}
-{10})",
-                  project.banner(), include_block(headers),
-                  include_block({string_literal("subsystems.hpp"), string_literal(unit_header(unit))}),
-                  conditions.declaration(), space, unit_namespace(project.model, unit),
-                  times ? "using namespace std::chrono_literals;\n" : "", body,
-                  net_tables(project, unit, variants), net_definitions(variants), conditions.definitions())};
+}}  // namespace {3}
+)",
+                  project.banner(), include_block(headers), include_block(own), space,
+                  unit_namespace(project.model, unit), times ? "using namespace std::chrono_literals;\n" : "",
+                  body, net_tables(project, unit, variants), net_definitions(variants), only_durations)};
 }
 
 }  // namespace tessera::codegen

@@ -22,9 +22,10 @@ std::string table(std::string_view type, std::string_view name, const std::strin
   return fmt::format("constexpr tessera::{} {}[] = {{\n{}}};\n", type, name, rows);
 }
 
-/// The table of the drivers in C++. Many controllers have none.
-std::string driver_table(std::string_view name, const std::string& rows) {
-  return rows.empty() ? rows : table("CppDriver", name, rows) + '\n';
+/// "extern const tessera::CppDriver real_drivers[3];": many controllers have none.
+std::string declared(std::string_view name, const DriverTables::Table& drivers) {
+  if (drivers.size == 0) return {};
+  return fmt::format("extern const tessera::CppDriver {}[{}];\n", name, drivers.size);
 }
 
 /// ", {.overrun = ..., ...}" of what differs from the defaults; empty if nothing does.
@@ -184,38 +185,41 @@ namespace tessera_generated {{
                                     project.banner(), shorter)};
 }
 
-File system_source(const Project& project, const Numbered<spec::ChannelId, ChannelPorts>& ports) {
+File system_source(const Project& project, const Numbered<spec::ChannelId, ChannelPorts>& ports,
+                   const DriverTables& drivers) {
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
-  const DriverTables drivers = driver_tables(project);
   const SharedTables shared = shared_tables(project.net.net());
-  std::set<std::string> project_headers = drivers.headers;
-  project_headers.insert(string_literal("subsystems.hpp"));
+  const std::string externs =
+      declared("real_drivers", drivers.real) + declared("simulated_drivers", drivers.simulated);
   return {"system.cpp",
-          fmt::format(R"({0}#include "system.hpp"
+          fmt::format(R"({0}{15}#include "system.hpp"
 
-#include <chrono>
 #include <memory>
 #include <span>
+#include <tessera/time.hpp>
 
-{1}static_assert(tessera::tables_version == {2}, "made for another version of Tessera: generate it again");
+#include "subsystems.hpp"
 
-{12}namespace tessera_generated {{
-namespace {{
+static_assert(tessera::tables_version == {1}, "made for another version of Tessera: generate it again");
+
+namespace tessera_generated {{
+
+{2}namespace {{
 
 using namespace std::chrono_literals;
 
 // clang-format off
-{5}
-{4}{6}
-{17}
-{7}{8}{9}
-{15}constexpr tessera::System whole{{
-    .tables_version = {2}, .name = "{3}",
+{4}
+{3}{5}
+{6}
+{7}
+{8}constexpr tessera::System whole{{
+    .tables_version = {1}, .name = "{9}",
     .net_hash = "{10}", .verification_hash = "{11}",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .system_page = &system_page, .agent_page = &agent_page,
-    .real_drivers = {13}, .simulated_drivers = {14}{16}}};
+    .real_drivers = {12}, .simulated_drivers = {13}{14}}};
 // clang-format on
 
 }}  // namespace
@@ -224,15 +228,52 @@ const tessera::System& system() {{ return whole; }}
 
 }}  // namespace tessera_generated
 )",
-                      project.banner(), include_block(project_headers), tables_version_made, model.system,
+                      project.banner(), tables_version_made, externs.empty() ? externs : externs + '\n',
                       shared.channels, table("Instance", "instances", instance_rows(project)),
-                      table("Channel", "channels", channel_rows(model, ports, shared)), drivers.options,
-                      driver_table("real_drivers", drivers.real) +
-                          driver_table("simulated_drivers", drivers.simulated),
-                      table("VerifiedProperty", "verdicts", verdict_rows(report)), report.net_hash,
-                      report.verification_hash, drivers.classes, drivers.real.empty() ? "{}" : "real_drivers",
-                      drivers.simulated.empty() ? "{}" : "simulated_drivers", process_tables(model),
-                      process_members(model), shared.pages)};
+                      table("Channel", "channels", channel_rows(model, ports, shared)), shared.pages,
+                      table("VerifiedProperty", "verdicts", verdict_rows(report)), process_tables(model),
+                      model.system, report.net_hash, report.verification_hash,
+                      drivers.real.size == 0 ? "{}" : "real_drivers",
+                      drivers.simulated.size == 0 ? "{}" : "simulated_drivers", process_members(model),
+                      only_durations)};
+}
+
+File drivers_source(const Project& project, const DriverTables& drivers) {
+  const auto table_of = [](std::string_view name, const DriverTables::Table& one) {
+    if (one.size == 0) return std::string();
+    return fmt::format("{}const tessera::CppDriver {}[] = {{\n{}}};\n", declared(name, one), name, one.rows);
+  };
+  const std::string tables =
+      table_of("real_drivers", drivers.real) + table_of("simulated_drivers", drivers.simulated);
+  return {"system.drivers.cpp", fmt::format(R"({}#include <tessera/device.hpp>
+#include <tessera/tables.hpp>
+
+{}{}namespace tessera_generated {{
+
+extern const char* const driver_places[];  // lines of the specification
+
+// clang-format off
+{}{}// clang-format on
+
+}}  // namespace tessera_generated
+)",
+                                            project.banner(), include_block(drivers.headers), drivers.classes,
+                                            drivers.options, tables)};
+}
+
+File driver_lines_source(const Project& project, const DriverTables& drivers) {
+  std::string rows;
+  for (const std::string& place : drivers.places) rows += fmt::format("    {},\n", string_literal(place));
+  return {"system.lines.cpp", fmt::format(R"({}namespace tessera_generated {{
+
+// The lines of the specification that messages about drivers name.
+extern const char* const driver_places[];
+const char* const driver_places[] = {{
+{}}};
+
+}}  // namespace tessera_generated
+)",
+                                          project.banner(), rows)};
 }
 
 File main_source(const Project& project) {

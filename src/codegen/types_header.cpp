@@ -22,7 +22,7 @@ std::string definition(const Project& project, const spec::Structure& structure_
                       comment_text(field.type.unit)});
   std::string tail = fmt::format("\n  bool operator==(const {}&) const = default;\n", structure_.name);
   tail += fields_macro(structure_);
-  return fmt::format("\n/// {}\n{}", project.at(structure_.span), structure(structure_.name, fields, tail));
+  return '\n' + structure(structure_.name, fields, tail);
 }
 
 }  // namespace

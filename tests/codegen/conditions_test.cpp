@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <sstream>
 #include <string>
 
 #include "../environment.hpp"
@@ -39,7 +40,7 @@ std::string replaced(std::string text, const std::string& from, const std::strin
 
 /// The messages of g++ about the subsystems of a robot. stage: "-S -o /dev/null" also finds unused functions.
 Ran compile(const std::string& spec, const std::string& stage = "-fsyntax-only",
-            const std::string& sources = "robot.control.cpp") {
+            const std::string& sources = "robot.control.conditions.cpp") {
   const Folder folder;
   folder.write("spec.yaml", spec);
   folder.write(generate(spec, (folder.path() / "spec.yaml").string()).files);
@@ -85,6 +86,31 @@ TEST(Conditions, OfABlockTextKeepTheirLines) {
       " tired: memory.count > 9";
   const Ran ran = compile(replaced(lonely, "{ done: memory.count > 3, tired: \"memory.count > 9\" }", block));
   EXPECT_THAT(ran.output, HasSubstr("spec.yaml:13:22: error:"));
+}
+
+/// Lines::listed: messages about these lines lead to the same text in the specification.
+TEST(Conditions, ListedLinesHaveTheTextOfTheSpecification) {
+  const std::string block =
+      "\n            done: |\n              memory.count > 3 &&\n                memory.count > 5\n          "
+      " "
+      " tired: memory.count > 9";
+  const std::string spec = replaced(lonely, "{ done: memory.count > 3, tired: \"memory.count > 9\" }", block);
+  const auto line_of = [](const std::string& text, std::uint32_t number) {
+    std::istringstream lines(text);
+    std::string line;
+    for (std::uint32_t at = 0; at < number; ++at) std::getline(lines, line);
+    return line;
+  };
+  std::size_t listed = 0;
+  for (const codegen::File& file : generate(spec, "spec.yaml", codegen::Lines::listed).files)
+    for (const codegen::SourceLine& line : file.lines) {
+      std::string text = line_of(file.text, line.line);
+      text.resize(std::min(text.find("); }"), text.size()));
+      EXPECT_EQ(line_of(spec, line.spec_line).substr(line.column - 1, text.size()), text);
+      EXPECT_NE(text, "");
+      ++listed;
+    }
+  EXPECT_EQ(listed, 5U);
 }
 
 /// The compiler accepts everything that `check` accepts: durations with a blank, elapsed, index.
@@ -169,10 +195,11 @@ TEST(Conditions, OfAnyKindCompileWithoutWarnings) {
     spec += "      r" + std::to_string(number) +
             ":\n        rate: 10 Hz\n        memory: { a: bool, b: bool, c: bool }\n        behaviours:\n" +
             "          " + behaviour_text(0, 1, 1000 + number);
-  const Ran ran = compile(spec, "-S -o unused.s", "robot.control.cpp");
+  const Ran ran = compile(spec, "-S", "robot.control.cpp robot.control.conditions.cpp");
   EXPECT_EQ(ran.exit_code, 0) << ran.output.substr(0, 4000);
   for (std::uint32_t number = 0; number < alone; ++number) {
-    const Ran one = compile(spec, "-S -o unused.s", "robot.r" + std::to_string(number) + ".cpp");
+    const std::string name = "robot.r" + std::to_string(number);
+    const Ran one = compile(spec, "-S", name + ".cpp " + name + ".conditions.cpp");
     EXPECT_EQ(one.exit_code, 0) << one.output.substr(0, 4000);
   }
 }
@@ -189,9 +216,12 @@ agents:
         a: { terminal: true, next: [b, { to: a, when: memory.m }] }
         b: { error: true, terminal: { t: memory.n }, next: [{ to: b, when: t }, { to: a, when: error }] }
 )";
-  const Ran ran = compile(spec, "-S -o unused.s");
+  const Ran ran = compile(spec, "-S", "robot.control.cpp");
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
-  EXPECT_THAT(generate(spec)["robot.control.cpp"], testing::Not(HasSubstr("a_next_2")));
+  for (const codegen::File& file : generate(spec).files) {
+    EXPECT_THAT(file.text, testing::Not(HasSubstr("a_next_2"))) << file.path;
+    EXPECT_THAT(file.path, testing::Not(HasSubstr("conditions")));
+  }
 }
 
 TEST(Conditions, OnTheFirstLineOfASpecificationHaveALineToo) {
@@ -203,7 +233,7 @@ TEST(Conditions, OnTheFirstLineOfASpecificationHaveALineToo) {
 
 TEST(Conditions, PathsOfSpecificationsAreEscaped) {
   const Generated generated = generate(lonely, "/tmp/a \"strange\" \\ name/spec.yaml");
-  EXPECT_THAT(generated["robot.control.cpp"],
+  EXPECT_THAT(generated["robot.control.conditions.cpp"],
               HasSubstr("#line 9 \"/tmp/a \\\"strange\\\" \\\\ name/spec.yaml\"\n"));
 }
 

@@ -25,7 +25,7 @@ const std::string& Generated::operator[](const std::string& path) const {
   throw std::runtime_error("no file " + path);
 }
 
-Generated generate(const std::string& text, const std::string& spec_path) {
+Generated generate(const std::string& text, const std::string& spec_path, codegen::Lines lines) {
   diagnostics::Diagnostics diagnostics(spec_path, text);
   const auto refuse = [&] { throw std::runtime_error(diagnostics::render(diagnostics)); };
   std::optional<spec::Model> model = spec::parse(diagnostics);
@@ -36,7 +36,7 @@ Generated generate(const std::string& text, const std::string& spec_path) {
   if (!net) refuse();
   const auto verified = verify::accept(*net, verify::check(*net, layers::invariants(*model, *pages, *net)));
   if (!verified) throw std::runtime_error("the net did not pass");
-  std::vector<codegen::File> files = codegen::generate(*verified, *model, spec_path);
+  std::vector<codegen::File> files = codegen::generate(*verified, *model, spec_path, lines);
   return {std::move(*model), std::move(*pages), std::move(*net), verified->report().net_hash,
           std::move(files)};
 }

@@ -28,7 +28,8 @@ struct Generated {
 };
 
 /// All stages. Throws std::runtime_error with the diagnostics if one fails. spec_path is the path in #line.
-Generated generate(const std::string& text, const std::string& spec_path = "spec.yaml");
+Generated generate(const std::string& text, const std::string& spec_path = "spec.yaml",
+                   codegen::Lines lines = codegen::Lines::marked);
 Generated generate_file(const std::filesystem::path& spec);
 
 std::string read_file(const std::filesystem::path& path);

@@ -145,7 +145,8 @@ class CppErrors : public Folder {
   /// The messages about that output, with this folder as FOLDER.
   [[nodiscard]] std::string explained(const std::string& output) const {
     const project::TransitionFunctions functions(folder_ / "project", generated_.functions->wanted());
-    std::string text = project::explain_build(output, {verified_->specification, functions, "compiler.log"});
+    std::string text = project::explain_build(
+        output, {verified_->specification, functions, generated_.source_lines, "compiler.log"});
     for (std::size_t at = text.find(folder_.string()); at != std::string::npos;
          at = text.find(folder_.string()))
       text.replace(at, folder_.string().size(), "FOLDER");
@@ -210,14 +211,14 @@ TEST_F(CppErrors, InTransitionFunctions) {
 /// A mistake in a condition that only the compiler finds.
 TEST_F(CppErrors, InConditions) {
   prepare("{ a: std::abss(in.level) > 1, b: memory.count.value() > 1, c: \"memory.count > nearest(3)\" }");
-  const project::Exit done =
-      shell(compiler() + " -Werror -fsyntax-only " + (generated_.folder / "robot.control.cpp").string());
+  const project::Exit done = shell(compiler() + " -Werror -fsyntax-only " +
+                                   (generated_.folder / "robot.control.conditions.cpp").string());
   expect_golden("conditions.expected", explained(done.text));
 }
 
 TEST_F(CppErrors, InDrivers) {
   prepare("in.line.left");
-  const std::string system = (generated_.folder / "system.cpp").string();
+  const std::string system = (generated_.folder / "system.drivers.cpp").string();
   const auto said = [&](const std::string& title) {
     return "=== " + title + "\n" + explained(shell(compiler() + " -fsyntax-only " + system).text);
   };

@@ -87,14 +87,14 @@ struct TwoMotors : ::testing::Test {
                        [&](const std::string& line) { return line.starts_with(start); });
   }
 
+  static constexpr std::array places{"spec.yaml:3", "spec.yaml:4", "spec.yaml:7", "spec.yaml:8"};
   TestSystem robot;
   System system;
-  std::vector<CppDriver> real{
-      {"robot.motor.command", "Teller", "spec.yaml:3", named_real, nullptr, make_teller},
-      {"robot.lift.command", "Teller", "spec.yaml:4", named_real, nullptr, make_teller}};
+  std::vector<CppDriver> real{{"robot.motor.command", "Teller", &places[0], named_real, nullptr, make_teller},
+                              {"robot.lift.command", "Teller", &places[1], named_real, nullptr, make_teller}};
   std::vector<CppDriver> simulation{
-      {"robot.motor.command", "Teller", "spec.yaml:7", named_simulated, nullptr, make_teller},
-      {"robot.lift.command", "Teller", "spec.yaml:8", named_simulated, nullptr, make_teller}};
+      {"robot.motor.command", "Teller", &places[2], named_simulated, nullptr, make_teller},
+      {"robot.lift.command", "Teller", &places[3], named_simulated, nullptr, make_teller}};
 };
 
 TEST_F(TwoMotors, ASimulatedRunNeverMakesARealDriver) {
@@ -203,7 +203,7 @@ TEST_F(TwoMotors, HeartbeatsComeWhileTheSubsystemWaits) {
 /// Waits for ever for a subsystem that has ended, with a device that needs heartbeats all the time.
 TEST(Heartbeats, DoNotHideThatNothingCanEverHappenAgain) {
   static constexpr DriverOption beating[] = {{"name", "b"}, {"beats", 2.0, "ms"}};
-  const std::vector<CppDriver> drivers{{"robot.b.command", "Teller", "", beating, nullptr, make_teller}};
+  const std::vector<CppDriver> drivers{{"robot.b.command", "Teller", nullptr, beating, nullptr, make_teller}};
   for (const RunOptions& options : {simulated(1h), steady(60s)}) {
     TestSystem robot;
     Script once, waits;
@@ -232,7 +232,7 @@ class Plain final : public Effector<double> {
 };
 
 TEST_F(TwoMotors, OptionsOfAClassThatTakesNoneAreAnError) {
-  simulation[1] = {"robot.lift.command", "Plain", "spec.yaml:8",
+  simulation[1] = {"robot.lift.command", "Plain", &places[3],
                    named_simulated,      nullptr, make_driver<RealEffector, double, Plain>};
   EXPECT_EQ(run(),
             "spec.yaml:8: the driver Plain of robot.lift.command: the driver has no option 'name': its class "

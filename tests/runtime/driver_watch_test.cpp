@@ -115,10 +115,10 @@ class TroubledRun {
   TestSystem robot_;
   System system_;
   RunOptions options_ = steady(20ms);
-  std::vector<CppDriver> drivers_{
-      {"robot.first.command", "Troubled", "", first_, nullptr, make_driver<RealEffector, double, Troubled>},
-      {"robot.second.command", "Troubled", "", second_, nullptr,
-       make_driver<RealEffector, double, Troubled>}};
+  std::vector<CppDriver> drivers_{{"robot.first.command", "Troubled", nullptr, first_, nullptr,
+                                   make_driver<RealEffector, double, Troubled>},
+                                  {"robot.second.command", "Troubled", nullptr, second_, nullptr,
+                                   make_driver<RealEffector, double, Troubled>}};
 };
 
 struct Trouble {

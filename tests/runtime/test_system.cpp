@@ -125,19 +125,19 @@ std::uint32_t TestSystem::add(std::string path, const SubsystemNet& net, Script 
     return *names_.emplace_back(std::make_unique<std::string>(std::string(name) + buffer));
   };
   if (script.senses && !panel.empty())
-    drivers_.push_back({driver(".sensed"), "panel", "", panel, panel_receptor<double>, nullptr});
+    drivers_.push_back({driver(".sensed"), "panel", nullptr, panel, panel_receptor<double>, nullptr});
   else if (script.senses)
     drivers_.push_back(
         {driver(".sensed"),
          "FakeReceptor",
-         "",
+         nullptr,
          {},
          [](const DriverSetup&) -> std::unique_ptr<RealReceptor> { return std::make_unique<FakeReceptor>(); },
          nullptr});
   if (script.acts)
     drivers_.push_back({driver(".command"),
                         "FakeEffector",
-                        "",
+                        nullptr,
                         {},
                         nullptr,
                         [](const DriverSetup&) -> std::unique_ptr<RealEffector> {

@@ -11,6 +11,8 @@
 #include "named_net.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/controller.hpp"
+#include "tessera/device.hpp"
+#include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera::testing {

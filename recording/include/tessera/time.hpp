@@ -1,6 +1,12 @@
 #pragma once
 
+// Durations and clocks are a seventh of <chrono>, whose streams and calendars would be most of what a small generated
+// source compiles.
+#if defined(TESSERA_ONLY_DURATIONS) && __has_include(<bits/chrono.h>)
+#include <bits/chrono.h>
+#else
 #include <chrono>
+#endif
 
 namespace tessera {
 

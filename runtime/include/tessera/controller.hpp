@@ -8,6 +8,7 @@
 
 #include "tessera/device.hpp"
 #include "tessera/main.hpp"
+#include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 #include "tessera/time.hpp"
 

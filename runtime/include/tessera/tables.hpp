@@ -6,10 +6,8 @@
 #include <span>
 #include <string_view>
 
-#include "tessera/device.hpp"
 #include "tessera/net_roles.hpp"
 #include "tessera/overrun.hpp"
-#include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
 /// The net of a generated controller: constant tables, read once at start. Generated code includes this
@@ -19,6 +17,12 @@
 namespace tessera {
 
 inline constexpr int tables_version = 5;
+
+class DriverSetup;
+class RealEffector;
+class RealReceptor;
+class Subsystem;
+struct DriverOption;
 
 /// The operation that a token starts when it arrives in a place. The last two are no operations of the net:
 /// they evaluate conditions when the token arrives, and store which of the conditional transitions
@@ -218,7 +222,7 @@ struct UpperPage {
 struct CppDriver {
   std::string_view path;  ///< "robot.sensor.left"; or "arm.joints": all real buffers of that subsystem
   std::string_view class_name;
-  std::string_view place;  ///< in the specification: "spec.yaml:41"
+  const char* const* place;  ///< in the specification: "spec.yaml:41"; nullptr: not known
   std::span<const DriverOption> options;
   std::unique_ptr<RealReceptor> (*receptor)(const DriverSetup&) = nullptr;
   std::unique_ptr<RealEffector> (*effector)(const DriverSetup&) = nullptr;

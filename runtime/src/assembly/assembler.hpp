@@ -17,6 +17,7 @@
 #include "assembly/recording_setup.hpp"
 #include "drivers/substitutes.hpp"
 #include "subsystem/parameters.hpp"
+#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

@@ -22,6 +22,7 @@
 #include "subsystem/subsystem_executor.hpp"
 #include "system/clock.hpp"
 #include "tessera/controller.hpp"
+#include "tessera/device.hpp"
 
 namespace tessera {
 

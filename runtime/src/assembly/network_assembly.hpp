@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

@@ -121,8 +121,8 @@ std::unique_ptr<typename Kind::Base> DeviceFinder::make(const CppDriver& driver)
   } catch (...) {
     why = "its constructor threw an exception that is no std::exception";
   }
-  complaints_.push_back(fmt::format("{}{}the driver {} of {}: {}", driver.place,
-                                    driver.place.empty() ? "" : ": ", driver.class_name, driver.path, why));
+  const std::string place = driver.place == nullptr ? "" : fmt::format("{}: ", *driver.place);
+  complaints_.push_back(fmt::format("{}the driver {} of {}: {}", place, driver.class_name, driver.path, why));
   return nullptr;
 }
 

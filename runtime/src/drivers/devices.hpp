@@ -9,7 +9,9 @@
 #include <vector>
 
 #include "tessera/controller.hpp"
+#include "tessera/device.hpp"
 #include "tessera/result.hpp"
+#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

@@ -13,6 +13,7 @@
 #include "network/carrier.hpp"
 #include "system/clock.hpp"
 #include "tessera/context.hpp"
+#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

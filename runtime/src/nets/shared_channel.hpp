@@ -10,6 +10,7 @@
 
 #include "system/waker.hpp"
 #include "tessera/channel_limits.hpp"
+#include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera {

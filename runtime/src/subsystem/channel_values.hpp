@@ -6,6 +6,7 @@
 #include "drivers/effectors.hpp"
 #include "drivers/run_control.hpp"
 #include "subsystem/subsystem_parts.hpp"
+#include "tessera/subsystem.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {

@@ -11,6 +11,7 @@
 #include "system/clock.hpp"
 #include "tessera/context.hpp"
 #include "tessera/device.hpp"
+#include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera {

@@ -16,6 +16,7 @@
 #include "subsystem/written_outputs.hpp"
 #include "system/clock.hpp"
 #include "tessera/context.hpp"
+#include "tessera/subsystem.hpp"
 #include "tessera/tables.hpp"
 
 namespace tessera {

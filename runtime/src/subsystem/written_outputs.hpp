@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "subsystem/subsystem_parts.hpp"
+#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

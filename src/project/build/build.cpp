@@ -154,9 +154,9 @@ fs::path compile(const Specification& specification, const Generated& generated,
     write_file(build / log_name, output.text);
     // A change of the user's project.cmake makes ninja ask CMake again.
     const bool is_cmake = output.text.find("CMake Error") != std::string::npos;
-    listener.say(is_cmake
-                     ? explain_cmake(output.text, specification.project, build / log_name)
-                     : explain_build(output.text, {specification, *generated.functions, build / log_name}));
+    listener.say(is_cmake ? explain_cmake(output.text, specification.project, build / log_name)
+                          : explain_build(output.text, {specification, *generated.functions,
+                                                        generated.source_lines, build / log_name}));
     return {};
   }
   if (!options.processor) link_compile_commands(specification.project, build);

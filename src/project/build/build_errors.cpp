@@ -23,7 +23,7 @@ namespace {
 /// Mistakes that are shown: more do not fit on a screen.
 constexpr std::size_t most_mistakes = 4;
 
-/// A driver's row in the generated tables: {"robot.sensor.left", "Eye", "spec.yaml:55", ...
+/// A driver's row in the generated tables: {"robot.sensor.left", "Eye", &driver_places[2], ...
 struct DriverRow {
   std::string buffer, name;
 };
@@ -55,7 +55,9 @@ class Explanation {
  public:
   explicit Explanation(const BuildContext& context) : context_(context) {}
 
-  void add(const CompilerError& error) {
+  void add(CompilerError error) {
+    lead_to_specification(error.at);
+    for (SourcePlace& place : error.reached) lead_to_specification(place);
     const std::optional<Shown> shown = place_of(error);
     // Errors in a library follow from a mistake that has been shown.
     if (!shown || (count_ > 0 && !is_of_user(shown->file.string()))) return;
@@ -89,6 +91,18 @@ class Explanation {
     fs::path file;
     std::uint32_t first = 0, last = 0;
   };
+
+  /// A place in a generated source whose text stands in the specification becomes the place there. The line before
+  /// the text belongs to its beginning.
+  void lead_to_specification(SourcePlace& place) const {
+    // Some compilers are started with paths that are relative to the folder of the build, for example by ccache.
+    const auto file = context_.lines.find((context_.log.parent_path() / place.file).lexically_normal());
+    if (file == context_.lines.end()) return;
+    const auto line = std::ranges::lower_bound(file->second, place.line, {}, &codegen::SourceLine::line);
+    if (line == file->second.end() || line->line > place.line + 1) return;
+    place = {context_.specification.file.string(), line->spec_line,
+             line->column + (line->line == place.line ? place.column - 1 : 0)};
+  }
 
   [[nodiscard]] bool follows_from_punctuation(const Shown& shown) const {
     return std::ranges::any_of(misread_, [&](const Misread& one) {
@@ -133,7 +147,7 @@ class Explanation {
     std::vector<SourcePlace> places{error.at};
     places.insert(places.end(), error.reached.begin(), error.reached.end());
     for (const SourcePlace& place : places) {
-      if (fs::path(place.file).filename() != "system.cpp" || is_of_user(place.file)) continue;
+      if (fs::path(place.file).filename() != "system.drivers.cpp" || is_of_user(place.file)) continue;
       if (error.text.starts_with("drivers.hpp:"))
         return of_driver("", "",
                          {"E504", "src/drivers.hpp is missing: it has the classes of the drivers",

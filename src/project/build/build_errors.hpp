@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 
+#include "project/build/generated_folder.hpp"
 #include "project/build/transition_functions.hpp"
 #include "project/verification/pipeline.hpp"
 
@@ -13,7 +14,8 @@ namespace tessera::project {
 struct BuildContext {
   const Specification& specification;
   const TransitionFunctions& functions;
-  std::filesystem::path log;  ///< where the whole output is; named in the text
+  const GeneratedLines& lines;
+  std::filesystem::path log;  ///< where the whole output is; named in the text; in the folder of the build
 };
 
 /// Explains what compiler and linker have printed, in at most one screen: one message for each mistake, at the

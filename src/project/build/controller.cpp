@@ -51,9 +51,10 @@ std::string identity_of(const std::vector<codegen::File>& files, const fs::path&
   return hash_of(all + functions.identity());
 }
 
-std::vector<codegen::File> files_of(const Verified& verified) {
+/// Code for another folder is compiled by other builds, which show the messages of the compiler as they are.
+std::vector<codegen::File> files_of(const Verified& verified, codegen::Lines lines) {
   const Specification& specification = verified.specification;
-  return codegen::generate(verified.net, specification.model, specification.file.string());
+  return codegen::generate(verified.net, specification.model, specification.file.string(), lines);
 }
 
 /// The build compiles all sources of these folders: generated ones would be there twice.
@@ -76,14 +77,17 @@ Generated generate(const Verified& verified, const GenerateOptions& options) {
   Generated result;
   result.folder = is_elsewhere ? fs::absolute(options.output).lexically_normal()
                                : state_folder(specification.project) / "generated";
-  const std::vector<codegen::File> files = files_of(verified);
+  const std::vector<codegen::File> files =
+      files_of(verified, is_elsewhere ? codegen::Lines::marked : codegen::Lines::listed);
   GeneratedFiles outcome =
       write_generated(result.folder, files, is_elsewhere ? Unlisted::foreign : Unlisted::by_heading);
   result.files = files.size();
   result.written = outcome.written;
   result.set_aside = std::move(outcome.set_aside);
-  for (const codegen::File& file : files)
+  for (const codegen::File& file : files) {
     result.lines += static_cast<std::size_t>(std::count(file.text.begin(), file.text.end(), '\n'));
+    if (!file.lines.empty()) result.source_lines[result.folder / file.path] = file.lines;
+  }
   user_files(specification, options, result);
   result.identity = identity_of(files, specification.project, *result.functions);
   return result;
@@ -118,7 +122,8 @@ fs::path built_before(const Verified& verified, const BuildOptions& options) {
   if (space == std::string::npos || options.target != "controller") return {};
   const fs::path& project = verified.specification.project;
   const TransitionFunctions functions(project, codegen::stubs(verified.specification.model));
-  if (note.substr(0, space) != identity_of(files_of(verified), project, functions)) return {};
+  if (note.substr(0, space) != identity_of(files_of(verified, codegen::Lines::listed), project, functions))
+    return {};
   fs::path program = own / "programs" / note.substr(space + 1, note.find('\n') - space - 1);
   return fs::is_regular_file(program) ? program : fs::path();
 }

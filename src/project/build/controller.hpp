@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "codegen/codegen.hpp"
+#include "project/build/generated_folder.hpp"
 #include "project/build/transition_functions.hpp"
 #include "project/verification/pipeline.hpp"
 
@@ -30,6 +31,7 @@ struct Generated {
   std::vector<codegen::Stub> missing;            ///< functions that the user has not written yet
   std::vector<codegen::Stub> unclear;            ///< functions that only the linker can judge
   std::shared_ptr<const TransitionFunctions> functions;
+  GeneratedLines source_lines;
   std::string identity;  ///< of everything that the controller is made from, including this command
 };
 

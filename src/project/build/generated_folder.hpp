@@ -2,12 +2,16 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "codegen/codegen.hpp"
 
 namespace tessera::project {
+
+/// Per generated source, by its path: the lines whose text stands in the specification.
+using GeneratedLines = std::map<std::filesystem::path, std::vector<codegen::SourceLine>>;
 
 /// The owner of the files of a folder that the list does not name.
 enum class Unlisted : std::uint8_t {

@@ -11,7 +11,6 @@
 #include "executor/turns.hpp"
 #include "executor/worker_pool.hpp"
 #include "tessera/net_executor.hpp"
-#include "tessera/subsystem.hpp"
 
 namespace tessera {
 

@@ -23,7 +23,7 @@ struct File {
   std::vector<SourceLine> lines = {};  ///< ascending; empty for Lines::marked
 };
 
-/// Where the lines of conditions stand, for messages of the compiler.
+/// The place of the lines of conditions, for messages of the compiler.
 enum class Lines : std::uint8_t {
   marked,  ///< in the source, as #line: for builds whose messages nobody translates
   listed   ///< in File::lines: a source does not change when its conditions move in the specification

@@ -175,7 +175,7 @@ void RecordingFile::keep_track(const Event& event) {
   if (segment_bytes_ + (2 + event.pieces()) * sizeof(Event) > limit_.segment_bytes)
     begin_segment(event.time_ns);
   if (event.kind() == Event::Kind::firing) track_->fire(event);
-  // What a process held is gone when it begins again.
+  // The tokens that a process held are gone when it begins again.
   if (event.kind() == Event::Kind::process) track_->forget();
 }
 

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import { message } from "../live/draft";
+import { message } from "../live/api";
 import type { Studio } from "../live/studio";
 import { drawnIn, filmOf, mostFirings, type Scenes } from "../model/run/film";
 import { initialMarking } from "../model/net/game";

@@ -18,6 +18,12 @@ export class ApiError extends Error {
   }
 }
 
+/** An error in words, with the hint of the server. */
+export function message(error: unknown): string {
+  if (error instanceof ApiError) return error.hint ? `${error.message} ${error.hint}` : error.message;
+  return error instanceof Error ? error.message : String(error);
+}
+
 const key = "tessera.token";
 
 /**

@@ -1,5 +1,5 @@
 import { count } from "../model/sorted";
-import { message } from "./draft";
+import { message } from "./api";
 import type { ArraysEvent, ArraysRow, RecordedArrays as Answer } from "./protocol";
 
 /** The numbers of a buffer in a recording; null: not recorded, or too large to be sent. */

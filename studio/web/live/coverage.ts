@@ -1,5 +1,4 @@
-import type { Api } from "./api";
-import { message } from "./draft";
+import { type Api, message } from "./api";
 import type { Coverage } from "./protocol";
 import type { Pane, Scene } from "./scene";
 import type { Runner } from "./runner";

@@ -3,7 +3,7 @@ import { after, applied } from "../model/text/edits";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
 import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
-import { Api, ApiError } from "./api";
+import { Api, ApiError, message } from "./api";
 import type { Analysis, Diagnostic, Edit, EditAnswer, FileRenamed, SpecAnswer } from "./protocol";
 import { Store } from "./store";
 
@@ -253,12 +253,8 @@ export class Draft {
     }
   }
 
-  undo(): Promise<void> {
-    return this.step("undo");
-  }
-  redo(): Promise<void> {
-    return this.step("redo");
-  }
+  undo = (): Promise<void> => this.step("undo");
+  redo = (): Promise<void> => this.step("redo");
 
   private async step(way: "undo" | "redo"): Promise<void> {
     if (this.waiting === 0 && !this.history.ahead(way)?.files.length) return this.show(this.history[way]());
@@ -400,9 +396,4 @@ export class Draft {
     if (side === "mine") this.edit(taking(parts, "mine"), "mine");
     this.keep();
   }
-}
-
-export function message(error: unknown): string {
-  if (error instanceof ApiError) return error.hint ? `${error.message} ${error.hint}` : error.message;
-  return error instanceof Error ? error.message : String(error);
 }

@@ -1,6 +1,5 @@
-import type { Api } from "./api";
+import { type Api, message } from "./api";
 import type { Connection } from "./stream/connection";
-import { message } from "./draft";
 import type { CommandDone, Driving } from "./protocol";
 import { Store } from "./store";
 

@@ -1,7 +1,6 @@
 import { concernedIn, stuckIn, titleOf, waitsIn, type Wait } from "../model/causes";
-import type { Api } from "./api";
+import { type Api, message } from "./api";
 import type { NetModel } from "../model/net/net";
-import { message } from "./draft";
 import type { SubsystemAtEnd } from "./protocol";
 import { Store } from "./store";
 

@@ -1,5 +1,4 @@
-import type { Api } from "./api";
-import { message } from "./draft";
+import { type Api, message } from "./api";
 import type { PanelShown } from "./protocol";
 import type { Runner } from "./runner";
 import { Store } from "./store";

@@ -1,7 +1,7 @@
 import type { NetModel } from "../model/net/net";
-import type { Api } from "./api";
+import { type Api, message } from "./api";
 import { RecordedArrays } from "./arrays";
-import { message, type Draft } from "./draft";
+import type { Draft } from "./draft";
 import type { Recording, RecordingInfo } from "./protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";

@@ -2,8 +2,7 @@ import { causesOf, type Cause } from "../model/causes";
 import { candidatesFor, type Candidate } from "../model/text/repair_edits";
 import { readStructure } from "../model/structure/structure";
 import { applied } from "../model/text/edits";
-import { ApiError, type Api } from "./api";
-import { message } from "./draft";
+import { type Api, ApiError, message } from "./api";
 import type { Verdict } from "./protocol";
 import { Store } from "./store";
 

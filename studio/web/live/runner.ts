@@ -3,9 +3,9 @@ import { numbered, sameBreakpoint, titleOf, type NamedBreakpoint } from "./break
 import { runningBehaviours } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
 import { bounded } from "../model/sorted";
-import type { Api } from "./api";
+import { type Api, message } from "./api";
 import type { Connection } from "./stream/connection";
-import { message, type Draft } from "./draft";
+import type { Draft } from "./draft";
 import type {
   ControlRequest,
   Events,

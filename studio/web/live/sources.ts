@@ -1,8 +1,7 @@
-import type { Api } from "./api";
-import { ApiError } from "./api";
+import { ApiError, message, type Api } from "./api";
 import { CodeDraft, edited, functionIn, nameOf, type Edited } from "./code_draft";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
-import { message, type Draft } from "./draft";
+import type { Draft } from "./draft";
 import type { FunctionShown } from "./protocol";
 import { Store } from "./store";
 

@@ -1,10 +1,10 @@
-import { Api, hasToken, shareToken, takeToken } from "./api";
+import { Api, hasToken, message, shareToken, takeToken } from "./api";
 import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Emergency } from "./emergency";
-import { Draft, message } from "./draft";
+import { Draft } from "./draft";
 import type { Project, RunRequest, Verdict } from "./protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";

@@ -1,5 +1,4 @@
-import type { Api } from "./api";
-import { message } from "./draft";
+import { type Api, message } from "./api";
 import { Store } from "./store";
 
 /** Asks once for a folder whether its code may be compiled and run. The server enforces the answer. */

@@ -1,8 +1,8 @@
 import { stuckIn } from "../model/causes";
 import type { NetModel } from "../model/net/net";
-import type { Api } from "./api";
+import { type Api, message } from "./api";
 import type { Connection } from "./stream/connection";
-import { message, type Draft } from "./draft";
+import type { Draft } from "./draft";
 import type { Verdict, VerifyAnswer, VerifyEvent } from "./protocol";
 import { Store } from "./store";
 

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import { message } from "../live/draft";
+import { message } from "../live/api";
 
 const empty = (name: string) =>
   `tessera: 1\nsystem: ${name}\nagents:\n  robot:\n    control:\n      rate: 10 Hz\n      behaviours:\n        run: {}\n`;

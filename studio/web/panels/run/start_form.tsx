@@ -1,6 +1,6 @@
 import { useCallback, useEffect, useState } from "react";
 import { useHasWorld, useStore, useStudio, useUnsaved } from "../../hooks/use";
-import { message } from "../../live/draft";
+import { message } from "../../live/api";
 import type { Project, RunRequest } from "../../live/protocol";
 import { Choice, Field } from "../forms/field";
 

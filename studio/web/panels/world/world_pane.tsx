@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useRef, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import { message } from "../../live/draft";
+import { message } from "../../live/api";
 import type { Track } from "../../live/track";
 import { Scans, viewsOf } from "../../live/views";
 import type { WorldView } from "../../live/protocol";

@@ -46,7 +46,7 @@ TEST(StatusText, TellsWhatEverybodyMaySee) {
   EXPECT_FALSE(whole.at("subsystems").at(0).contains("memory"));
   EXPECT_FALSE(whole.contains("brief"));
   EXPECT_EQ(brief.at("brief"), true);
-  EXPECT_TRUE(brief.at("subsystems").empty() && brief.at("waits").empty() && brief.at("links").empty());
+  EXPECT_TRUE(brief.at("subsystems").empty() && brief.at("waits").empty() && !brief.contains("links"));
   EXPECT_LT(texts.brief.size(), 1000U) << "it fits into one packet";
 }
 

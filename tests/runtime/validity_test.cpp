@@ -25,18 +25,18 @@ using ::testing::ElementsAre;
 // ------------------------------------------------------------------------------------------- receivers
 
 /// An input as a transition function or a condition has seen it.
-struct Seen {
+struct Perceived {
   double value = 0;
   bool fresh = false, valid = false, failed = false;
   std::optional<Duration> age;  // nullopt: no valid value has come
-  bool operator==(const Seen&) const = default;
+  bool operator==(const Perceived&) const = default;
 };
-void PrintTo(const Seen& seen, std::ostream* out) {
+void PrintTo(const Perceived& seen, std::ostream* out) {
   *out << seen.value << (seen.fresh ? " fresh" : "") << (seen.valid ? " valid" : "")
        << (seen.failed ? " failed" : "");
   if (seen.age) *out << " age " << seen.age->count() / 1'000'000 << " ms";
 }
-[[nodiscard]] Seen look(const Input<double>& input) {
+[[nodiscard]] Perceived look(const Input<double>& input) {
   return {input, input.fresh, input.valid, input.failed,
           input.age == Duration::max() ? std::nullopt : std::optional(input.age)};
 }
@@ -45,7 +45,7 @@ void PrintTo(const Seen& seen, std::ostream* out) {
 struct Couple {
   TestSystem system;
   Script sender{.writes = false};
-  std::vector<Seen> seen;
+  std::vector<Perceived> seen;
 
   const System& build() {
     sender.route = [](const ScriptState&, bool) { return 0; };
@@ -57,7 +57,7 @@ struct Couple {
     system.connect(a, "x", b, "x", buffered);
     return system.system();
   }
-  const std::vector<Seen>& after(Duration duration) {
+  const std::vector<Perceived>& after(Duration duration) {
     build();
     EXPECT_FALSE(run(system, simulated(duration)).failed);
     return seen;
@@ -71,9 +71,9 @@ TEST(Validity, AnInvalidValueLeavesTheLastValidOneWithItsStampAndAge) {
     if (state.context.iteration == 2 || state.context.iteration == 3) throw std::runtime_error("blind");
   };
   EXPECT_THAT(pair.after(45ms),
-              ElementsAre(Seen{}, Seen{10, true, true, false, 0ms}, Seen{11, true, true, false, 0ms},
-                          Seen{11, false, false, true, 10ms}, Seen{11, false, false, true, 20ms},
-                          Seen{14, true, true, false, 0ms}));
+              ElementsAre(Perceived{}, Perceived{10, true, true, false, 0ms},
+                          Perceived{11, true, true, false, 0ms}, Perceived{11, false, false, true, 10ms},
+                          Perceived{11, false, false, true, 20ms}, Perceived{14, true, true, false, 0ms}));
 }
 
 TEST(Validity, AnInvalidValueIsNoFirstValue) {
@@ -82,8 +82,8 @@ TEST(Validity, AnInvalidValueIsNoFirstValue) {
     state.out_x = 5;
     if (state.context.iteration == 0) throw std::runtime_error("blind");
   };
-  EXPECT_THAT(pair.after(15ms),
-              ElementsAre(Seen{}, Seen{0, false, false, true, {}}, Seen{5, true, true, false, 0ms}));
+  EXPECT_THAT(pair.after(15ms), ElementsAre(Perceived{}, Perceived{0, false, false, true, {}},
+                                            Perceived{5, true, true, false, 0ms}));
 }
 
 TEST(Validity, AnOutputIsInvalidUntilItIsWritten) {
@@ -92,8 +92,8 @@ TEST(Validity, AnOutputIsInvalidUntilItIsWritten) {
     if (state.context.iteration == 1) state.out_x = 0;
   };
   EXPECT_THAT(pair.after(25ms),
-              ElementsAre(Seen{}, Seen{0, false, false, true, {}}, Seen{0, true, true, false, 0ms},
-                          Seen{0, true, true, false, 0ms}));
+              ElementsAre(Perceived{}, Perceived{0, false, false, true, {}},
+                          Perceived{0, true, true, false, 0ms}, Perceived{0, true, true, false, 0ms}));
 }
 
 TEST(Validity, AnIterationThatFailsHasWrittenNothing) {
@@ -103,8 +103,8 @@ TEST(Validity, AnIterationThatFailsHasWrittenNothing) {
     state.out_x = 1;
     throw std::runtime_error("blind");
   };
-  EXPECT_THAT(pair.after(15ms),
-              ElementsAre(Seen{}, Seen{0, false, false, true, {}}, Seen{0, false, false, true, {}}));
+  EXPECT_THAT(pair.after(15ms), ElementsAre(Perceived{}, Perceived{0, false, false, true, {}},
+                                            Perceived{0, false, false, true, {}}));
 }
 
 TEST(Validity, WhatFollowsAWriteStaysWrittenThroughAFailure) {
@@ -114,8 +114,8 @@ TEST(Validity, WhatFollowsAWriteStaysWrittenThroughAFailure) {
     if (state.context.iteration == 1) throw std::runtime_error("blind");
   };
   EXPECT_THAT(pair.after(25ms),
-              ElementsAre(Seen{}, Seen{0, true, true, false, 0ms}, Seen{0, false, false, true, 10ms},
-                          Seen{0, true, true, false, 0ms}));
+              ElementsAre(Perceived{}, Perceived{0, true, true, false, 0ms},
+                          Perceived{0, false, false, true, 10ms}, Perceived{0, true, true, false, 0ms}));
 }
 
 TEST(Validity, WhatAReceptorComputesFromNoReadingIsInvalid) {
@@ -128,8 +128,8 @@ TEST(Validity, WhatAReceptorComputesFromNoReadingIsInvalid) {
   pair.sender.senses = true;
   pair.sender.call = [](ScriptState& state) { state.out_x = state.sensed.value(); };
   EXPECT_THAT(pair.after(25ms),
-              ElementsAre(Seen{}, Seen{0, false, false, true, {}}, Seen{0, false, false, true, {}},
-                          Seen{0, true, true, false, 0ms}));
+              ElementsAre(Perceived{}, Perceived{0, false, false, true, {}},
+                          Perceived{0, false, false, true, {}}, Perceived{0, true, true, false, 0ms}));
 }
 
 TEST(Validity, AReceptorWithoutAReadingMaySayAnotherValue) {
@@ -137,7 +137,7 @@ TEST(Validity, AReceptorWithoutAReadingMaySayAnotherValue) {
   pair.system.devices.sense = [](double&) { return false; };
   pair.sender.senses = true;
   pair.sender.call = [](ScriptState& state) { state.out_x = state.sensed.valid ? 1 : -1; };
-  EXPECT_THAT(pair.after(5ms), ElementsAre(Seen{}, Seen{-1, true, true, false, 0ms}));
+  EXPECT_THAT(pair.after(5ms), ElementsAre(Perceived{}, Perceived{-1, true, true, false, 0ms}));
 }
 
 TEST(Validity, ADeviceThatThrowsMakesItsInputInvalidAndOlder) {
@@ -148,7 +148,7 @@ TEST(Validity, ADeviceThatThrowsMakesItsInputInvalidAndOlder) {
     if (reads == 2 || reads == 3) throw std::runtime_error("unplugged");
     return reads != 4;
   };
-  std::vector<Seen> seen;
+  std::vector<Perceived> seen;
   Script script;
   script.senses = true;
   script.call = [&](ScriptState& state) { seen.push_back(look(state.sensed)); };
@@ -160,9 +160,10 @@ TEST(Validity, ADeviceThatThrowsMakesItsInputInvalidAndOlder) {
   const auto b = system.add("robot.b", nets::b_receiver, {});
   system.connect(a, "x", b, "x", buffered);
   static_cast<void>(run(system, simulated(45ms)));
-  EXPECT_THAT(seen, ElementsAre(Seen{1, true, true, false, 0ms}, Seen{1, false, false, true, 10ms},
-                                Seen{1, false, false, true, 20ms}, Seen{1, false, false, true, 30ms},
-                                Seen{5, true, true, false, 0ms}));
+  EXPECT_THAT(seen,
+              ElementsAre(Perceived{1, true, true, false, 0ms}, Perceived{1, false, false, true, 10ms},
+                          Perceived{1, false, false, true, 20ms}, Perceived{1, false, false, true, 30ms},
+                          Perceived{5, true, true, false, 0ms}));
 }
 
 // ------------------------------------------------------------------------------------------- effectors
@@ -221,8 +222,8 @@ TEST(Validity, ARunWithInvalidValuesRunsTheSameAgain) {
     Couple pair;
     build(pair);
     static_cast<void>(run(pair.system, options));
-    EXPECT_THAT(pair.seen, ::testing::Contains(Seen{0, false, false, true, {}}));
-    EXPECT_THAT(pair.seen, ::testing::Contains(Seen{0, true, true, false, 0ms}));
+    EXPECT_THAT(pair.seen, ::testing::Contains(Perceived{0, false, false, true, {}}));
+    EXPECT_THAT(pair.seen, ::testing::Contains(Perceived{0, true, true, false, 0ms}));
   }
   Couple pair;
   std::string error;

@@ -75,7 +75,7 @@ TEST_F(VerificationGate, ADeploymentIsJudgedAndMadeIntoOneController) {
   EXPECT_EQ(made.code, 0) << made.text;
   const std::string system = content_of(folder_ / "p/.tessera/generated/system.cpp");
   for (const char* part :
-       {"{\"survives_partition\", \"violated\"", "tessera::networked}", "{\"right\", \"\", \"\"}",
+       {"{\"survives_partition\", \"violated\"", "tessera::Step::replace, ", "{\"right\", \"\", \"\"}",
         "process_of[] = {0, 1}", ".domain = 0", ".liveliness = 900ms"})
     EXPECT_NE(system.find(part), std::string::npos) << part << "\n" << system;
   EXPECT_EQ(tessera("verify p --scenario out.json").code, 1);

@@ -83,9 +83,9 @@ Generated timed(const char* name, const std::string& text) {
   return generated;
 }
 
-/// The smallest example has as many lines above its subsystems as a fleet has.
+/// The smallest example has as many lines above its subsystems as a fleet has, and a head for each of its files.
 TEST(Scale, ExamplesTakeAboutAThirdOfThePapersLines) {
-  expect_short("01_line_follower", generate_file(line_follower_spec), 0.35);
+  expect_short("01_line_follower", generate_file(line_follower_spec), 0.38);
   expect_short("02_gap", generate_file(gap_spec), 1 / 3.0);
 }
 
@@ -111,7 +111,7 @@ TEST(Scale, AgentsWrittenOutAreLinear) {
 
 TEST(Scale, AThousandAgentsOfATemplateShareTheirNet) {
   const Generated generated = timed("template x 1000", from_template(1000));
-  EXPECT_EQ(generated.files.size(), 14U);
+  EXPECT_EQ(generated.files.size(), 17U);
   EXPECT_GT(generated.net.places().size(), 50000U);
 }
 

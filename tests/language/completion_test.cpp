@@ -63,7 +63,7 @@ TEST(Completion, KeysOfTheSchemaWithoutThoseThatAreThere) {
 
 TEST(Completion, WordsOfTheSchema) {
   EXPECT_THAT(proposed(head + "channels:\n  - { from: a, receive: ‸"),
-              ElementsAre("blocking", "non_blocking"));
+              ElementsAre("blocking", "blocking_once", "non_blocking"));
   EXPECT_THAT(proposed(with_behaviour("{ transfer: ‸ }")), ElementsAre("sequential", "parallel"));
   EXPECT_THAT(proposed(with_behaviour("{}\n      receive: ‸")), ElementsAre("last", "first"));
 }

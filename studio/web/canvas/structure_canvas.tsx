@@ -194,9 +194,7 @@ function Drawing() {
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
     const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
-    void studio.draft.change(connectEdit(from, to), () =>
-      studio.view.set({ selected: channelPath(structure.channels.length), panel: "inspect" }),
-    );
+    void studio.change(connectEdit(from, to), { selected: channelPath(structure.channels.length), panel: "inspect" });
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
@@ -216,7 +214,7 @@ function Drawing() {
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
-      void studio.draft.change(remove(["channels", thing.of.index]), () => select(null));
+      void studio.change(remove(["channels", thing.of.index]), { selected: null });
     }
   };
   const add = () => {
@@ -224,7 +222,7 @@ function Drawing() {
       "agent",
       structure.agents.map((agent) => agent.name),
     );
-    void studio.draft.change(insert(["agents"], name, freshAgent), () => studio.view.set({ selected: name, panel: "inspect" }));
+    void studio.change(insert(["agents"], name, freshAgent), { selected: name, panel: "inspect" });
   };
   return (
     <div className="canvas structure" data-testid="structure">

@@ -5,7 +5,7 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
-import type { Project, RunRequest, Verdict } from "./protocol";
+import type { Edit, Project, RunRequest, Verdict } from "./protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
@@ -80,6 +80,8 @@ export class Studio {
     folds: new Map(),
     searching: false,
   });
+  /** What the last edit has selected. */
+  private ledTo: string | null | undefined;
   private serverStart: string | undefined;
   /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
@@ -258,6 +260,20 @@ export class Studio {
     const span = path === null ? undefined : this.draft.store.get().net?.find(path)?.span;
     this.view.set({ selected: path });
     if (showLine && span && span.line > 0) this.showLine(span.line);
+  }
+
+  /**
+   * Does an edit of the specification and then selects what it leads to, unless the user has selected something else
+   * meanwhile. The promise is false if the edit was refused.
+   */
+  change(edit: Edit | Edit[], leadsTo: Partial<Pick<ViewState, "selected" | "panel">>): Promise<boolean> {
+    const asked = this.view.get().selected;
+    return this.draft.change(edit, () => {
+      const { selected } = this.view.get();
+      if (leadsTo.selected === undefined || (selected !== asked && selected !== this.ledTo)) return;
+      this.ledTo = leadsTo.selected;
+      this.view.set(leadsTo);
+    });
   }
 
   /** Selects an element of the structure, its line and its form. */

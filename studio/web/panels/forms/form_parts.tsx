@@ -25,7 +25,7 @@ export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...su
 export function useEdit() {
   const studio = useStudio();
   return (edit: Edit | Edit[], select?: string | null) =>
-    studio.draft.change(edit, () => select !== undefined && studio.view.set({ selected: select }));
+    studio.change(edit, select === undefined ? {} : { selected: select });
 }
 
 /** Removes an element. It asks first if something else goes or changes with it. */

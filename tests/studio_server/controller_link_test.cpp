@@ -59,12 +59,12 @@ class Link : public testing::Test {
 
 TEST_F(Link, ASnapshotIsNeverAheadOfTheRecordingThatCameBeforeIt) {
   say("{\"pid\":1}\n" + piece("a line\n{}\n", true) + "{\"pid\":2}\n");
-  EXPECT_EQ(link_.snapshot().value().process, 1);
+  EXPECT_EQ(link_.snapshot().value().pid, 1);
   EXPECT_FALSE(link_.snapshot());
   const GrowingRecording::Piece first = link_.recording();
   EXPECT_EQ(first.bytes, "a line\n{}\n");
   EXPECT_TRUE(first.begins);
-  EXPECT_EQ(link_.snapshot().value().process, 2);
+  EXPECT_EQ(link_.snapshot().value().pid, 2);
 }
 
 TEST_F(Link, AsksAgainOnlyWhenItHasGotWhatItAskedFor) {

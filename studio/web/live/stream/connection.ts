@@ -49,10 +49,12 @@ export class Connection {
     this.stream?.close();
     const attempt = this.store.get().attempt + 1;
     this.store.set({ state: "lost", attempt });
+    const { token } = this.api;
     try {
       await this.api.project();
     } catch (error) {
-      if (error instanceof ApiError && error.status === 401) {
+      // Another tab may have told the new key while the old one was refused.
+      if (error instanceof ApiError && error.status === 401 && token === this.api.token) {
         this.store.set({ state: "refused" });
         return;
       }

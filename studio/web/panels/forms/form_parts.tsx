@@ -24,8 +24,7 @@ export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...su
 /** Does an edit of the specification and selects the changed element. The promise is false if it was refused. */
 export function useEdit() {
   const studio = useStudio();
-  return (edit: Edit | Edit[], select?: string | null) =>
-    studio.change(edit, select === undefined ? {} : { selected: select });
+  return (edit: Edit | Edit[], select?: string | null) => studio.change(edit, select === undefined ? {} : { selected: select });
 }
 
 /** Removes an element. It asks first if something else goes or changes with it. */

@@ -315,6 +315,7 @@ test("checks, measures, limits, templates and models have fields, which leave a 
     const check = within("Checks", "Check 6");
     await check.getByLabel("Kind").focus();
     await page.keyboard.type("event");
+    await check.getByLabel("Eventually").waitFor();
     await page.keyboard.press("Tab");
     await page.keyboard.type("inside(robot[0])");
     await page.keyboard.press("Tab");

@@ -99,7 +99,7 @@ TEST(ParserOfChecks, NumbersOfOneComparisonHaveOneUnit) {
            {"5 deg > speed(robot)", 8, "rad cannot be compared with m/s"},
            {"speed(a) + 1 deg > 0", 11, "m/s cannot be added to rad"},
            {"1 - 2 s - 3 m > 0", 10, "s cannot be diminished by m"},
-           {"-height(a) * 2 m < 3 m", 19, "m m cannot be compared with m"},
+           {"-height(a) * 2 m < 3 m", 19, "m^2 cannot be compared with m"},
            {"height(a) / 2 m > 1 m", 18, "a plain number cannot be compared with m"},
        }) {
     const auto parsed = checks::parse_formula(wrong.text, metres);

@@ -309,7 +309,7 @@ TEST(Names, OneWordMayBeEverythingAtOnceOrIsRefused) {
     if (at++ % each_of(8) != 0) continue;
     if (accepted(everything(word), word)) batch.add(everything(word));
   }
-  EXPECT_GT(batch.systems(), share_of(10));
+  EXPECT_GE(batch.systems(), share_of(10));
   const Ran ran = batch.compile();
   EXPECT_EQ(ran.exit_code, 0) << ran.output;
 }

@@ -80,7 +80,7 @@ export class Studio {
     folds: new Map(),
     searching: false,
   });
-  /** What the last edit has selected. */
+  /** The element that the last edit has selected. */
   private ledTo: string | null | undefined;
   private serverStart: string | undefined;
   /** The time in the address, until its recording is open. */

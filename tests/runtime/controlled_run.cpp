@@ -1,6 +1,8 @@
 #include "controlled_run.hpp"
 
 #include <fcntl.h>
+#include <linux/sockios.h>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/un.h>
 #include <unistd.h>
@@ -84,6 +86,11 @@ int Controlled::connect_another() const {
 void Controlled::send_line(const std::string& line) const {
   const std::string whole = line + "\n";
   send(socket_, whole.data(), whole.size(), MSG_NOSIGNAL);
+}
+
+bool Controlled::has_read_all() const {
+  int unread = -1;
+  return ioctl(socket_, SIOCOUTQ, &unread) == 0 && unread == 0;
 }
 
 bool Controlled::receive() {

@@ -31,6 +31,8 @@ class Controlled : public ::testing::Test {
   [[nodiscard]] int connect_another() const;
 
   void send_line(const std::string& line) const;
+  /// Whether the run has read all that was sent. It reads again only after it has dealt with what it has read.
+  [[nodiscard]] bool has_read_all() const;
   /// The next line that it accepts; null: the run is over.
   [[nodiscard]] nlohmann::json await(const std::function<bool(const nlohmann::json&)>& wanted);
   /// The mistake in the command; empty: there is none.

@@ -159,7 +159,10 @@ TEST_F(EmergencyStop, ThatComesWhileDevicesAreOpenedIsInForceFromTheStart) {
     };
   };
   start();
-  send_line("{\"id\":1,\"command\":\"emergency_stop\"}");
+  for (const char* id : {"1", "2"}) {
+    send_line("{\"id\":" + std::string(id) + ",\"command\":\"emergency_stop\"}");
+    ASSERT_TRUE(eventually([&] { return has_read_all(); }));
+  }
   EXPECT_EQ(others, 0) << "its device is being opened";
   go_on = true;
   EXPECT_EQ(await([](const json& line) { return line.value("answer", 0) == 1; }).value("error", "none"), "");

@@ -85,10 +85,11 @@ class Prepared {
   std::vector<fs::path> beside_;
 };
 
-void restore(const std::vector<Replacement>& files, std::size_t count) {
-  for (std::size_t at = 0; at < count; ++at) {
+/// Gives files their texts from before. fresh: whether each was absent.
+void restore(const std::vector<Replacement>& files, const std::vector<bool>& fresh) {
+  for (std::size_t at = 0; at < fresh.size(); ++at) {
     std::error_code ignored;
-    if (files[at].before.empty())
+    if (fresh[at])
       fs::remove(files[at].file, ignored);
     else
       write_file(files[at].file, files[at].before);
@@ -114,7 +115,7 @@ std::vector<fs::path> user_sources(const fs::path& project) {
 }
 
 std::optional<std::string> replace_together(const std::vector<Replacement>& files) {
-  std::size_t taken = 0;
+  std::vector<bool> fresh;  // of those that have their new text
   try {
     for (const Replacement& one : files)
       if (std::optional<std::string> problem = changed(one)) return problem;
@@ -123,16 +124,17 @@ std::optional<std::string> replace_together(const std::vector<Replacement>& file
     for (const Replacement& one : files) {
       std::optional<std::string> problem = changed(one);
       if (problem) {
-        restore(files, taken);
+        restore(files, fresh);
         return problem;
       }
-      prepared.take(one, taken);
-      ++taken;
+      const bool absent = is_absent(one.file);
+      prepared.take(one, fresh.size());
+      fresh.push_back(absent);
     }
   } catch (const std::exception& failure) {
     std::string problem = failure.what();
     try {
-      restore(files, taken);
+      restore(files, fresh);
     } catch (const std::exception& second) {
       problem += std::string("; and a file has its new text already, since ") + second.what();
     }

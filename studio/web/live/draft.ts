@@ -206,8 +206,7 @@ export class Draft {
   }
 
   private async renameEverywhere(edit: Edit[], files: readonly FileRenamed[], then: () => void): Promise<boolean> {
-    const name = edit[0]!.text ?? "";
-    this.store.set({ renaming: { name, files } });
+    this.store.set({ renaming: { name: edit[0]!.text ?? "", files } });
     const yes = await new Promise<boolean>((agreed) => (this.agreed = agreed));
     this.store.set({ renaming: null });
     if (!yes) return false;
@@ -218,17 +217,17 @@ export class Draft {
     if (!answer) return false;
     const after = applied(text, answer.edits);
     const changed = answer.files.filter(({ lines }) => lines.length > 0);
-    if (
-      !(await this.write(
-        after,
-        changed.map((one) => ({ ...one, text: one.after })),
-      ))
-    )
-      return false;
-    this.edit(after, "rename", changed);
+    const texts = changed.map((one) => ({ ...one, text: one.after }));
+    if (!(await this.write(after, texts))) return false;
+    this.edit(this.withTyped(text, after), "rename", changed);
     this.keep();
     then();
     return true;
+  }
+
+  /** The text `after`, with what was typed since it was `before`. If both changed the same lines, undo leads to the typed ones. */
+  private withTyped(before: string, after: string): string {
+    return merge(before, after, this.store.get().text) ?? after;
   }
 
   /** Writes the specification and other files together. */
@@ -260,8 +259,10 @@ export class Draft {
     if (this.waiting === 0 && !this.history.ahead(way)?.files.length) return this.show(this.history[way]());
     await this.queued(async () => {
       const ahead = this.history.ahead(way);
+      const { text } = this.store.get();
       if (!ahead || (ahead.files.length > 0 && !(await this.stepFiles(ahead.text, ahead.files)))) return;
-      this.show(this.history[way]());
+      if (this.store.get().text === text) this.show(this.history[way]());
+      else this.edit(this.withTyped(text, ahead.text), "rename", ahead.files);
       this.keep();
     });
   }

@@ -327,7 +327,7 @@ test("checks, measures, limits, templates and models have fields, which leave a 
     const condition = check.getByLabel("Eventually");
     const problem = check.locator(".problem-hint");
     await problem.getByText(/inside/).waitFor();
-    assert.equal(await condition.getAttribute("aria-invalid"), "true");
+    await until(page, async () => (await condition.getAttribute("aria-invalid")) === "true", "the field is marked");
     assert.equal(await condition.getAttribute("aria-describedby"), await problem.getAttribute("id"));
     await fill(condition, "inside(robot[0], north)");
     await problem.waitFor({ state: "detached" });

@@ -33,25 +33,34 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A robot to start from. An example is the template, so the tests run what a new project starts from.
+/// A robot to start from. An example is the template, so the tests run what a new project starts from. Only `empty`
+/// has a template of its own.
 struct Robot {
-  const char* name;     ///< as --robot has it
-  const char* example;  ///< its folder
-  const char* system;   ///< the name of its system, which becomes that of the project
-  const char* what;     ///< description
-  const char* hint;     ///< what to change first
+  const char* name;      ///< as --robot has it
+  const char* folder;    ///< of the installation
+  const char* system;    ///< the name of its system, which becomes that of the project
+  const char* what;      ///< description
+  const char* simulate;  ///< what to expect of the first run
+  const char* hint;      ///< what to do next
 };
 
+constexpr auto drives =
+    "tessera simulate --for 60s --report report   build it, let it drive, see report/index.html";
+
 constexpr std::array robots{
-    Robot{"line_follower", "01_line_follower", "line_follower", "a robot that follows a line",
-          "src/control.cpp"},
-    Robot{"rover", "08_rover", "scout", "a rover with a laser that drives about in a room",
-          "src/robot/control.cpp"},
-    Robot{"arm", "09_arm", "arm_bench", "an arm that brings its hand over a wall", "src/arm/control.cpp"},
-    Robot{"crossing", "05_crossing", "crossroads", "two rovers that share a crossing",
-          "src/rover/control.cpp"},
-    Robot{"fleet", "07_fleet", "fleet", "fifty rovers with lasers, and their supervisor",
-          "src/rover/control.cpp"},
+    Robot{"line_follower", "examples/01_line_follower", "line_follower", "a robot that follows a line",
+          drives, "Then change src/control.cpp and simulate again."},
+    Robot{"rover", "examples/08_rover", "scout", "a rover with a laser that drives about in a room", drives,
+          "Then change src/robot/control.cpp and simulate again."},
+    Robot{"arm", "examples/09_arm", "arm_bench", "an arm that brings its hand over a wall", drives,
+          "Then change src/arm/control.cpp and simulate again."},
+    Robot{"crossing", "examples/05_crossing", "crossroads", "two rovers that share a crossing", drives,
+          "Then change src/rover/control.cpp and simulate again."},
+    Robot{"fleet", "examples/07_fleet", "fleet", "fifty rovers with lasers, and their supervisor", drives,
+          "Then change src/rover/control.cpp and simulate again."},
+    Robot{"empty", "empty", "empty_system", "one agent that does nothing yet",
+          "tessera simulate --for 60s                    build it, prove it, run it",
+          "Then add an agent: spec.yaml has one in comments. `tessera generate --stubs` adds its functions."},
 };
 
 /// Whole words only: the name of a system may be a part of other words.
@@ -155,7 +164,7 @@ int new_command(const std::string& given, const std::string& wanted) {
   const Robot& robot = *std::ranges::find(robots, wanted, &Robot::name);
   const Workshop workshop(folder);
   const fs::path made = workshop.folder();
-  copy_example(installation.share / "examples" / robot.example, made, robot.system, name);
+  copy_example(installation.share / robot.folder, made, robot.system, name);
   copy_tree(installation.share / "project", made, robots.front().system, name);
   fs::rename(made / "gitignore", made / ".gitignore");
   if (&robot == &robots.front()) copy_shared_world(installation.share, made);
@@ -164,15 +173,15 @@ int new_command(const std::string& given, const std::string& wanted) {
   fmt::print(
       "{0} is ready: {1}.\n\n"
       "  cd {0}\n"
-      "  tessera simulate --for 60s --report report   build it, let it drive, see report/index.html\n"
+      "  {4}\n"
       "  tessera show --svg net.svg                    its Petri net\n"
       "{2}"
-      "\nThen change {3} and simulate again.\n",
+      "\n{3}\n",
       folder.string(), robot.what,
       fs::exists(folder / "test")
           ? "  tessera test                                  the tests of its transition functions\n"
           : "",
-      robot.hint);
+      robot.hint, robot.simulate);
   return ok;
 }
 
@@ -188,7 +197,7 @@ void add_new(CommandLine& app, int& exit_code) {
   command
       .option("--robot", *robot,
               "The robot to begin with: one that follows a line, a rover with a laser, an arm over a wall, "
-              "two rovers that share a crossing, or fifty rovers with a supervisor")
+              "two rovers that share a crossing, fifty rovers with a supervisor, or an empty system")
       .one_of(names)
       .shows_default();
   command.footer(

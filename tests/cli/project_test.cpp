@@ -29,7 +29,8 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
 TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
   for (const auto& [robot, part] :
        {std::pair{"line_follower", "line_world.xml"}, std::pair{"rover", "src/robot/room.hpp"},
-        std::pair{"arm", "arm.xml"}, std::pair{"crossing", "junction.xml"}, std::pair{"fleet", "hall.xml"}}) {
+        std::pair{"arm", "arm.xml"}, std::pair{"crossing", "junction.xml"}, std::pair{"fleet", "hall.xml"},
+        std::pair{"empty", "src/control.cpp"}}) {
     const std::string name = std::string("my_") + robot;
     const project::Exit made = tessera("new " + name + " --robot " + robot);
     ASSERT_EQ(made.code, 0) << made.text;
@@ -42,6 +43,23 @@ TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
   }
   EXPECT_EQ(tessera("new other --robot submarine").code, 2);
   EXPECT_FALSE(fs::exists(folder_ / "other"));
+}
+
+TEST_F(Project, AnEmptyProjectRunsAndSoDoesItsNextStep) {
+  const project::Exit made = tessera("new depot --robot empty");
+  ASSERT_EQ(made.code, 0) << made.text;
+  EXPECT_NE(made.text.find("Then add an agent"), std::string::npos) << made.text;
+  EXPECT_NEAR(json("simulate depot --for 2s").at("simulated_s"), 2, 0.1);
+  // The next step is in comments.
+  std::string text = content_of(folder_ / "depot/spec.yaml");
+  for (std::size_t at = 0; (at = text.find("\n# - ", at)) != std::string::npos;) text.erase(at + 1, 4);
+  ASSERT_NE(text.find("\nchannels:\n  - robot.control.request -> dock.control.request\n"), std::string::npos)
+      << text;
+  write(folder_ / "depot/spec.yaml", text);
+  EXPECT_EQ(tessera("simulate depot --for 2s").code, 1);
+  EXPECT_EQ(tessera("generate depot --stubs").code, 0);
+  const nlohmann::json run = json("simulate depot --for 2s");
+  EXPECT_EQ(run.at("subsystems").size(), 2U) << run;
 }
 
 TEST_F(Project, AnArmKeepsOffTheWallUntilAMotionIsWrong) {

@@ -33,6 +33,53 @@ TEST(Stubs, OfSeveralDefinitionsStandInFoldersOfTheirOwn) {
                                           "src/scout/control.cpp", "src/walker/control.cpp"}));
 }
 
+TEST(Stubs, NameOnlyTheBuffersThatTheBehaviourReceivesAndSends) {
+  const Generated generated = generate(R"(
+tessera: 1
+system: depot
+agents:
+  robot:
+    control:
+      rate: 10 Hz
+      inputs: { grant: bool, pose: float64 }
+      outputs: { request: bool, motion: float64 }
+      behaviours:
+        ask: { receive: [grant, pose], send: [request], terminal: true, next: wait }
+        wait: { receive: [], send: [], terminal: true, next: all }
+        all: {}
+    receptors:
+      eye:
+        rate: 10 Hz
+        real: { raw: float64 }
+        inputs: { motion: float64 }
+        outputs: { pose: float64 }
+        behaviours: { look: { receive: [] } }
+    effectors:
+      wheels:
+        rate: 10 Hz
+        stale: never
+        inputs: { motion: float64 }
+        outputs: { done: float64 }
+        real: { left: float64 }
+        behaviours: { drive: { send: [] } }
+channels:
+  - robot.control.request -> robot.control.grant
+  - robot.eye.pose -> robot.control.pose
+  - robot.control.motion -> robot.eye.motion
+  - robot.control.motion -> robot.wheels.motion
+)");
+  std::string bodies;
+  for (const codegen::Stub& stub : codegen::stubs(generated.model))
+    bodies += stub.body.substr(0, stub.body.find("void "));
+  EXPECT_EQ(bodies,
+            "/// Behaviour ask of robot.control.\n/// Reads in.grant, in.pose.\n/// Writes out.request.\n"
+            "/// Behaviour wait of robot.control.\n"
+            "/// Behaviour all of robot.control.\n/// Reads in.grant, in.pose.\n"
+            "/// Writes out.request, out.motion.\n"
+            "/// Behaviour look of robot.eye.\n/// Reads in.raw.\n/// Writes out.pose.\n"
+            "/// Behaviour drive of robot.wheels.\n/// Reads in.motion.\n/// Writes out.left.\n");
+}
+
 TEST(Stubs, CompileAsTheyAreWritten) {
   const Generated generated = generate_file(line_follower_spec);
   const Folder folder;

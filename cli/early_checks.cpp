@@ -70,9 +70,8 @@ class Parameters {
   [[nodiscard]] Bindings::Parameter bound(const spec::Parameter& parameter) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     const bool text = parameter.type.kind == spec::Type::Kind::string;
-    const ValueKind kind = text ? ValueKind::string : static_cast<ValueKind>(parameter.type.scalar);
     return {parameter.name,
-            kind,
+            text ? std::nullopt : std::optional(parameter.type.scalar),
             storage_.data(),
             bytes_of(parameter.type),
             parameter.minimum.value_or(-infinity),
@@ -86,9 +85,6 @@ class Parameters {
   Numbered<spec::InstanceId, std::vector<Bindings::Parameter>> of_instance_;
   std::vector<ParameterOwner> owners_;
 };
-static_assert(static_cast<int>(spec::Scalar::boolean) == static_cast<int>(ValueKind::boolean) &&
-              static_cast<int>(spec::Scalar::uint64) == static_cast<int>(ValueKind::uint64) &&
-              static_cast<int>(spec::Scalar::float64) == static_cast<int>(ValueKind::float64));
 
 bool parameters_fit(const Specification& specification, const LaunchOptions& options) {
   const Parameters parameters(specification.model);

@@ -15,7 +15,7 @@ namespace tessera {
 
 namespace {
 
-using Scalar = ValueLayout::Scalar;
+using ScalarValue = ValueLayout::ScalarValue;
 
 template <class T>
 [[nodiscard]] T as(std::string_view bytes) {
@@ -112,8 +112,8 @@ class Walk {
     const auto length = as<std::uint32_t>(left_);
     left_.remove_prefix(sizeof length);
     if (length > type.size || length > left_.size()) return false;
-    Scalar scalar;
-    scalar.kind = Scalar::Kind::text;
+    ScalarValue scalar;
+    scalar.kind = ScalarValue::Kind::text;
     scalar.text = left_.substr(0, length);
     left_.remove_prefix(length);
     visit_(path, scalar);
@@ -125,21 +125,21 @@ class Walk {
     if (left_.size() < type.size) return false;
     const std::string_view bytes = left_.substr(0, type.size);
     left_.remove_prefix(type.size);
-    Scalar scalar;
+    ScalarValue scalar;
     std::string text;
     switch (type.kind) {
       case Kind::boolean:
-        scalar.kind = Scalar::Kind::boolean;
+        scalar.kind = ScalarValue::Kind::boolean;
         scalar.integer = unsigned_of(bytes) != 0 ? 1 : 0;
         scalar.number = static_cast<double>(scalar.integer);
         break;
       case Kind::integer:
-        scalar.kind = Scalar::Kind::integer;
+        scalar.kind = ScalarValue::Kind::integer;
         scalar.integer = signed_of(bytes);
         scalar.number = static_cast<double>(scalar.integer);
         break;
       case Kind::natural:
-        scalar.kind = Scalar::Kind::natural;
+        scalar.kind = ScalarValue::Kind::natural;
         scalar.integer = static_cast<std::int64_t>(unsigned_of(bytes));
         scalar.number = static_cast<double>(unsigned_of(bytes));
         break;
@@ -148,7 +148,7 @@ class Walk {
         scalar.number = scalar.single ? as<float>(bytes) : as<double>(bytes);
         break;
       default:
-        scalar.kind = Scalar::Kind::text;
+        scalar.kind = ScalarValue::Kind::text;
         text = hexadecimal(bytes);
         scalar.text = text;
         break;
@@ -164,7 +164,7 @@ class Walk {
 
 }  // namespace
 
-std::string ValueLayout::Scalar::shown() const {
+std::string ValueLayout::ScalarValue::shown() const {
   switch (kind) {
     case Kind::boolean:
       return integer != 0 ? "true" : "false";
@@ -285,8 +285,9 @@ std::string ValueLayout::shown(std::string_view bytes, std::size_t most) const {
   };
   const bool whole = visit(
       bytes,
-      [&](const std::string& path, const Scalar& scalar) {
-        add(path, scalar.kind == Scalar::Kind::text ? '"' + std::string(scalar.text) + '"' : scalar.shown());
+      [&](const std::string& path, const ScalarValue& scalar) {
+        add(path,
+            scalar.kind == ScalarValue::Kind::text ? '"' + std::string(scalar.text) + '"' : scalar.shown());
       },
       [&](const std::string& path, std::size_t length) {
         if (length == 0) add(path, "[]");

@@ -46,7 +46,7 @@ void BufferBlocks::add(const ValueType& type, const std::string& path, const Ele
           length ? Element{length, index} : element);
 }
 
-void BufferBlocks::add_block(const std::string& path, Plan::Block block) {
+void BufferBlocks::add_block(const std::string& path, Translator::Block block) {
   by_path_.emplace(path, blocks_.size());
   block.path = path.substr(0, path.find('#'));
   blocks_.push_back(std::move(block));

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/codec/value_type.hpp"
 
 /// The parts of a buffer to which the fields of a message correspond.
@@ -19,7 +19,7 @@ class BufferBlocks {
   /// nullopt: the buffer has too many.
   [[nodiscard]] static std::optional<BufferBlocks> number(const ValueType& value);
 
-  [[nodiscard]] const std::vector<Plan::Block>& all() const { return blocks_; }
+  [[nodiscard]] const std::vector<Translator::Block>& all() const { return blocks_; }
   /// The number of the block at a path of numbers or texts: "v", "poses[2].x". Errors: std::out_of_range.
   [[nodiscard]] std::size_t at(const std::string& path) const { return by_path_.at(path); }
   /// The number of the block for the length of a sequence of structures. Errors: std::out_of_range.
@@ -32,9 +32,9 @@ class BufferBlocks {
     std::uint32_t number = 0;
   };
   void add(const ValueType& type, const std::string& path, const Element& element);
-  void add_block(const std::string& path, Plan::Block block);
+  void add_block(const std::string& path, Translator::Block block);
 
-  std::vector<Plan::Block> blocks_;
+  std::vector<Translator::Block> blocks_;
   std::map<std::string, std::size_t> by_path_;
 };
 

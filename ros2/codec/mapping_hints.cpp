@@ -107,7 +107,7 @@ std::string fields_of_elements(const ValueType& value, const std::string& value_
                                   " beside the others in `fields`: { " + entries + " }";
 }
 
-std::string fitting_type(const Plan::Step& step) {
+std::string fitting_type(const Translator::Step& step) {
   if (step.type.primitive == Primitive::structure) {
     const std::string name = step.type.refers.substr(step.type.refers.rfind('/') + 1);
     if (step.type.repeat == Type::Repeat::sequence)

@@ -5,7 +5,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/codec/value_type.hpp"
 #include "ros2/definitions/type.hpp"
 #include "tessera/nearest.hpp"
@@ -32,6 +32,6 @@ namespace tessera::ros2 {
                                              const Structure& structure, const std::string& message_path,
                                              Direction direction);
 /// The type of a buffer that takes this field of the message.
-[[nodiscard]] std::string fitting_type(const Plan::Step& step);
+[[nodiscard]] std::string fitting_type(const Translator::Step& step);
 
 }  // namespace tessera::ros2

@@ -8,10 +8,10 @@
 
 namespace tessera::ros2 {
 
-std::vector<Plan::Step> steps_of(const Structure& structure) {
-  std::vector<Plan::Step> steps;
+std::vector<Translator::Step> steps_of(const Structure& structure) {
+  std::vector<Translator::Step> steps;
   for (const Field& field : structure.fields) {
-    Plan::Step step;
+    Translator::Step step;
     step.type = field.type;
     step.defaults = field.defaults;
     if (field.type.structure != nullptr) step.members = steps_of(*field.type.structure);
@@ -20,30 +20,31 @@ std::vector<Plan::Step> steps_of(const Structure& structure) {
   return steps;
 }
 
-Plan::Step* find_step(std::vector<Plan::Step>& steps, const Structure& structure, const std::string& name) {
+Translator::Step* find_step(std::vector<Translator::Step>& steps, const Structure& structure,
+                            const std::string& name) {
   const Field* const field = structure.find(name);
   return field == nullptr ? nullptr : &steps[static_cast<std::size_t>(field - structure.fields.data())];
 }
 
-void fill_header(Plan::Step& header) {
+void fill_header(Translator::Step& header) {
   const Structure& structure = *header.type.structure;
-  if (Plan::Step* const frame = find_step(header.members, structure, "frame_id"))
-    if (frame->type.primitive == Primitive::string) frame->fill = Plan::Fill::frame_id;
-  Plan::Step* const stamp = find_step(header.members, structure, "stamp");
+  if (Translator::Step* const frame = find_step(header.members, structure, "frame_id"))
+    if (frame->type.primitive == Primitive::string) frame->fill = Translator::Fill::frame_id;
+  Translator::Step* const stamp = find_step(header.members, structure, "stamp");
   if (stamp == nullptr || stamp->type.structure == nullptr) return;
-  if (Plan::Step* const sec = find_step(stamp->members, *stamp->type.structure, "sec"))
-    if (sec->type.primitive == Primitive::int32) sec->fill = Plan::Fill::stamp_sec;
-  if (Plan::Step* const nanosec = find_step(stamp->members, *stamp->type.structure, "nanosec"))
-    if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Plan::Fill::stamp_nanosec;
+  if (Translator::Step* const sec = find_step(stamp->members, *stamp->type.structure, "sec"))
+    if (sec->type.primitive == Primitive::int32) sec->fill = Translator::Fill::stamp_sec;
+  if (Translator::Step* const nanosec = find_step(stamp->members, *stamp->type.structure, "nanosec"))
+    if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Translator::Fill::stamp_nanosec;
 }
 
-std::optional<ArrayOfMessage> array_in(const std::string& path, std::vector<Plan::Step>& first,
+std::optional<ArrayOfMessage> array_in(const std::string& path, std::vector<Translator::Step>& first,
                                        const Structure& message) {
-  std::vector<Plan::Step>* steps = &first;
+  std::vector<Translator::Step>* steps = &first;
   const Structure* structure = &message;
   std::string way, rest = path;
   for (const std::string& part : split_path(path)) {
-    Plan::Step* const step = structure == nullptr ? nullptr : find_step(*steps, *structure, part);
+    Translator::Step* const step = structure == nullptr ? nullptr : find_step(*steps, *structure, part);
     if (step == nullptr) return std::nullopt;
     way = member_path(way, part);
     rest = rest.substr(std::min(part.size() + 1, rest.size()));

@@ -4,26 +4,27 @@
 #include <string>
 #include <vector>
 
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/definitions/type.hpp"
 
-/// The steps of a plan for the fields of a message.
+/// The steps of a translator for the fields of a message.
 namespace tessera::ros2 {
 
 /// A step for each field of the structure, in its order; none corresponds to a part of the buffer yet.
-[[nodiscard]] std::vector<Plan::Step> steps_of(const Structure& structure);
+[[nodiscard]] std::vector<Translator::Step> steps_of(const Structure& structure);
 /// The step for that field of the structure, of which `steps` are; nullptr: it has no such field.
-[[nodiscard]] Plan::Step* find_step(std::vector<Plan::Step>& steps, const Structure& structure,
-                                    const std::string& name);
-/// Lets the plan fill the time and the frame of a std_msgs/Header.
-void fill_header(Plan::Step& header);
+[[nodiscard]] Translator::Step* find_step(std::vector<Translator::Step>& steps, const Structure& structure,
+                                          const std::string& name);
+/// Lets the translator fill the time and the frame of a std_msgs/Header.
+void fill_header(Translator::Step& header);
 
 struct ArrayOfMessage {
-  Plan::Step* step;
+  Translator::Step* step;
   std::string path, rest;  ///< of the array; inside its elements
 };
 /// The first array of messages through which the path leads, to something inside; nullopt: there is none.
-[[nodiscard]] std::optional<ArrayOfMessage> array_in(const std::string& path, std::vector<Plan::Step>& first,
+[[nodiscard]] std::optional<ArrayOfMessage> array_in(const std::string& path,
+                                                     std::vector<Translator::Step>& first,
                                                      const Structure& message);
 
 }  // namespace tessera::ros2

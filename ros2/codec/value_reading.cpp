@@ -7,15 +7,15 @@
 
 namespace tessera::ros2 {
 
-void PartFinder::walk(const std::vector<Plan::Step>& steps) {
+void PartFinder::walk(const std::vector<Translator::Step>& steps) {
   if (steps.empty()) reader_.numbers(1, 1);
-  for (const Plan::Step& step : steps) {
+  for (const Translator::Step& step : steps) {
     if (!reader_.ok()) return;
     walk(step);
   }
 }
 
-void PartFinder::walk(const Plan::Step& step) {
+void PartFinder::walk(const Translator::Step& step) {
   using Repeat = Type::Repeat;
   std::size_t count = step.type.repeat == Repeat::once ? 1 : step.type.count;
   if (step.type.repeat == Repeat::sequence) {
@@ -26,7 +26,7 @@ void PartFinder::walk(const Plan::Step& step) {
   if (step.type.primitive != Primitive::structure) {
     const Found found{reader_.at(), count, &step};
     if (step.block) blocks_[*step.block] = found;
-    if (step.fill == Plan::Fill::names) names_ = found;
+    if (step.fill == Translator::Fill::names) names_ = found;
     reader_.skip(step.type, count);
   } else if (step.per_element && (step.length ? count > step.members.size() : count != step.members.size())) {
     if (!misfit_) misfit_ = Found{reader_.at(), count, &step};
@@ -40,7 +40,7 @@ void PartFinder::walk(const Plan::Step& step) {
 
 std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const PartFinder::Found& found,
                                                  const std::vector<std::string>& names,
-                                                 Plan::Misfit& misfit) {
+                                                 Translator::Misfit& misfit) {
   constexpr std::size_t nowhere = ~std::size_t{0};
   std::vector<std::size_t> order(names.size(), nowhere);
   reader.go_to(found.at);
@@ -57,13 +57,13 @@ std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const PartFi
   return order;
 }
 
-Plan::Outcome ValueWriter::add(const PartFinder::Found& found, const Plan::Block& block,
-                               const std::vector<std::size_t>& order, std::size_t names) {
+Translator::Outcome ValueWriter::add(const PartFinder::Found& found, const Translator::Block& block,
+                                     const std::vector<std::size_t>& order, std::size_t names) {
   const bool by_name = found.step->by_name;
   const std::size_t room = by_name ? names : block.count;
   if (block.is_sequence ? found.count > block.count : found.count != room) {
     misfit_ = {block.path, found.count, room};
-    return Plan::Outcome::other_length;
+    return Translator::Outcome::other_length;
   }
   if (block.is_sequence) add_length(found.count);
   reader_.go_to(found.at);
@@ -76,8 +76,8 @@ void ValueWriter::add_length(std::size_t count) {
   put(&length, sizeof length);
 }
 
-Plan::Outcome ValueWriter::add_numbers(const PartFinder::Found& found, const Plan::Block& block,
-                                       const std::vector<std::size_t>* order) {
+Translator::Outcome ValueWriter::add_numbers(const PartFinder::Found& found, const Translator::Block& block,
+                                             const std::vector<std::size_t>* order) {
   const Primitive source = found.step->type.primitive;
   const auto bytes = reader_.numbers(size_of(source), found.count);
   const std::size_t first = value_.size(), size = size_of(block.primitive);
@@ -90,11 +90,11 @@ Plan::Outcome ValueWriter::add_numbers(const PartFinder::Found& found, const Pla
     good = convert(source, bytes.data() + (*order)[index] * size_of(source), reader_.swapped(),
                    block.primitive, value_.data() + first + index * size, 1) &&
            good;
-  return good ? Plan::Outcome::good : Plan::Outcome::malformed;
+  return good ? Translator::Outcome::good : Translator::Outcome::malformed;
 }
 
-Plan::Outcome ValueWriter::add_texts(const PartFinder::Found& found, const Plan::Block& block,
-                                     const std::vector<std::size_t>* order) {
+Translator::Outcome ValueWriter::add_texts(const PartFinder::Found& found, const Translator::Block& block,
+                                           const std::vector<std::size_t>* order) {
   std::vector<std::string_view> texts(found.count);
   for (std::string_view& text : texts) text = reader_.text();
   const std::size_t count = block.is_sequence ? found.count : block.count;
@@ -102,13 +102,13 @@ Plan::Outcome ValueWriter::add_texts(const PartFinder::Found& found, const Plan:
     const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
     if (text.size() > block.capacity) {
       misfit_ = {block.path, text.size(), block.capacity, /*is_text=*/true};
-      return Plan::Outcome::other_length;
+      return Translator::Outcome::other_length;
     }
     const auto length = static_cast<std::uint32_t>(text.size());
     put(&length, sizeof length);
     put(text.data(), text.size());
   }
-  return Plan::Outcome::good;
+  return Translator::Outcome::good;
 }
 
 void ValueWriter::put(const void* bytes, std::size_t count) {

@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 
 namespace tessera::ros2 {
 

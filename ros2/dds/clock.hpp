@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "tessera/ros2.hpp"
 
 namespace tessera::ros2 {

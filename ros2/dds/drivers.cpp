@@ -45,11 +45,11 @@ class WatchedEndpoint {
 };
 
 /// "'ranges' has 360 elements, and the buffer takes 8"
-std::string reason(Plan::Outcome outcome, const Plan::Misfit& misfit) {
-  if (outcome == Plan::Outcome::other_names)
+std::string reason(Translator::Outcome outcome, const Translator::Misfit& misfit) {
+  if (outcome == Translator::Outcome::other_names)
     return misfit.came == 0 ? fmt::format("it has no '{}', which `names` lists", misfit.field)
                             : fmt::format("it has the name '{}' twice", misfit.field);
-  if (outcome != Plan::Outcome::other_length) return "it is no message of that type";
+  if (outcome != Translator::Outcome::other_length) return "it is no message of that type";
   const std::string field = misfit.field.empty() ? "it" : "'" + misfit.field + "'";
   return fmt::format("{} has {} {}, and the buffer takes {}", field, misfit.came,
                      misfit.is_text ? "bytes" : "elements", misfit.room);
@@ -77,15 +77,15 @@ class Subscriber final : public RealReceptor {
 
  private:
   void note(std::span<const std::byte> message) {
-    Plan::Misfit misfit;
-    const Plan::Outcome outcome = prepared_.plan.decode(message, newest_, {}, &misfit);
-    if (outcome == Plan::Outcome::good)
+    Translator::Misfit misfit;
+    const Translator::Outcome outcome = prepared_.translator.decode(message, newest_, {}, &misfit);
+    if (outcome == Translator::Outcome::good)
       fresh_ = true;
     else if (is_told(++dropped_))
       tell(outcome, misfit);
   }
 
-  void tell(Plan::Outcome outcome, const Plan::Misfit& misfit) const {
+  void tell(Translator::Outcome outcome, const Translator::Misfit& misfit) const {
     const std::string why = reason(outcome, misfit);
     std::fprintf(stderr, "warning: %s: a message of %s was dropped (%llu until now): %s\n",
                  prepared_.endpoint.path.c_str(), prepared_.endpoint.topic.c_str(),
@@ -120,7 +120,7 @@ class Publisher final : public RealEffector {
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
     sink_.clear();
     prepared_.encoding->put(value.data(), sink_);
-    if (!prepared_.plan.encode(sink_.bytes(), stamp_now(), message_)) return false;
+    if (!prepared_.translator.encode(sink_.bytes(), stamp_now(), message_)) return false;
     if (is_guardian()) return write_until_received();
     endpoint_->watch();
     warn_of_others();

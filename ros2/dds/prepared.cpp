@@ -24,7 +24,7 @@ std::string message_type(const Ros2Binding& binding, Direction direction) {
   return requests ? request_type(binding.type) : response_type(binding.type);
 }
 
-Plan plan_of(const Ros2Binding& binding, Direction direction) {
+Translator translator_of(const Ros2Binding& binding, Direction direction) {
   if (binding.encoding == nullptr)
     throw std::runtime_error("its real buffer has a type without a fixed form");
   const std::string type = message_type(binding, direction);
@@ -38,15 +38,15 @@ Plan plan_of(const Ros2Binding& binding, Direction direction) {
   if (!binding.role.empty())
     mapping.own = own_fields_of_service(binding.role == "client" && direction == Direction::receive);
   std::vector<MappingProblem> problems;
-  auto plan = Plan::make(message, *value, mapping, direction, problems);
-  return given(std::move(plan), problems.empty() ? "no mapping" : problems.front().text);
+  auto translator = Translator::make(message, *value, mapping, direction, problems);
+  return given(std::move(translator), problems.empty() ? "no mapping" : problems.front().text);
 }
 
 }  // namespace
 
 Prepared prepare(const Ros2Binding& binding, Direction direction) {
   std::string error;
-  Prepared prepared{plan_of(binding, direction), {}, binding.encoding, binding.wait};
+  Prepared prepared{translator_of(binding, direction), {}, binding.encoding, binding.wait};
   EndpointSetup& endpoint = prepared.endpoint;
   endpoint.path = binding.path;
   endpoint.topic = full_topic_name(binding.topic, error);

@@ -2,7 +2,7 @@
 
 #include <cstdint>
 
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/dds/endpoint.hpp"
 #include "tessera/ros2.hpp"
 
@@ -10,7 +10,7 @@ namespace tessera::ros2 {
 
 /// The parts of a driver of a topic or of one side of a service.
 struct Prepared {
-  Plan plan;
+  Translator translator;
   EndpointSetup endpoint;  ///< for a service: without the DDS names
   const ValueEncoding* encoding;
   Duration wait;

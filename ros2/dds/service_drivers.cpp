@@ -54,8 +54,8 @@ class ReplyReceptor final : public RealReceptor {
                        static_cast<unsigned long long>(unreadable_));
       }
       if (result->outcome != CallOutcome::answered) {
-        if (!prepared_.plan.has_own(outcome_field)) continue;
-        value_ = prepared_.plan.empty_value(own_of(*result));
+        if (!prepared_.translator.has_own(outcome_field)) continue;
+        value_ = prepared_.translator.empty_value(own_of(*result));
       }
       return prepared_.encoding->take(value.data(), value_);
     }
@@ -67,7 +67,7 @@ class ReplyReceptor final : public RealReceptor {
     return {result.number, static_cast<std::uint64_t>(result.outcome)};
   }
   [[nodiscard]] bool is_read(const ServiceClient::Result& result) {
-    return prepared_.plan.decode(result.reply, value_, own_of(result)) == Plan::Outcome::good;
+    return prepared_.translator.decode(result.reply, value_, own_of(result)) == Translator::Outcome::good;
   }
 
   Prepared prepared_;
@@ -85,8 +85,8 @@ class OutgoingMessage {
   [[nodiscard]] bool make(const Prepared& prepared, std::span<const std::byte> value) {
     sink_.clear();
     prepared.encoding->put(value.data(), sink_);
-    call_ = prepared.plan.own_number(sink_.bytes(), call_field);
-    return prepared.plan.encode(sink_.bytes(), stamp_now(), message_);
+    call_ = prepared.translator.own_number(sink_.bytes(), call_field);
+    return prepared.translator.encode(sink_.bytes(), stamp_now(), message_);
   }
   [[nodiscard]] std::uint64_t call() const { return call_; }
   [[nodiscard]] const std::vector<std::byte>& message() const { return message_; }
@@ -147,7 +147,7 @@ class RequestReceptor final : public RealReceptor {
   [[nodiscard]] bool read(std::span<std::byte> value) override {
     while (const auto request = server_->next_request()) {
       const std::array own{request->number};
-      if (prepared_.plan.decode(request->message, value_, own) == Plan::Outcome::good)
+      if (prepared_.translator.decode(request->message, value_, own) == Translator::Outcome::good)
         return prepared_.encoding->take(value.data(), value_);
       server_->drop(request->number);
     }

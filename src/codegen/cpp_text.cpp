@@ -33,7 +33,7 @@ std::string element_name(const spec::Model& model, const spec::Type& type,
 /// Whether copies of it had better share their elements: those of 4 KB and more, structures counted
 /// as 16 bytes.
 bool is_large(const spec::Type& type) {
-  const std::uint64_t element = type.kind == spec::Type::Kind::scalar   ? spec::bytes_of(type.scalar)
+  const std::uint64_t element = type.kind == spec::Type::Kind::scalar   ? bytes_of(type.scalar)
                                 : type.kind == spec::Type::Kind::string ? type.capacity
                                                                         : 16;
   return element * type.extent >= 4096;
@@ -82,8 +82,7 @@ void add_headers(const spec::Type& type, std::set<std::string>& headers) {
                    : is_large(type) ? "<tessera/large_array.hpp>"
                                     : "<array>");
   if (type.kind == spec::Type::Kind::string) headers.insert("<tessera/bounded_string.hpp>");
-  if (type.kind == spec::Type::Kind::scalar && type.scalar >= spec::Scalar::int8 &&
-      type.scalar <= spec::Scalar::uint64)
+  if (type.kind == spec::Type::Kind::scalar && type.scalar >= Scalar::int8 && type.scalar <= Scalar::uint64)
     headers.insert("<cstdint>");
 }
 

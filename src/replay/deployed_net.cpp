@@ -57,21 +57,21 @@ DeployedNet::Move DeployedNet::move_of(TransitionId id) const {
   return move;
 }
 
-ChannelStep DeployedNet::step_of(TransitionId id) const {
+ChannelEffect DeployedNet::effect_of(TransitionId id) const {
   const auto takes = [&](PlaceRole role) { return holds_role(net_, net_.preset(id), role); };
   const auto gives = [&](PlaceRole role) { return holds_role(net_, net_.postset(id), role); };
   using Role = PlaceRole;
-  if (takes(Role::sent_memory)) return ChannelStep::begins_write;
-  if (gives(Role::sent_memory)) return ChannelStep::writes;
-  if (takes(Role::received_memory)) return ChannelStep::begins_read;
-  if (gives(Role::received_memory)) return ChannelStep::ends_read;
+  if (takes(Role::sent_memory)) return ChannelEffect::begins_write;
+  if (gives(Role::sent_memory)) return ChannelEffect::writes;
+  if (takes(Role::received_memory)) return ChannelEffect::begins_read;
+  if (gives(Role::received_memory)) return ChannelEffect::ends_read;
   if (net_.parts()[net_[id].block].sends) {
-    if (!takes(Role::waiting)) return ChannelStep::writes;
-    return net_[id].condition.kind == net::Condition::Kind::elapsed ? ChannelStep::gives_up
-                                                                    : ChannelStep::is_acknowledged;
+    if (!takes(Role::waiting)) return ChannelEffect::writes;
+    return net_[id].condition.kind == net::Condition::Kind::elapsed ? ChannelEffect::gives_up
+                                                                    : ChannelEffect::is_acknowledged;
   }
-  if (takes(Role::full)) return ChannelStep::begins_read;
-  return takes(Role::empty) ? ChannelStep::skips : ChannelStep::ends_read;
+  if (takes(Role::full)) return ChannelEffect::begins_read;
+  return takes(Role::empty) ? ChannelEffect::skips : ChannelEffect::ends_read;
 }
 
 void DeployedNet::find_transitions(const ProcessMap& processes) {
@@ -92,14 +92,14 @@ void DeployedNet::find_transitions(const ProcessMap& processes) {
       channels_[transition.channel.value].medium.push_back(move_of(id));
       continue;
     }
-    transition.step = step_of(id);
+    transition.effect = effect_of(id);
     transition.carries_number = net_.channel_of(id).valid();
     channels_[transition.channel.value].sides.push_back(move_of(id));
   }
 }
 
 void DeployedNet::join_groups() {
-  using Key = std::tuple<net::BlockId, ChannelStep, std::vector<Arc>, std::vector<Arc>>;
+  using Key = std::tuple<net::BlockId, ChannelEffect, std::vector<Arc>, std::vector<Arc>>;
   const auto own = [&](std::span<const Arc> arcs) {
     std::vector<Arc> left;
     std::ranges::copy_if(arcs, std::back_inserter(left),
@@ -108,8 +108,8 @@ void DeployedNet::join_groups() {
   };
   std::map<Key, std::vector<TransitionId>> groups;
   for (std::uint32_t index = 0; index < transitions_.size(); ++index)
-    if (const TransitionId id{index}; transitions_[index].step != ChannelStep::none)
-      groups[{net_[id].block, transitions_[index].step, own(net_.preset(id)), own(net_.postset(id))}]
+    if (const TransitionId id{index}; transitions_[index].effect != ChannelEffect::none)
+      groups[{net_[id].block, transitions_[index].effect, own(net_.preset(id)), own(net_.postset(id))}]
           .push_back(id);
   for (const auto& [key, members] : groups)
     for (const TransitionId id : members)

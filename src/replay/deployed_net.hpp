@@ -16,7 +16,7 @@ struct ProcessMap {
 };
 
 /// The effect of a firing on the sender or on the receiver of a channel between processes.
-enum class ChannelStep : std::uint8_t {
+enum class ChannelEffect : std::uint8_t {
   none,
   begins_write,     ///< both sides are non-blocking: the sender uses its memory
   writes,           ///< the value is on the way
@@ -50,7 +50,7 @@ class DeployedNet {
   };
   struct Transition {
     net::ChannelId channel{};  ///< whose memory it uses
-    ChannelStep step = ChannelStep::none;
+    ChannelEffect effect = ChannelEffect::none;
     bool carries_number = false;  ///< its firing carries the number of a value, not the version of a word
     ProcessId process{};          ///< none: of the whole system, or of a medium
     /// For a channel between processes: its own move, and those of the transitions with the same effect on
@@ -80,7 +80,7 @@ class DeployedNet {
   void join_groups();
   void find_owners(const ProcessMap& processes);
   [[nodiscard]] Move move_of(net::TransitionId id) const;
-  [[nodiscard]] ChannelStep step_of(net::TransitionId id) const;
+  [[nodiscard]] ChannelEffect effect_of(net::TransitionId id) const;
 
   const net::Net& net_;
   std::size_t process_count_;

@@ -176,7 +176,7 @@ std::optional<Problem> NetPlay::fire(const Firing& firing) {
       return Problem{
           fmt::format("'{}' puts a second token into '{}'", net_.net()[id].name, net_.net()[arc.place].name)};
   }
-  if (net_[id].step != ChannelStep::none) {
+  if (net_[id].effect != ChannelEffect::none) {
     stop_tracking(firing);
     if (!move_markings(firing))
       return Problem{fmt::format("'{}' fired, but no marking of '{}' allows it", net_.net()[id].name,
@@ -212,26 +212,26 @@ NetPlay::Read* NetPlay::read_by(const Firing& firing) {
 
 void NetPlay::count(const Firing& firing) {
   const ChannelId channel = net_[firing.transition].channel;
-  switch (net_[firing.transition].step) {
-    case ChannelStep::writes:
+  switch (net_[firing.transition].effect) {
+    case ChannelEffect::writes:
       sending(channel, firing.start).written = firing.version;
       sending(channel, firing.start).known = true;
       break;
-    case ChannelStep::begins_read:
+    case ChannelEffect::begins_read:
       receiving(channel, firing.start).last = firing.version;
       receiving(channel, firing.start).known = true;
       if (Read* read = read_by(firing); read != nullptr && read->first == 0) read->first = firing.version;
       break;
-    case ChannelStep::ends_read:
+    case ChannelEffect::ends_read:
       if (Read* read = read_by(firing); read != nullptr) read->ended = firing.version;
       break;
-    case ChannelStep::is_acknowledged:
+    case ChannelEffect::is_acknowledged:
       sending(channel, firing.start).acknowledged = firing.version;
       break;
-    case ChannelStep::none:
-    case ChannelStep::begins_write:
-    case ChannelStep::gives_up:
-    case ChannelStep::skips:
+    case ChannelEffect::none:
+    case ChannelEffect::begins_write:
+    case ChannelEffect::gives_up:
+    case ChannelEffect::skips:
       break;
   }
 }

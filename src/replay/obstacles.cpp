@@ -17,7 +17,7 @@ using Reason = NetPlay::Obstacle::Reason;
 NetPlay::Obstacle NetPlay::obstacle(const Firing& firing) const {
   const DeployedNet::Transition& transition = net_[firing.transition];
   Obstacle found;
-  if (transition.step != ChannelStep::none)
+  if (transition.effect != ChannelEffect::none)
     found = number_obstacle(firing);
   else if (transition.channel.valid() || firing.version != 0)
     found = version_obstacle(firing);
@@ -55,25 +55,25 @@ NetPlay::Obstacle NetPlay::number_obstacle(const Firing& firing) const {
     return {.kind = Kind::never, .reason = Reason::number, .due = due};
   };
   const ChannelId channel = transition.channel;
-  switch (transition.step) {
-    case ChannelStep::none:
+  switch (transition.effect) {
+    case ChannelEffect::none:
       return {};
-    case ChannelStep::begins_write:
-    case ChannelStep::writes:
+    case ChannelEffect::begins_write:
+    case ChannelEffect::writes:
       if (const Sending& side = sending(channel, firing.start); side.known) return must_be(side.written + 1);
       return {};
-    case ChannelStep::gives_up:
+    case ChannelEffect::gives_up:
       if (!transition.carries_number) return must_be(0);
       if (const Sending& side = sending(channel, firing.start); side.known) return must_be(side.written);
       return {};
-    case ChannelStep::is_acknowledged:
+    case ChannelEffect::is_acknowledged:
       return acknowledgement_obstacle(firing);
-    case ChannelStep::begins_read:
+    case ChannelEffect::begins_read:
       return read_obstacle(firing, net_[channel].exchange);
-    case ChannelStep::ends_read:
+    case ChannelEffect::ends_read:
       if (const Receiving& side = receiving(channel, firing.start); side.known) return must_be(side.last);
       return {};
-    case ChannelStep::skips:
+    case ChannelEffect::skips:
       return must_be(0);
   }
   return {};

@@ -141,7 +141,7 @@ class Writing {
       static_cast<void>(change->layout->visit(
           change->bytes,
           [&](const std::string& path, const auto& scalar) {
-            if (scalar.kind != ValueLayout::Scalar::Kind::text) count(path, scalar.number);
+            if (scalar.kind != ValueLayout::ScalarValue::Kind::text) count(path, scalar.number);
           },
           [&](const std::string& path, std::size_t length) {
             count(length_path(path), static_cast<double>(length));

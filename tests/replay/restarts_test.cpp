@@ -135,14 +135,14 @@ class TwoProcesses {
     for (const net::Arc& arc : system_.net.preset(id))
       if (!deployed_.is_hidden(arc.place) && !net::suffices(process.marking, arc)) return false;
     const bool exchange = ends_.send == N && ends_.receive == N;
-    switch (deployed_[id].step) {
-      case ChannelStep::is_acknowledged:
+    switch (deployed_[id].effect) {
+      case ChannelEffect::is_acknowledged:
         return !sender_->waiting();
-      case ChannelStep::gives_up:
+      case ChannelEffect::gives_up:
         return sender_->waiting();
-      case ChannelStep::begins_read:
+      case ChannelEffect::begins_read:
         return exchange || receiver_->full();
-      case ChannelStep::skips:
+      case ChannelEffect::skips:
         return !receiver_->full();
       default:
         return true;
@@ -152,32 +152,32 @@ class TwoProcesses {
   /// Does what the firing means. Returns the number that is recorded with it.
   std::uint32_t number_of(Process& process, TransitionId id) {
     std::uint64_t number = 0;
-    switch (deployed_[id].step) {
-      case ChannelStep::none:
-      case ChannelStep::skips:
+    switch (deployed_[id].effect) {
+      case ChannelEffect::none:
+      case ChannelEffect::skips:
         break;
-      case ChannelStep::begins_write:
+      case ChannelEffect::begins_write:
         number = sender_->number().value + 1;
         break;
-      case ChannelStep::writes:
+      case ChannelEffect::writes:
         send(sender_->write().send);
         number = sender_->number().value;
         break;
-      case ChannelStep::is_acknowledged:
+      case ChannelEffect::is_acknowledged:
         number = sender_->number().value;
         tell(process, taken_by_);
         break;
-      case ChannelStep::gives_up:
+      case ChannelEffect::gives_up:
         number = sender_->number().value;
         send(sender_->time_is_up().send);
         break;
-      case ChannelStep::begins_read:
+      case ChannelEffect::begins_read:
         receiver_->begin_read();
         number = receiver_->slot().value;
         read_ = number;
         if (number > 0) tell(process, receiver_->peer());
         break;
-      case ChannelStep::ends_read:
+      case ChannelEffect::ends_read:
         number = read_;
         send(receiver_->end_read().answer);
         hear_waiting();

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ros2/codec/cdr.hpp"
-#include "ros2/codec/plan.hpp"
 #include "ros2/codec/request_header.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
@@ -37,21 +37,22 @@ struct Wanted {
 
 std::string problems_of(const Wanted& wanted, Direction direction) {
   std::vector<MappingProblem> problems;
-  const auto plan =
-      Plan::make(message_of(wanted.definition), *parse_value_type(wanted.value),
-                 written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
-  EXPECT_EQ(plan.has_value(), problems.empty());
+  const auto translator =
+      Translator::make(message_of(wanted.definition), *parse_value_type(wanted.value),
+                       written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
+  EXPECT_EQ(translator.has_value(), problems.empty());
   std::string all;
   for (const MappingProblem& one : problems) all += one.subject + "|" + one.text + "|" + one.hint.text + "\n";
   return all;
 }
 
-Plan plan_of(const Wanted& wanted, Direction direction) {
+Translator translator_of(const Wanted& wanted, Direction direction) {
   std::vector<MappingProblem> problems;
-  auto plan = Plan::make(message_of(wanted.definition), *parse_value_type(wanted.value),
-                         written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
+  auto translator =
+      Translator::make(message_of(wanted.definition), *parse_value_type(wanted.value),
+                       written_mapping(wanted.fields, wanted.names, wanted.frame_id), direction, problems);
   for (const MappingProblem& one : problems) ADD_FAILURE() << one.text;
-  return *plan;
+  return *translator;
 }
 
 void append(Bytes& bytes, const void* more, std::size_t size) {
@@ -86,20 +87,20 @@ Bytes from_hex(const std::string& text) {
 TEST(Codec, WritesTheBytesOfOtherImplementations) {
   Bytes message;
   ASSERT_TRUE(
-      plan_of({"std_msgs/msg/Float64", "float64"}, Direction::send).encode(bytes_of(1.5), {}, message));
+      translator_of({"std_msgs/msg/Float64", "float64"}, Direction::send).encode(bytes_of(1.5), {}, message));
   EXPECT_EQ(hex(message), "00010000000000000000f83f");
   Bytes text = bytes_of(std::uint32_t{2});
   append(text, "hi", 2);
-  ASSERT_TRUE(plan_of({"std_msgs/msg/String", "string(8)"}, Direction::send).encode(text, {}, message));
+  ASSERT_TRUE(translator_of({"std_msgs/msg/String", "string(8)"}, Direction::send).encode(text, {}, message));
   EXPECT_EQ(hex(message), "000100010300000068690000");
   Bytes value;
-  ASSERT_EQ(plan_of({"std_msgs/msg/String", "string(8)"}, Direction::receive).decode(message, value),
-            Plan::Outcome::good);
+  ASSERT_EQ(translator_of({"std_msgs/msg/String", "string(8)"}, Direction::receive).decode(message, value),
+            Translator::Outcome::good);
   EXPECT_EQ(value, text);
-  Plan::Misfit misfit;
-  EXPECT_EQ(
-      plan_of({"std_msgs/msg/String", "string(1)"}, Direction::receive).decode(message, value, {}, &misfit),
-      Plan::Outcome::other_length);
+  Translator::Misfit misfit;
+  EXPECT_EQ(translator_of({"std_msgs/msg/String", "string(1)"}, Direction::receive)
+                .decode(message, value, {}, &misfit),
+            Translator::Outcome::other_length);
   EXPECT_TRUE(misfit.is_text);
   EXPECT_EQ(misfit.came, 2);
   EXPECT_EQ(misfit.room, 1);
@@ -117,13 +118,14 @@ Bytes sequence_of(Numbers... numbers) {
 TEST(Codec, SequencesOfNumbersHaveTheLengthThatTheyHave) {
   const Wanted wanted{"int32 before\nfloat64[] data\nint8 behind",
                       "{before: int32, data: float64[<=3], behind: int8}"};
-  const Plan sends = plan_of(wanted, Direction::send), receives = plan_of(wanted, Direction::receive);
+  const Translator sends = translator_of(wanted, Direction::send),
+                   receives = translator_of(wanted, Direction::receive);
   for (const Bytes& data : {sequence_of(), sequence_of(1.5), sequence_of(1.5, 2.5, -3.0)}) {
     Bytes value = bytes_of(std::int32_t{7}), message, back;
     append(value, data.data(), data.size());
     append(value, "\x05", 1);
     ASSERT_TRUE(sends.encode(value, {}, message));
-    ASSERT_EQ(receives.decode(message, back), Plan::Outcome::good);
+    ASSERT_EQ(receives.decode(message, back), Translator::Outcome::good);
     EXPECT_EQ(hex(back), hex(value));
   }
   Bytes too_many = bytes_of(std::int32_t{7}), message, back{std::byte{9}};
@@ -132,10 +134,10 @@ TEST(Codec, SequencesOfNumbersHaveTheLengthThatTheyHave) {
   append(too_many, "\x05", 1);
   EXPECT_FALSE(sends.encode(too_many, {}, message)) << "no value of the buffer";
   ASSERT_TRUE(
-      plan_of({wanted.definition, "{before: int32, data: float64[<=4], behind: int8}"}, Direction::send)
+      translator_of({wanted.definition, "{before: int32, data: float64[<=4], behind: int8}"}, Direction::send)
           .encode(too_many, {}, message));
-  Plan::Misfit misfit;
-  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Plan::Outcome::other_length);
+  Translator::Misfit misfit;
+  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Translator::Outcome::other_length);
   EXPECT_EQ(misfit.field, "data");
   EXPECT_EQ(misfit.came, 4);
   EXPECT_EQ(misfit.room, 3);
@@ -160,8 +162,8 @@ TEST(Codec, SequencesOfStructuresHaveZeroToTheirLargestLength) {
   const std::string value_type =
       "{id: int32, poses: {name: string(8), y: float64, x: float64}[<=16], end: string(4)}";
   const std::string fields = "id=id, poses.name=poses.name, poses.at.x=poses.x, poses.at.y=poses.y, end=end";
-  const Plan sends = plan_of({path_definition, value_type, fields}, Direction::send);
-  const Plan receives = plan_of({path_definition, value_type, fields}, Direction::receive);
+  const Translator sends = translator_of({path_definition, value_type, fields}, Direction::send);
+  const Translator receives = translator_of({path_definition, value_type, fields}, Direction::receive);
   const auto value_of = [](std::uint32_t count) {
     Bytes value = bytes_of(std::int32_t{-1}, count);
     for (std::uint32_t index = 0; index < count; ++index) {
@@ -180,15 +182,16 @@ TEST(Codec, SequencesOfStructuresHaveZeroToTheirLargestLength) {
   Bytes message, back;
   for (std::uint32_t count = 0; count <= 16; ++count) {
     ASSERT_TRUE(sends.encode(value_of(count), {}, message)) << count;
-    ASSERT_EQ(receives.decode(message, back), Plan::Outcome::good) << count;
+    ASSERT_EQ(receives.decode(message, back), Translator::Outcome::good) << count;
     EXPECT_EQ(hex(back), hex(value_of(count))) << count;
   }
   EXPECT_FALSE(sends.encode(value_of(17), {}, message));
   const std::string longer =
       "{id: int32, poses: {name: string(8), y: float64, x: float64}[<=17], end: string(4)}";
-  ASSERT_TRUE(plan_of({path_definition, longer, fields}, Direction::send).encode(value_of(17), {}, message));
-  Plan::Misfit misfit;
-  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Plan::Outcome::other_length);
+  ASSERT_TRUE(
+      translator_of({path_definition, longer, fields}, Direction::send).encode(value_of(17), {}, message));
+  Translator::Misfit misfit;
+  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Translator::Outcome::other_length);
   EXPECT_EQ(misfit.field, "poses");
   EXPECT_EQ(misfit.came, 17);
   EXPECT_EQ(misfit.room, 16);
@@ -199,14 +202,15 @@ TEST(Codec, SequencesOfStructuresHaveZeroToTheirLargestLength) {
 TEST(Codec, SequencesSurviveDamagedMessages) {
   const std::string value_type = "{name: string(8), x: float64}[<=4]";
   const std::string fields = "poses.name=name, poses.at.x=x";
-  const Plan receives = plan_of({path_definition, value_type, fields}, Direction::receive);
+  const Translator receives = translator_of({path_definition, value_type, fields}, Direction::receive);
   Bytes value = bytes_of(std::uint32_t{2}, std::uint32_t{0}, 1.0, std::uint32_t{1});
   append(value, "a", 1);
   const Bytes last = bytes_of(2.0);
   append(value, last.data(), last.size());
   Bytes message, back;
-  ASSERT_TRUE(plan_of({path_definition, value_type, fields}, Direction::send).encode(value, {}, message));
-  ASSERT_EQ(receives.decode(message, back), Plan::Outcome::good);
+  ASSERT_TRUE(
+      translator_of({path_definition, value_type, fields}, Direction::send).encode(value, {}, message));
+  ASSERT_EQ(receives.decode(message, back), Translator::Outcome::good);
   EXPECT_EQ(hex(back), hex(value));
   std::mt19937 random(1);
   for (int time = 0; time < 20'000; ++time) {
@@ -282,22 +286,22 @@ TEST(Mapping, OfSequencesNeedsASequence) {
 }
 
 TEST(Codec, ReadsBothOrdersOfBytes) {
-  const Plan plan =
-      plan_of({"uint8 a\nint32 b\nfloat64[] c\nstring d", "{b: int64, c: float64[1], d: string(3)}"},
-              Direction::receive);
+  const Translator translator =
+      translator_of({"uint8 a\nint32 b\nfloat64[] c\nstring d", "{b: int64, c: float64[1], d: string(3)}"},
+                    Direction::receive);
   Bytes little, big;
-  ASSERT_EQ(plan.decode(
+  ASSERT_EQ(translator.decode(
                 from_hex("0001000007000000feffffff0100000000000000000000000000f83f026800000300000068690000"),
                 little),
-            Plan::Outcome::malformed)
+            Translator::Outcome::malformed)
       << "the string of 2 has no zero";
   // at 0 a, 4 b, 8 length, 16 number, 24 length, 28 text
-  ASSERT_EQ(
-      plan.decode(from_hex("0001000007000000feffffff0100000000000000000000000000f83f03000000686900"), little),
-      Plan::Outcome::good);
-  ASSERT_EQ(
-      plan.decode(from_hex("0000000007000000fffffffe00000001000000003ff800000000000000000003686900"), big),
-      Plan::Outcome::good);
+  ASSERT_EQ(translator.decode(
+                from_hex("0001000007000000feffffff0100000000000000000000000000f83f03000000686900"), little),
+            Translator::Outcome::good);
+  ASSERT_EQ(translator.decode(
+                from_hex("0000000007000000fffffffe00000001000000003ff800000000000000000003686900"), big),
+            Translator::Outcome::good);
   EXPECT_EQ(little, big);
   Bytes expected = bytes_of(std::int64_t{-2}, 1.5, std::uint32_t{2});
   append(expected, "hi", 2);
@@ -305,16 +309,17 @@ TEST(Codec, ReadsBothOrdersOfBytes) {
 }
 
 TEST(Codec, FillsWhatTheBufferDoesNot) {
-  const Plan send =
-      plan_of({"geometry_msgs/msg/PoseStamped", "float64", "pose.position.x", "", "map"}, Direction::send);
+  const Translator send = translator_of(
+      {"geometry_msgs/msg/PoseStamped", "float64", "pose.position.x", "", "map"}, Direction::send);
   Bytes message, value;
   ASSERT_TRUE(send.encode(bytes_of(2.5), {7, 8}, message));
-  const Plan receive = plan_of({"geometry_msgs/msg/PoseStamped",
-                                "{sec: int32, nanosec: uint32, frame: string(8), x: float64, w: float64}",
-                                "header.stamp.sec=sec, header.stamp.nanosec=nanosec, header.frame_id=frame, "
-                                "pose.position.x=x, pose.orientation.w=w"},
-                               Direction::receive);
-  ASSERT_EQ(receive.decode(message, value), Plan::Outcome::good);
+  const Translator receive =
+      translator_of({"geometry_msgs/msg/PoseStamped",
+                     "{sec: int32, nanosec: uint32, frame: string(8), x: float64, w: float64}",
+                     "header.stamp.sec=sec, header.stamp.nanosec=nanosec, header.frame_id=frame, "
+                     "pose.position.x=x, pose.orientation.w=w"},
+                    Direction::receive);
+  ASSERT_EQ(receive.decode(message, value), Translator::Outcome::good);
   Bytes expected = bytes_of(std::int32_t{7}, std::uint32_t{8}, std::uint32_t{3});
   append(expected, "map", 3);
   const std::array rest{2.5, 1.0};
@@ -325,19 +330,19 @@ TEST(Codec, FillsWhatTheBufferDoesNot) {
 TEST(Codec, PutsJointsInTheOrderOfTheirNames) {
   const Wanted wanted{"sensor_msgs/msg/JointState", "{position: float64[2], velocity: float64[2]}", "",
                       "left, right"};
-  const Plan receive = plan_of(wanted, Direction::receive);
+  const Translator receive = translator_of(wanted, Direction::receive);
   Bytes message, value;
-  ASSERT_TRUE(plan_of(wanted, Direction::send).encode(bytes_of(1.0, 2.0, 3.0, 4.0), {}, message));
-  ASSERT_EQ(receive.decode(message, value), Plan::Outcome::good);
+  ASSERT_TRUE(translator_of(wanted, Direction::send).encode(bytes_of(1.0, 2.0, 3.0, 4.0), {}, message));
+  ASSERT_EQ(receive.decode(message, value), Translator::Outcome::good);
   EXPECT_EQ(value, bytes_of(1.0, 2.0, 3.0, 4.0));
   Wanted other = wanted;
   other.names = "right, left";
-  ASSERT_EQ(plan_of(other, Direction::receive).decode(message, value), Plan::Outcome::good);
+  ASSERT_EQ(translator_of(other, Direction::receive).decode(message, value), Translator::Outcome::good);
   EXPECT_EQ(value, bytes_of(2.0, 1.0, 4.0, 3.0));
   other.names = "left, middle";
-  Plan::Misfit misfit;
-  EXPECT_EQ(plan_of(other, Direction::receive).decode(message, value, {}, &misfit),
-            Plan::Outcome::other_names);
+  Translator::Misfit misfit;
+  EXPECT_EQ(translator_of(other, Direction::receive).decode(message, value, {}, &misfit),
+            Translator::Outcome::other_names);
   EXPECT_EQ(misfit.field, "middle");
 }
 
@@ -367,17 +372,18 @@ TEST(Codec, GivesAndTakesFieldsThatNoMessageHas) {
   std::vector<MappingProblem> problems;
   const auto value = parse_value_type("{word: string(4), call: uint32, data: bool, outcome: uint8}");
   const auto message = message_of("bool data\nstring word");
-  const auto plan = Plan::make(message, *value, mapping, Direction::receive, problems);
-  ASSERT_TRUE(plan.has_value()) << problems.front().text;
+  const auto translator = Translator::make(message, *value, mapping, Direction::receive, problems);
+  ASSERT_TRUE(translator.has_value()) << problems.front().text;
   Bytes got;
-  ASSERT_EQ(plan->decode(from_hex("000100000100000003000000686900"), got, std::array<std::uint64_t, 2>{7, 1}),
-            Plan::Outcome::good);
+  ASSERT_EQ(
+      translator->decode(from_hex("000100000100000003000000686900"), got, std::array<std::uint64_t, 2>{7, 1}),
+      Translator::Outcome::good);
   EXPECT_EQ(hex(got), "020000006869070000000101");
-  EXPECT_EQ(plan->own_number(got, call_field), 7U);
-  EXPECT_EQ(plan->own_number(got, outcome_field), 1U);
-  EXPECT_EQ(plan->own_number(std::span(got).first(5), call_field), 0U) << "no such value";
-  EXPECT_EQ(hex(plan->empty_value(std::array<std::uint64_t, 2>{9, 3})), "00000000090000000003");
-  const auto back = Plan::make(message, *value, mapping, Direction::send, problems);
+  EXPECT_EQ(translator->own_number(got, call_field), 7U);
+  EXPECT_EQ(translator->own_number(got, outcome_field), 1U);
+  EXPECT_EQ(translator->own_number(std::span(got).first(5), call_field), 0U) << "no such value";
+  EXPECT_EQ(hex(translator->empty_value(std::array<std::uint64_t, 2>{9, 3})), "00000000090000000003");
+  const auto back = Translator::make(message, *value, mapping, Direction::send, problems);
   ASSERT_TRUE(back.has_value());
   Bytes sent;
   ASSERT_TRUE(back->encode(got, {}, sent));
@@ -387,34 +393,35 @@ TEST(Codec, GivesAndTakesFieldsThatNoMessageHas) {
 }
 
 TEST(Codec, RefusesWhatIsNoSuchMessage) {
-  const Plan plan = plan_of({"bool a\nfloat64[2] b", "{a: bool, b: float64[2]}"}, Direction::receive);
+  const Translator translator =
+      translator_of({"bool a\nfloat64[2] b", "{a: bool, b: float64[2]}"}, Direction::receive);
   const Bytes good = from_hex("00010000010000000000000000000000000000000000000000000000");
   Bytes value;
-  ASSERT_EQ(plan.decode(good, value), Plan::Outcome::good);
+  ASSERT_EQ(translator.decode(good, value), Translator::Outcome::good);
   for (std::size_t size = 0; size < good.size(); ++size)
-    EXPECT_EQ(plan.decode(std::span(good).first(size), value), Plan::Outcome::malformed) << size;
+    EXPECT_EQ(translator.decode(std::span(good).first(size), value), Translator::Outcome::malformed) << size;
   Bytes other = good;
   other.resize(good.size() + 3);
-  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::good) << "padding";
+  EXPECT_EQ(translator.decode(other, value), Translator::Outcome::good) << "padding";
   other.resize(good.size() + 4);
-  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::malformed) << "another definition";
+  EXPECT_EQ(translator.decode(other, value), Translator::Outcome::malformed) << "another definition";
   other = good;
   other[4] = std::byte{2};
-  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::malformed) << "no bool";
+  EXPECT_EQ(translator.decode(other, value), Translator::Outcome::malformed) << "no bool";
   other = good;
   other[1] = std::byte{7};
-  EXPECT_EQ(plan.decode(other, value), Plan::Outcome::malformed) << "XCDR2";
+  EXPECT_EQ(translator.decode(other, value), Translator::Outcome::malformed) << "XCDR2";
 }
 
 TEST(Codec, SurvivesAnyBytes) {
-  const Plan plan =
-      plan_of({"sensor_msgs/msg/PointCloud2", "{height: uint32, is_dense: bool}"}, Direction::receive);
-  const Plan scan =
-      plan_of({"sensor_msgs/msg/LaserScan", "{range_max: float64, ranges: float32[3]}"}, Direction::receive);
+  const Translator translator =
+      translator_of({"sensor_msgs/msg/PointCloud2", "{height: uint32, is_dense: bool}"}, Direction::receive);
+  const Translator scan = translator_of(
+      {"sensor_msgs/msg/LaserScan", "{range_max: float64, ranges: float32[3]}"}, Direction::receive);
   Bytes good, value;
-  ASSERT_TRUE(
-      plan_of({"sensor_msgs/msg/LaserScan", "{range_max: float32, ranges: float32[3]}"}, Direction::send)
-          .encode(bytes_of(9.0F, 1.0F, 2.0F, 3.0F), {}, good));
+  ASSERT_TRUE(translator_of({"sensor_msgs/msg/LaserScan", "{range_max: float32, ranges: float32[3]}"},
+                            Direction::send)
+                  .encode(bytes_of(9.0F, 1.0F, 2.0F, 3.0F), {}, good));
   std::mt19937 random(1);
   int accepted = 0;
   for (int round = 0; round < 20'000; ++round) {
@@ -422,8 +429,8 @@ TEST(Codec, SurvivesAnyBytes) {
     for (int change = 0; change < 3; ++change)
       bytes[random() % bytes.size()] = static_cast<std::byte>(random() % 4 == 0 ? 0xff : random() % 5);
     bytes.resize(random() % 3 == 0 ? random() % bytes.size() : bytes.size());
-    static_cast<void>(plan.decode(bytes, value));
-    if (scan.decode(bytes, value) == Plan::Outcome::good) ++accepted;
+    static_cast<void>(translator.decode(bytes, value));
+    if (scan.decode(bytes, value) == Translator::Outcome::good) ++accepted;
   }
   EXPECT_GT(accepted, 1000);
   EXPECT_LT(accepted, 19'000);

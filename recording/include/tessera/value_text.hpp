@@ -18,7 +18,7 @@ class ValueLayout {
   [[nodiscard]] static std::optional<ValueLayout> parse(std::string_view type);
 
   /// One number, bool or text of a value.
-  struct Scalar {
+  struct ScalarValue {
     std::string_view text;     ///< text of a string; unknown bytes in hexadecimal
     double number = 0;         ///< value of every other kind; for integers beyond 2^53 the nearest double
     std::int64_t integer = 0;  ///< value of signed integers; unsigned ones with the same bits
@@ -28,7 +28,7 @@ class ValueLayout {
     [[nodiscard]] std::string shown() const;
   };
   /// path: "linear", "points[3].x"; empty for a value that is one scalar.
-  using Visit = std::function<void(const std::string& path, const Scalar& scalar)>;
+  using Visit = std::function<void(const std::string& path, const ScalarValue& scalar)>;
   /// The length of a sequence, before its elements: `TYPE[<=N]` alone has one.
   using VisitLength = std::function<void(const std::string& path, std::size_t length)>;
   /// Visits the scalars in the order of the bytes, those that a sequence does not have left out. false: the

@@ -7,6 +7,7 @@
 #include <limits>
 #include <memory>
 #include <new>
+#include <optional>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -15,6 +16,7 @@
 
 #include "tessera/buffer.hpp"
 #include "tessera/context.hpp"
+#include "tessera/scalar.hpp"
 #include "tessera/value_encoding.hpp"
 #include "tessera/write_trace.hpp"
 
@@ -68,36 +70,21 @@ void fill_floats(T& value, double number) {
 /// How an iteration ended: which of the transitions t4, t5, t6 of the behaviour is to fire.
 enum class Outcome : std::uint8_t { go_on, terminal, error };
 
-enum class ValueKind : std::uint8_t {
-  boolean,
-  int8,
-  int16,
-  int32,
-  int64,
-  uint8,
-  uint16,
-  uint32,
-  uint64,
-  float32,
-  float64,
-  string,
-  other
-};
-
+/// nullopt: `T` is neither a number nor a bool.
 template <class T>
-[[nodiscard]] constexpr ValueKind value_kind() {
-  if constexpr (std::is_same_v<T, bool>) return ValueKind::boolean;
-  if constexpr (std::is_same_v<T, std::int8_t>) return ValueKind::int8;
-  if constexpr (std::is_same_v<T, std::int16_t>) return ValueKind::int16;
-  if constexpr (std::is_same_v<T, std::int32_t>) return ValueKind::int32;
-  if constexpr (std::is_same_v<T, std::int64_t>) return ValueKind::int64;
-  if constexpr (std::is_same_v<T, std::uint8_t>) return ValueKind::uint8;
-  if constexpr (std::is_same_v<T, std::uint16_t>) return ValueKind::uint16;
-  if constexpr (std::is_same_v<T, std::uint32_t>) return ValueKind::uint32;
-  if constexpr (std::is_same_v<T, std::uint64_t>) return ValueKind::uint64;
-  if constexpr (std::is_same_v<T, float>) return ValueKind::float32;
-  if constexpr (std::is_same_v<T, double>) return ValueKind::float64;
-  return ValueKind::other;
+[[nodiscard]] constexpr std::optional<Scalar> scalar_of() {
+  if constexpr (std::is_same_v<T, bool>) return Scalar::boolean;
+  if constexpr (std::is_same_v<T, std::int8_t>) return Scalar::int8;
+  if constexpr (std::is_same_v<T, std::int16_t>) return Scalar::int16;
+  if constexpr (std::is_same_v<T, std::int32_t>) return Scalar::int32;
+  if constexpr (std::is_same_v<T, std::int64_t>) return Scalar::int64;
+  if constexpr (std::is_same_v<T, std::uint8_t>) return Scalar::uint8;
+  if constexpr (std::is_same_v<T, std::uint16_t>) return Scalar::uint16;
+  if constexpr (std::is_same_v<T, std::uint32_t>) return Scalar::uint32;
+  if constexpr (std::is_same_v<T, std::uint64_t>) return Scalar::uint64;
+  if constexpr (std::is_same_v<T, float>) return Scalar::float32;
+  if constexpr (std::is_same_v<T, double>) return Scalar::float64;
+  return std::nullopt;
 }
 
 /// How to store values of a type that is not trivially copyable, such as a LargeArray.
@@ -171,12 +158,13 @@ struct Bindings {
   };
   struct Parameter {
     std::string_view name;
-    ValueKind kind;
+    std::optional<Scalar>
+        scalar;  ///< of a number, a bool, or the elements of an array; nullopt: anything else
     void* value;
     std::size_t size;
     double minimum, maximum;   ///< of each element
-    std::size_t capacity = 0;  ///< for a string
-    std::size_t elements = 0;  ///< number of elements if it is an array of `kind`; otherwise 0
+    std::size_t capacity = 0;  ///< of a string; otherwise 0
+    std::size_t elements = 0;  ///< number of elements if it is an array of `scalar`; otherwise 0
     std::string_view unit{};   ///< of a number, as declared; empty: none
   };
   /// The demands on a given value of a parameter.
@@ -270,16 +258,15 @@ struct Bindings {
   template <class T>
   void parameter(std::string_view name, T& value, const Accepted& accepted) {
     static_assert(std::is_trivially_copyable_v<T>);
-    Parameter made{name, ValueKind::other, &value, sizeof(T), accepted.minimum, accepted.maximum, 0,
+    Parameter made{name, std::nullopt, &value, sizeof(T), accepted.minimum, accepted.maximum, 0,
                    0,    accepted.unit};
     if constexpr (requires { T::capacity(); }) {
-      made.kind = ValueKind::string;
       made.capacity = T::capacity();
     } else if constexpr (requires { std::tuple_size<T>::value; }) {
-      made.kind = value_kind<typename T::value_type>();
+      made.scalar = scalar_of<typename T::value_type>();
       made.elements = std::tuple_size_v<T>;
     } else {
-      made.kind = value_kind<T>();
+      made.scalar = scalar_of<T>();
     }
     parameters.push_back(made);
   }

@@ -126,33 +126,31 @@ template <class Number>
 
 [[nodiscard]] std::optional<Problem> store(const Parameter& parameter, std::string_view text) {
   if (parameter.elements > 0) return store_array(parameter, text);
-  switch (parameter.kind) {
-    case ValueKind::boolean:
+  if (parameter.capacity > 0) return store_string(parameter, text);
+  if (!parameter.scalar) return Problem{"cannot be given: the parameter is a structure"};
+  switch (*parameter.scalar) {
+    case Scalar::boolean:
       return store_bool(parameter, text);
-    case ValueKind::int8:
+    case Scalar::int8:
       return store_number<std::int8_t>(parameter, text);
-    case ValueKind::int16:
+    case Scalar::int16:
       return store_number<std::int16_t>(parameter, text);
-    case ValueKind::int32:
+    case Scalar::int32:
       return store_number<std::int32_t>(parameter, text);
-    case ValueKind::int64:
+    case Scalar::int64:
       return store_number<std::int64_t>(parameter, text);
-    case ValueKind::uint8:
+    case Scalar::uint8:
       return store_number<std::uint8_t>(parameter, text);
-    case ValueKind::uint16:
+    case Scalar::uint16:
       return store_number<std::uint16_t>(parameter, text);
-    case ValueKind::uint32:
+    case Scalar::uint32:
       return store_number<std::uint32_t>(parameter, text);
-    case ValueKind::uint64:
+    case Scalar::uint64:
       return store_number<std::uint64_t>(parameter, text);
-    case ValueKind::float32:
+    case Scalar::float32:
       return store_number<float>(parameter, text);
-    case ValueKind::float64:
+    case Scalar::float64:
       return store_number<double>(parameter, text);
-    case ValueKind::string:
-      return store_string(parameter, text);
-    case ValueKind::other:
-      return Problem{"cannot be given: the parameter is a structure"};
   }
   return std::nullopt;
 }

@@ -11,7 +11,7 @@
 
 #include "project/files/installation.hpp"
 #include "project/files/ros2_services.hpp"
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
@@ -119,7 +119,7 @@ class MessageFinder {
     if (is_service(driver)) mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
     const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     std::vector<ros2::MappingProblem> problems;
-    if (ros2::Plan::make(std::move(message), *value, mapping, direction, problems))
+    if (ros2::Translator::make(std::move(message), *value, mapping, direction, problems))
       return has_its_units(driver);
     for (const ros2::MappingProblem& problem : problems)
       complain("E321", place_in(driver, problem.subject), problem.text, problem.hint);

@@ -2,6 +2,8 @@
 
 #include <array>
 #include <set>
+#include <string>
+#include <string_view>
 #include <utility>
 
 namespace tessera::spec {
@@ -12,18 +14,11 @@ std::string_view name_of(Property::Kind kind) {
   return names.at(static_cast<std::size_t>(kind));
 }
 
-std::uint64_t bytes_of(Scalar scalar) {
-  constexpr std::array<std::uint64_t, 11> bytes{1, 1, 2, 4, 8, 1, 2, 4, 8, 4, 8};
-  return bytes.at(static_cast<std::size_t>(scalar));
-}
-
 std::string Model::layout_of(const Type& type) const {
-  constexpr std::array<std::string_view, 11> scalars{
-      "bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"};
   std::string text;
   switch (type.kind) {
     case Type::Kind::scalar:
-      text = scalars.at(static_cast<std::size_t>(type.scalar));
+      text = name_of(type.scalar);
       break;
     case Type::Kind::string:
       text = "string(" + std::to_string(type.capacity) + ")";

@@ -18,6 +18,7 @@
 #include "spec/model/property.hpp"
 #include "spec/model/world.hpp"
 #include "tessera/overrun.hpp"
+#include "tessera/scalar.hpp"
 
 /// The specification as data, as section "The specification file" of docs/reference/specification.md describes it.
 /// Every default is filled in, and every name is resolved to a number. Nothing here depends on nets.
@@ -27,22 +28,6 @@ using diagnostics::Span;
 using Duration = std::chrono::nanoseconds;
 
 // ---------------------------------------------------------------------------------------------- types
-
-enum class Scalar : std::uint8_t {
-  boolean,
-  int8,
-  int16,
-  int32,
-  int64,
-  uint8,
-  uint16,
-  uint32,
-  uint64,
-  float32,
-  float64
-};
-
-[[nodiscard]] std::uint64_t bytes_of(Scalar scalar);
 
 /// The type of a buffer, field or parameter.
 struct Type {

@@ -15,9 +15,6 @@ namespace {
 
 using diagnostics::in_quotes;
 
-constexpr std::array scalars = std::to_array<std::string_view>(
-    {"bool", "int8", "int16", "int32", "int64", "uint8", "uint16", "uint32", "uint64", "float32", "float64"});
-
 /// Names of our types in other languages.
 struct Synonym {
   std::string_view theirs, ours;
@@ -43,7 +40,9 @@ std::optional<std::size_t> index_of(const std::array<std::string_view, N>& words
                               : std::optional<std::size_t>(static_cast<std::size_t>(found - words.begin()));
 }
 
-bool is_built_in(std::string_view name) { return name == "string" || index_of(scalars, name).has_value(); }
+bool is_built_in(std::string_view name) {
+  return name == "string" || index_of(scalar_names, name).has_value();
+}
 
 bool has_unit(const Type& type) { return type.kind == Type::Kind::scalar && type.scalar != Scalar::boolean; }
 
@@ -59,8 +58,6 @@ std::uint64_t bytes_of(const Type& type, const Numbered<StructureId, std::uint64
 }
 
 }  // namespace
-
-std::string_view name_of(Scalar scalar) { return scalars[static_cast<std::size_t>(scalar)]; }
 
 Type Types::unknown() {
   Type type;
@@ -79,7 +76,7 @@ const std::vector<Field>& Types::fields_of(const Type& type) const {
 }
 
 void Types::read(const Entry* section, Diagnostics& out) {
-  known_names_.assign(scalars.begin(), scalars.end());
+  known_names_.assign(scalar_names.begin(), scalar_names.end());
   known_names_.emplace_back("string");
   if (section == nullptr) return;
   const std::vector<Entry>& entries = entries_of(*section->value, section->span, "types", out);
@@ -185,7 +182,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
   type.extent = parts->extent;
   type.is_sequence = parts->is_sequence;
   type.unit = parts->unit;
-  if (const auto scalar = index_of(scalars, parts->name)) {
+  if (const auto scalar = index_of(scalar_names, parts->name)) {
     type.scalar = static_cast<Scalar>(*scalar);
   } else if (parts->name == "string") {
     type.kind = Type::Kind::string;

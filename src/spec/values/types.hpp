@@ -57,7 +57,4 @@ class Types {
   std::vector<std::string> known_names_;  ///< built-in ones first, for hints
 };
 
-/// "float64"
-[[nodiscard]] std::string_view name_of(Scalar scalar);
-
 }  // namespace tessera::spec

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <map>
 
 namespace tessera::server {
@@ -197,12 +196,10 @@ Json channel_json(const spec::Model& model, spec::ChannelId id) {
 }  // namespace
 
 std::string type_text(const spec::Model& model, const spec::Type& type) {
-  constexpr std::array<const char*, 11> scalars{"bool",   "int8",   "int16",  "int32",   "int64",  "uint8",
-                                                "uint16", "uint32", "uint64", "float32", "float64"};
   std::string text;
   switch (type.kind) {
     case spec::Type::Kind::scalar:
-      text = scalars[static_cast<std::size_t>(type.scalar)];
+      text = name_of(type.scalar);
       break;
     case spec::Type::Kind::string:
       text = fmt::format("string<={}", type.capacity);

@@ -101,7 +101,7 @@ class ValueSeries {
     if (value.layout->scalars() > most_scalars) return;
     static_cast<void>(value.layout->visit(
         value.bytes,
-        [&](const std::string& path, const ValueLayout::Scalar& scalar) {
+        [&](const std::string& path, const ValueLayout::ScalarValue& scalar) {
           if (++samples_ > Recordings::most_samples) return;
           const std::string dot = path.empty() || path.front() == '[' ? "" : ".";
           series_[recording_->buffers[buffer].path + dot + path].push_back({time_ns, json_of(scalar)});

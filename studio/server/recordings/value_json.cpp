@@ -8,20 +8,20 @@
 namespace tessera::server {
 
 using nlohmann::json;
-using Scalar = ValueLayout::Scalar;
+using ScalarValue = ValueLayout::ScalarValue;
 
-json json_of(const Scalar& scalar) {
+json json_of(const ScalarValue& scalar) {
   switch (scalar.kind) {
-    case Scalar::Kind::boolean:
+    case ScalarValue::Kind::boolean:
       return scalar.integer != 0;
-    case Scalar::Kind::integer:
+    case ScalarValue::Kind::integer:
       return scalar.integer;
-    case Scalar::Kind::natural:
+    case ScalarValue::Kind::natural:
       return static_cast<std::uint64_t>(scalar.integer);
-    case Scalar::Kind::real:
+    case ScalarValue::Kind::real:
       if (!std::isfinite(scalar.number)) return scalar.shown();  // JSON has no such numbers
       return scalar.number;
-    case Scalar::Kind::text:
+    case ScalarValue::Kind::text:
       return scalar.text;
   }
   return nullptr;
@@ -53,7 +53,8 @@ json& element(json& value, std::string_view path) {
 json json_of(const ValueLayout& layout, std::string_view bytes) {
   json value;
   const bool whole = layout.visit(
-      bytes, [&](const std::string& path, const Scalar& scalar) { element(value, path) = json_of(scalar); },
+      bytes,
+      [&](const std::string& path, const ScalarValue& scalar) { element(value, path) = json_of(scalar); },
       [&](const std::string& path, std::size_t) { element(value, path) = json::array(); });
   return whole ? value : json(nullptr);
 }

@@ -1,4 +1,4 @@
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 
 #include <algorithm>
 #include <utility>
@@ -13,10 +13,10 @@ namespace {
 constexpr std::uint8_t empty_message = 0;
 
 /// The array of the buffer whose elements these are; empty: it is not known.
-std::string array_of(const Plan::Step& step, const std::vector<Plan::Block>& blocks) {
+std::string array_of(const Translator::Step& step, const std::vector<Translator::Block>& blocks) {
   if (step.length) return blocks[*step.length].path;
   if (step.block) return blocks[*step.block].path.substr(0, blocks[*step.block].path.find('['));
-  for (const Plan::Step& member : step.members)
+  for (const Translator::Step& member : step.members)
     if (std::string path = array_of(member, blocks); !path.empty()) return path;
   return "";
 }
@@ -30,10 +30,10 @@ std::uint32_t length_of(std::span<const std::byte> part) {
 
 /// The positions of the blocks of a value; nullopt: the bytes are not such a value.
 std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
-    std::span<const std::byte> value, const std::vector<Plan::Block>& blocks) {
+    std::span<const std::byte> value, const std::vector<Translator::Block>& blocks) {
   std::vector<std::span<const std::byte>> parts;
   parts.reserve(blocks.size());
-  for (const Plan::Block& block : blocks) {
+  for (const Translator::Block& block : blocks) {
     if (block.sequence && block.element >= length_of(parts[*block.sequence])) {
       parts.emplace_back();  // the sequence does not have that element
       continue;
@@ -62,7 +62,7 @@ std::optional<std::vector<std::span<const std::byte>>> parts_of_value(
 }
 
 /// In the form of the buffer: unsigned, and little-endian.
-void put_number(std::uint64_t number, const Plan::Block& block, std::vector<std::byte>& value) {
+void put_number(std::uint64_t number, const Translator::Block& block, std::vector<std::byte>& value) {
   const std::size_t first = value.size(), size = size_of(block.primitive);
   value.resize(first + size);
   std::memcpy(value.data() + first, &number, size);
@@ -71,7 +71,7 @@ void put_number(std::uint64_t number, const Plan::Block& block, std::vector<std:
 class MessageWriter {
  public:
   MessageWriter(CdrWriter writer, std::vector<std::span<const std::byte>> parts,
-                const std::vector<Plan::Block>& blocks, const std::vector<std::string>& names,
+                const std::vector<Translator::Block>& blocks, const std::vector<std::string>& names,
                 const std::string& frame_id, const Stamp& stamp)
       : writer_(writer),
         parts_(std::move(parts)),
@@ -80,14 +80,14 @@ class MessageWriter {
         frame_id_(frame_id),
         stamp_(stamp) {}
 
-  void write(const std::vector<Plan::Step>& steps) {
+  void write(const std::vector<Translator::Step>& steps) {
     if (steps.empty()) writer_.number(&empty_message, 1);
-    for (const Plan::Step& step : steps) write(step);
+    for (const Translator::Step& step : steps) write(step);
   }
   void finish() { writer_.finish(); }
 
  private:
-  void write(const Plan::Step& step) {
+  void write(const Translator::Step& step) {
     const bool sequence = step.type.repeat == Type::Repeat::sequence;
     const std::size_t count = count_of(step);
     if (sequence) writer_.length(static_cast<std::uint32_t>(count));
@@ -101,13 +101,13 @@ class MessageWriter {
     }
   }
 
-  [[nodiscard]] std::size_t count_of(const Plan::Step& step) const {
+  [[nodiscard]] std::size_t count_of(const Translator::Step& step) const {
     if (step.type.repeat == Type::Repeat::once) return 1;
     if (step.type.repeat == Type::Repeat::array) return step.type.count;
     if (step.block) return count_of(*step.block);
     if (step.length) return length_of(parts_[*step.length]);
     if (step.per_element) return step.members.size();
-    return step.fill == Plan::Fill::names ? names_.size() : step.defaults.size();
+    return step.fill == Translator::Fill::names ? names_.size() : step.defaults.size();
   }
 
   /// The number of elements in the value.
@@ -116,7 +116,7 @@ class MessageWriter {
   }
 
   void write_block(const Type& type, std::size_t number) {
-    const Plan::Block& block = blocks_[number];
+    const Translator::Block& block = blocks_[number];
     const std::size_t count = count_of(number);
     const std::span<const std::byte> part =
         parts_[number].subspan(block.is_sequence ? sizeof(std::uint32_t) : 0);
@@ -137,18 +137,18 @@ class MessageWriter {
     }
   }
 
-  void write_rest(const Plan::Step& step, std::size_t count) {
+  void write_rest(const Translator::Step& step, std::size_t count) {
     switch (step.fill) {
-      case Plan::Fill::stamp_sec:
+      case Translator::Fill::stamp_sec:
         return writer_.number(&stamp_.sec, sizeof stamp_.sec);
-      case Plan::Fill::stamp_nanosec:
+      case Translator::Fill::stamp_nanosec:
         return writer_.number(&stamp_.nanosec, sizeof stamp_.nanosec);
-      case Plan::Fill::frame_id:
+      case Translator::Fill::frame_id:
         return writer_.text(frame_id_);
-      case Plan::Fill::names:
+      case Translator::Fill::names:
         for (const std::string& name : names_) writer_.text(name);
         return;
-      case Plan::Fill::nothing:
+      case Translator::Fill::nothing:
         for (std::size_t index = 0; index < count; ++index)
           write_default(step.type.primitive, step.defaults.empty() ? nullptr : &step.defaults[index]);
     }
@@ -178,7 +178,7 @@ class MessageWriter {
 
   CdrWriter writer_;
   std::vector<std::span<const std::byte>> parts_;
-  const std::vector<Plan::Block>& blocks_;
+  const std::vector<Translator::Block>& blocks_;
   const std::vector<std::string>& names_;
   const std::string& frame_id_;
   const Stamp& stamp_;
@@ -186,15 +186,16 @@ class MessageWriter {
 
 }  // namespace
 
-std::optional<std::uint64_t> Plan::own_value(std::size_t block, std::span<const std::uint64_t> own) const {
+std::optional<std::uint64_t> Translator::own_value(std::size_t block,
+                                                   std::span<const std::uint64_t> own) const {
   const auto field = std::ranges::find(own_, std::optional(block));
   if (field == own_.end()) return std::nullopt;
   const auto index = static_cast<std::size_t>(field - own_.begin());
   return index < own.size() ? own[index] : 0;
 }
 
-Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::byte>& value,
-                           std::span<const std::uint64_t> own, Misfit* misfit) const {
+Translator::Outcome Translator::decode(std::span<const std::byte> message, std::vector<std::byte>& value,
+                                       std::span<const std::uint64_t> own, Misfit* misfit) const {
   Misfit unasked;
   Misfit& why = misfit == nullptr ? unasked : *misfit;
   // The data may be padded to four bytes. More extra bytes mean another definition of the message.
@@ -233,7 +234,7 @@ Plan::Outcome Plan::decode(std::span<const std::byte> message, std::vector<std::
   return Outcome::good;
 }
 
-std::vector<std::byte> Plan::empty_value(std::span<const std::uint64_t> own) const {
+std::vector<std::byte> Translator::empty_value(std::span<const std::uint64_t> own) const {
   std::vector<std::byte> value;
   for (std::size_t block = 0; block < blocks_.size(); ++block) {
     if (const auto number = own_value(block, own)) {
@@ -249,7 +250,7 @@ std::vector<std::byte> Plan::empty_value(std::span<const std::uint64_t> own) con
   return value;
 }
 
-std::uint64_t Plan::own_number(std::span<const std::byte> value, std::size_t field) const {
+std::uint64_t Translator::own_number(std::span<const std::byte> value, std::size_t field) const {
   const auto parts = parts_of_value(value, blocks_);
   if (!own_[field] || !parts) return 0;
   std::uint64_t number = 0;
@@ -257,8 +258,8 @@ std::uint64_t Plan::own_number(std::span<const std::byte> value, std::size_t fie
   return number;
 }
 
-bool Plan::encode(std::span<const std::byte> value, const Stamp& stamp,
-                  std::vector<std::byte>& message) const {
+bool Translator::encode(std::span<const std::byte> value, const Stamp& stamp,
+                        std::vector<std::byte>& message) const {
   auto parts = parts_of_value(value, blocks_);
   if (!parts) return false;
   MessageWriter writer(CdrWriter(message), std::move(*parts), blocks_, names_, frame_id_, stamp);

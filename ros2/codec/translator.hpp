@@ -61,13 +61,14 @@ struct Stamp {
 /// zeros. The field `header` gets the time and the `frame_id`.
 ///
 /// Threads: const functions at any time.
-class Plan {
+class Translator {
  public:
   /// Errors: all problems are reported, then nullopt. A number must convert exactly, so int64 does not become
   /// float64. Every field of the buffer must correspond to one of the message.
-  [[nodiscard]] static std::optional<Plan> make(std::shared_ptr<const Structure> message,
-                                                const ValueType& value, const Mapping& mapping,
-                                                Direction direction, std::vector<MappingProblem>& problems);
+  [[nodiscard]] static std::optional<Translator> make(std::shared_ptr<const Structure> message,
+                                                      const ValueType& value, const Mapping& mapping,
+                                                      Direction direction,
+                                                      std::vector<MappingProblem>& problems);
 
   enum class Outcome : std::uint8_t {
     good,
@@ -125,8 +126,8 @@ class Plan {
   };
 
  private:
-  friend class Planner;
-  Plan() = default;
+  friend class TranslatorBuilder;
+  Translator() = default;
   /// The number of a block that is an own field; nullopt: it is none.
   [[nodiscard]] std::optional<std::uint64_t> own_value(std::size_t block,
                                                        std::span<const std::uint64_t> own) const;

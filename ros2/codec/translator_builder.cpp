@@ -8,39 +8,40 @@
 #include "ros2/codec/field_paths.hpp"
 #include "ros2/codec/mapping_hints.hpp"
 #include "ros2/codec/message_steps.hpp"
-#include "ros2/codec/plan.hpp"
+#include "ros2/codec/translator.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::ros2 {
 
-class Planner {
+class TranslatorBuilder {
  public:
-  Planner(const ValueType& value, const Mapping& mapping, Direction direction,
-          std::vector<MappingProblem>& problems)
+  TranslatorBuilder(const ValueType& value, const Mapping& mapping, Direction direction,
+                    std::vector<MappingProblem>& problems)
       : value_(value),
         mapping_(mapping),
         direction_(direction),
         receives_(direction == Direction::receive),
         problems_(problems) {}
 
-  std::optional<Plan> make(std::shared_ptr<const Structure> message) {
+  std::optional<Translator> make(std::shared_ptr<const Structure> message) {
     const std::size_t before = problems_.size();
-    plan_.message_ = std::move(message);
-    plan_.names_ = mapping_.names;
-    plan_.frame_id_ = mapping_.frame_id;
-    plan_.steps_ = steps_of(*plan_.message_);
+    translator_.message_ = std::move(message);
+    translator_.names_ = mapping_.names;
+    translator_.frame_id_ = mapping_.frame_id;
+    translator_.steps_ = steps_of(*translator_.message_);
     auto blocks = BufferBlocks::number(value_);
     if (!blocks) {
       wrong("the buffer has too many structures", "use arrays of numbers");
       return std::nullopt;
     }
     blocks_ = std::move(*blocks);
-    plan_.blocks_ = blocks_.all();
-    if (!refuse_wide_strings(*plan_.message_) || !check_fills() || !take_own_fields()) return std::nullopt;
+    translator_.blocks_ = blocks_.all();
+    if (!refuse_wide_strings(*translator_.message_) || !check_fills() || !take_own_fields())
+      return std::nullopt;
     mapping_.fields.empty() ? map_by_names() : map_as_told();
     if (problems_.size() == before) complain_of_rest();
     if (problems_.size() != before) return std::nullopt;
-    return std::move(plan_);
+    return std::move(translator_);
   }
 
  private:
@@ -62,13 +63,14 @@ class Planner {
 
   /// The time, the frame and the names, which are sent without a part of the buffer.
   bool check_fills() {
-    const Field* const header = plan_.message_->find("header");
+    const Field* const header = translator_.message_->find("header");
     const bool stamped = header != nullptr && header->type.refers == "std_msgs/msg/Header" &&
                          header->type.repeat == Type::Repeat::once;
-    if (stamped && !receives_) fill_header(*find_step(plan_.steps_, *plan_.message_, "header"));
+    if (stamped && !receives_) fill_header(*find_step(translator_.steps_, *translator_.message_, "header"));
     subject_ = "frame_id";
     if (!mapping_.frame_id.empty() && (receives_ || !stamped)) {
-      wrong(receives_ ? "a receptor sends no frame_id" : in_quotes(plan_.message_->name) + " has no header",
+      wrong(receives_ ? "a receptor sends no frame_id"
+                      : in_quotes(translator_.message_->name) + " has no header",
             "remove it");
       return false;
     }
@@ -83,7 +85,7 @@ class Planner {
     bool good = true;
     for (const OwnField& own : mapping_.own) {
       const ValueType::Member* const member = value_.count == 0 ? value_.find(own.name) : nullptr;
-      plan_.own_.emplace_back();
+      translator_.own_.emplace_back();
       if (member == nullptr && !own.needed) continue;
       if (member == nullptr || member->type.count != 0 ||
           std::ranges::find(own.types, member->type.primitive) == own.types.end()) {
@@ -95,8 +97,8 @@ class Planner {
         good = false;
         continue;
       }
-      plan_.own_.back() = blocks_.at(own.name);
-      used_.insert(*plan_.own_.back());
+      translator_.own_.back() = blocks_.at(own.name);
+      used_.insert(*translator_.own_.back());
     }
     return good;
   }
@@ -105,10 +107,10 @@ class Planner {
   }
 
   bool use_names() {
-    Plan::Step* const names = find_step(plan_.steps_, *plan_.message_, "name");
+    Translator::Step* const names = find_step(translator_.steps_, *translator_.message_, "name");
     if (names == nullptr || names->type.primitive != Primitive::string ||
         names->type.repeat != Type::Repeat::sequence) {
-      wrong(in_quotes(plan_.message_->name) + " has no field 'name' of type string[]",
+      wrong(in_quotes(translator_.message_->name) + " has no field 'name' of type string[]",
             "names are for messages such as sensor_msgs/JointState");
       return false;
     }
@@ -117,21 +119,21 @@ class Planner {
       wrong("a name is empty, or there twice");
       return false;
     }
-    names->fill = Plan::Fill::names;
+    names->fill = Translator::Fill::names;
     return true;
   }
 
   void map_by_names() {
     if (value_.primitive == Primitive::structure && value_.count == 0) {
-      match_members(value_, "", plan_.steps_, *plan_.message_, "");
+      match_members(value_, "", translator_.steps_, *translator_.message_, "");
       return;
     }
-    const Structure& message = *plan_.message_;
+    const Structure& message = *translator_.message_;
     const Field* field = message.fields.size() == 1 ? &message.fields.front() : message.find("data");
     if (field == nullptr)
       return wrong("which field of " + in_quotes(message.name) + " is meant?",
                    "for example fields: " + (message.fields.empty() ? "data" : message.fields.back().name));
-    match(value_, "", *find_step(plan_.steps_, message, field->name), field->name);
+    match(value_, "", *find_step(translator_.steps_, message, field->name), field->name);
   }
 
   void map_as_told() {
@@ -143,7 +145,7 @@ class Planner {
   }
 
   void match_whole(const std::string& of_message, const std::string& of_value) {
-    Plan::Step* const step = step_at(of_message, plan_.steps_, *plan_.message_);
+    Translator::Step* const step = step_at(of_message, translator_.steps_, *translator_.message_);
     const ValueType* const value = step == nullptr ? nullptr : value_at(of_value, value_);
     if (value != nullptr) match(*value, of_value, *step, of_message);
   }
@@ -151,7 +153,7 @@ class Planner {
   /// A path through an array of messages, and one through an array of the buffer: "boxes.center.x" and "x".
   /// The field is that of every element. false: the path of the message leads through no array.
   bool match_in_elements(const std::string& of_message, const std::string& of_value) {
-    const auto array = array_in(of_message, plan_.steps_, *plan_.message_);
+    const auto array = array_in(of_message, translator_.steps_, *translator_.message_);
     if (!array) return false;
     const auto elements = elements_in(of_value, value_);
     if (!elements) {
@@ -166,7 +168,7 @@ class Planner {
     element.is_sequence = false;
     const std::size_t before = problems_.size();
     for (std::uint32_t index = 0; index < elements->type->count && problems_.size() == before; ++index) {
-      Plan::Step* const step =
+      Translator::Step* const step =
           step_at(array->rest, array->step->members[index].members, *array->step->type.structure);
       const ValueType* const value = step == nullptr ? nullptr : value_at(elements->rest, element);
       if (value == nullptr) break;
@@ -179,7 +181,7 @@ class Planner {
 
   /// Gives an array of messages a step for each element of the array of the buffer. false: they do not fit,
   /// which has been reported.
-  bool divide(const ValueType& value, const std::string& value_path, Plan::Step& step,
+  bool divide(const ValueType& value, const std::string& value_path, Translator::Step& step,
               const std::string& message_path) {
     if (step.per_element) {
       if (divided_.at(&step) == value_path) return true;
@@ -190,7 +192,7 @@ class Planner {
     if (!same_shape(value, value_path, step, message_path)) return false;
     step.per_element = true;
     divided_.emplace(&step, value_path);
-    Plan::Step one;
+    Translator::Step one;
     one.type = step.type;
     one.members = std::move(step.members);
     one.type.repeat = Type::Repeat::once;
@@ -204,10 +206,11 @@ class Planner {
     return true;
   }
 
-  Plan::Step* step_at(const std::string& path, std::vector<Plan::Step>& first, const Structure& root) {
-    std::vector<Plan::Step>* steps = &first;
+  Translator::Step* step_at(const std::string& path, std::vector<Translator::Step>& first,
+                            const Structure& root) {
+    std::vector<Translator::Step>* steps = &first;
     const Structure* structure = &root;
-    Plan::Step* step = nullptr;
+    Translator::Step* step = nullptr;
     for (const std::string& part : split_path(path)) {
       if (structure == nullptr) {
         wrong("the field " + in_quotes(path) +
@@ -250,7 +253,7 @@ class Planner {
   }
 
   /// value_path, message_path: for error messages and for the numbers of blocks.
-  void match(const ValueType& value, const std::string& value_path, Plan::Step& step,
+  void match(const ValueType& value, const std::string& value_path, Translator::Step& step,
              const std::string& message_path) {
     if (step.type.primitive == Primitive::structure || value.primitive == Primitive::structure)
       match_structures(value, value_path, step, message_path);
@@ -258,12 +261,13 @@ class Planner {
       match_numbers(value, value_path, step, message_path);
   }
 
-  void match_members(const ValueType& value, const std::string& value_path, std::vector<Plan::Step>& steps,
-                     const Structure& structure, const std::string& message_path) {
+  void match_members(const ValueType& value, const std::string& value_path,
+                     std::vector<Translator::Step>& steps, const Structure& structure,
+                     const std::string& message_path) {
     std::set<std::string> proposed;
     for (const ValueType::Member& member : value.members) {
       if (value_path.empty() && is_own(member.name)) continue;
-      if (Plan::Step* const step = find_step(steps, structure, member.name))
+      if (Translator::Step* const step = find_step(steps, structure, member.name))
         match(member.type, member_path(value_path, member.name), *step,
               member_path(message_path, member.name));
       else
@@ -272,7 +276,7 @@ class Planner {
     }
   }
 
-  void match_structures(const ValueType& value, const std::string& value_path, Plan::Step& step,
+  void match_structures(const ValueType& value, const std::string& value_path, Translator::Step& step,
                         const std::string& message_path) {
     if (value.primitive != step.type.primitive) return differ(value, value_path, step, message_path);
     if (!same_shape(value, value_path, step, message_path)) return;
@@ -290,7 +294,7 @@ class Planner {
                     message_path);
   }
 
-  void match_numbers(const ValueType& value, const std::string& value_path, Plan::Step& step,
+  void match_numbers(const ValueType& value, const std::string& value_path, Translator::Step& step,
                      const std::string& message_path) {
     const Primitive from = receives_ ? step.type.primitive : value.primitive;
     const Primitive to = receives_ ? value.primitive : step.type.primitive;
@@ -299,7 +303,7 @@ class Planner {
     if (from == Primitive::string && !receives_ && step.type.string_bound > 0 &&
         step.type.string_bound < value.capacity)
       return differ(value, value_path, step, message_path);
-    if (step.fill == Plan::Fill::names)
+    if (step.fill == Translator::Fill::names)
       return wrong("'name' is compared with the names and has no place in the buffer");
     const std::size_t block = blocks_.at(value_path);
     if (!used_.insert(block).second && receives_)
@@ -312,7 +316,7 @@ class Planner {
             " is " + value.text());
   }
 
-  bool same_shape(const ValueType& value, const std::string& value_path, const Plan::Step& step,
+  bool same_shape(const ValueType& value, const std::string& value_path, const Translator::Step& step,
                   const std::string& message_path) {
     using Repeat = Type::Repeat;
     // A sequence of the buffer takes a message's sequence of any bound: what is too long is dropped.
@@ -325,7 +329,7 @@ class Planner {
     return fits;
   }
 
-  void differ(const ValueType& value, const std::string& value_path, const Plan::Step& step,
+  void differ(const ValueType& value, const std::string& value_path, const Translator::Step& step,
               const std::string& message_path) {
     const std::string of_message = in_quotes(message_path) + " of type " + step.type.text();
     const std::string of_value = shown(value_path) + " of type " + value.text();
@@ -335,11 +339,11 @@ class Planner {
 
   /// A part of the buffer that is silently left out would be worse than an error.
   void complain_of_rest() {
-    for (std::size_t block = 0; block < plan_.blocks_.size(); ++block)
+    for (std::size_t block = 0; block < translator_.blocks_.size(); ++block)
       if (!used_.contains(block))
-        return wrong("no field of the message corresponds to " + shown(plan_.blocks_[block].path),
+        return wrong("no field of the message corresponds to " + shown(translator_.blocks_[block].path),
                      "name it in `fields`");
-    if (plan_.blocks_.empty()) wrong("the buffer has no fields");
+    if (translator_.blocks_.empty()) wrong("the buffer has no fields");
   }
 
   const ValueType& value_;
@@ -347,17 +351,18 @@ class Planner {
   Direction direction_;
   bool receives_;
   std::vector<MappingProblem>& problems_;
-  Plan plan_;
+  Translator translator_;
   std::string subject_;
   BufferBlocks blocks_;
-  std::map<const Plan::Step*, std::string> divided_;  ///< the array of the buffer for an array of messages
+  std::map<const Translator::Step*, std::string>
+      divided_;  ///< the array of the buffer for an array of messages
   std::set<std::size_t> used_;
 };
 
-std::optional<Plan> Plan::make(std::shared_ptr<const Structure> message, const ValueType& value,
-                               const Mapping& mapping, Direction direction,
-                               std::vector<MappingProblem>& problems) {
-  return Planner(value, mapping, direction, problems).make(std::move(message));
+std::optional<Translator> Translator::make(std::shared_ptr<const Structure> message, const ValueType& value,
+                                           const Mapping& mapping, Direction direction,
+                                           std::vector<MappingProblem>& problems) {
+  return TranslatorBuilder(value, mapping, direction, problems).make(std::move(message));
 }
 
 }  // namespace tessera::ros2

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <random>
 
+#include "examples.hpp"
+#include "language/edits/edits.hpp"
 #include "language/edits/text_editor.hpp"
 #include "spec/document/document.hpp"
 
@@ -148,10 +150,10 @@ TEST(Edits, ChangeWhatTheyNameAndNothingElseInEveryStyle) {
     const std::string text = RandomText(seed).map(3, 0) + "\n";
     const TextEditor editor(text);
     const Json data = read(text);
-    const auto check = [&](const char* name, const Path& path, const Changes& changes, auto change) {
+    const auto check = [&](const char* name, const Path& path, auto do_edit, auto change) {
       Json expected = data;
       change(expected);
-      const std::string after = applied(text, changes);
+      const std::string after = do_edit();
       SCOPED_TRACE(std::string(name) + " of seed " + std::to_string(seed) + ":\n" + text + "--- is now:\n" +
                    after);
       EXPECT_TRUE(read(after) == expected || (expected.empty() && after == text)) << path.size();
@@ -163,27 +165,45 @@ TEST(Edits, ChangeWhatTheyNameAndNothingElseInEveryStyle) {
       Json copy = data;
       const Json value = inside(copy, path);
       const Path above = without_last(path);
-      check("remove", path, editor.remove(path), [&](Json& all) { remove_from(all, path, editor); });
+      const auto edited_by = [&](auto change) {
+        return [&text, change] {
+          TextEditor now(text);
+          change(now);
+          return now.text();
+        };
+      };
+      check("remove", path, edited_by([&](TextEditor& now) { now.remove(path); }),
+            [&](Json& all) { remove_from(all, path, editor); });
       if (const std::string* key = key_of(path.back())) {
-        check("rename", path, editor.rename_key(path, "renamed"), [&](Json& all) {
+        const auto renamed = [&] {
+          const Document document(text, grammar());
+          Edit rename;
+          rename.kind = Edit::Kind::rename;
+          rename.at = path;
+          rename.text = "renamed";
+          return edited(document, edit(document, {{rename}}, {}).edits);
+        };
+        check("rename", path, renamed, [&](Json& all) {
           Json& parent = inside(all, above);
           Json fresh = Json::object();
           for (const auto& [name, one] : parent.items()) fresh[name == *key ? "renamed" : name] = one;
           parent = fresh;
         });
         if (!value.is_structured())
-          check("set", path, editor.set(above, *key, "7", Writing::scalar),
+          check("set", path, edited_by([&](TextEditor& now) { now.set(above, *key, "7", Writing::scalar); }),
                 [&](Json& all) { inside(all, path) = "7"; });
       }
       if (value.is_object() || value.is_null())
-        check("insert", path, editor.insert(path, "fresh", Value::map("a", Value::scalar("1"))),
+        check("insert", path, edited_by([&](TextEditor& now) {
+                now.insert(path, "fresh", Value::map("a", Value::scalar("1")));
+              }),
               [&](Json& all) {
                 Json& into = inside(all, path);
                 if (into.is_null()) into = Json::object();
                 into["fresh"]["a"] = "1";
               });
       if (value.is_array())
-        check("append", path, editor.append(path, "more"),
+        check("append", path, edited_by([&](TextEditor& now) { now.append(path, "more"); }),
               [&](Json& all) { inside(all, path).push_back("more"); });
     });
   }

@@ -34,7 +34,7 @@ std::string difference(const Node& mine, const spec::Node& parsed, const Lines& 
       return found;
   }
   for (std::size_t at = 0; at < mine.items.size(); ++at)
-    if (std::string found = difference(*mine.items[at], *parsed.items[at], lines, path + "[]");
+    if (std::string found = difference(*mine.items[at].value, *parsed.items[at], lines, path + "[]");
         !found.empty())
       return found;
   return {};

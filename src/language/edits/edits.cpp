@@ -15,98 +15,53 @@ namespace {
 constexpr const char* not_there =
     "the text has changed: there is nothing of that name to change here any more";
 
-/// A text after an edit.
-struct After {
-  std::string text;
-  std::optional<std::string> problem;
-};
-
-After refused(std::string why) { return {{}, std::move(why)}; }
-
-/// Changes that must not be empty.
-After made(const TextEditor& editor, const Path& at, const Changes& changes) {
-  if (!changes.empty()) return {applied(editor.text(), changes), {}};
-  if (editor.is_alias(at))
-    return refused(editor.value_text(at) + " stands here; change what it stands for in the text");
-  return refused(not_there);
-}
-
-After removed(const Document& document, const TextEditor& editor, const Path& at) {
-  std::vector<Path> paths = to_remove(document, editor, at);
-  // From below: the positions of the others stay. The rest of a list decides how the next one goes.
-  const auto begin = [&](const Path& path) {
-    const std::optional<Extent> extent = editor.extent(path);
-    return extent ? extent->begin : 0;
-  };
-  std::stable_sort(paths.begin(), paths.end(),
-                   [&](const Path& a, const Path& b) { return begin(a) > begin(b); });
-  if (!editor.has(at)) return refused(not_there);
-  std::string text = editor.text();
-  for (const Path& path : paths) {
-    const TextEditor now(text);
-    text = applied(text, now.remove(path));
-  }
-  return {std::move(text), {}};
-}
-
-After channel_changed(const TextEditor& editor, const Edit& edit) {
-  const auto model = edit.fields.find("model");
-  // A model says itself how the ends wait.
-  if (model == edit.fields.end() || model->second.empty() || editor.map(edit.at) == nullptr)
-    return made(editor, edit.at, change_channel(editor, edit.at, edit.fields));
-  std::string text = editor.text();
-  for (const char* side : {"send", "receive"}) {
-    const TextEditor now(text);
-    text = applied(text, now.set(edit.at, side, "", Writing::scalar));
-  }
-  const TextEditor rest(text);
-  return {applied(rest.text(), rest.set(edit.at, "model", model->second, Writing::scalar)), {}};
-}
-
-After next_changed(const TextEditor& editor, const Edit& edit) {
-  if (!editor.has(edit.at)) return refused(not_there);
-  if (edit.key.empty()) return {with_next(editor, edit.at, edit.fields), {}};
+bool next_changed(TextEditor& editor, const Edit& edit) {
+  if (editor.entry(edit.at) == nullptr) return false;
+  if (edit.key.empty()) return add_next(editor, edit.at, edit.fields);
   std::size_t entry = 0;
-  const auto [end, problem] = std::from_chars(edit.key.data(), edit.key.data() + edit.key.size(), entry);
-  if (problem != std::errc() || end != edit.key.data() + edit.key.size() ||
-      entry >= next_entries(editor, edit.at).size())
-    return refused(not_there);
-  return {changed_next(editor, edit.at, entry, edit.fields), {}};
+  const char* const last = edit.key.data() + edit.key.size();
+  const auto [end, problem] = std::from_chars(edit.key.data(), last, entry);
+  return problem == std::errc() && end == last && change_next(editor, edit.at, entry, edit.fields);
 }
 
-After edited_once(const Document& document, const Edit& edit) {
-  const TextEditor editor(document.text());
+/// false: there is nothing to change.
+bool changed(const Document& document, TextEditor& editor, const Edit& edit) {
   switch (edit.kind) {
-    case Edit::Kind::set: {
-      const Changes changes = editor.set(edit.at, edit.key, edit.text, edit.as);
-      // A key that is not there needs not be removed.
-      if (changes.empty() && !editor.is_alias(edit.at) && edit.text.empty()) return {editor.text(), {}};
-      return made(editor, edit.at, changes);
-    }
+    case Edit::Kind::set:
+      return editor.set(edit.at, edit.key, edit.text, edit.as);
     case Edit::Kind::insert:
-      if (editor.has(edit.at / edit.key)) return refused(fmt::format("'{}' is there already", edit.key));
-      return made(editor, edit.at, editor.insert(edit.at, edit.key, edit.value));
+      return editor.insert(edit.at, edit.key, edit.value);
     case Edit::Kind::append:
-      return made(editor, edit.at, editor.append(edit.at, flow_text(edit.value)));
+      return editor.append(edit.at, flow_text(edit.value));
     case Edit::Kind::replace:
-      return made(editor, edit.at, editor.replace(edit.at, flow_text(edit.value)));
+      return editor.replace(edit.at, flow_text(edit.value));
     case Edit::Kind::remove:
-      return removed(document, editor, edit.at);
+      return remove_with_uses(document, editor, edit.at);
     case Edit::Kind::connect:
-      return made(editor, edit.at, editor.append({"channels"}, channel_text(edit.fields)));
+      return editor.append({"channels"}, channel_text(edit.fields));
     case Edit::Kind::channel:
-      return channel_changed(editor, edit);
+      return change_channel(editor, edit.at, edit.fields);
     case Edit::Kind::next:
       return next_changed(editor, edit);
     case Edit::Kind::make_template:
-      if (std::optional<std::string> text = with_template(editor, edit.at)) return {std::move(*text), {}};
-      return refused(
-          "the agent is written in one line, with anchors, or beside templates of another layout: move it in "
-          "the text");
+      return make_template(editor, edit.at);
     case Edit::Kind::rename:
       break;
   }
-  return refused(not_there);
+  return false;
+}
+
+/// Why an edit cannot be done; nullopt: the editor has its text.
+std::optional<std::string> problem_with(const Document& document, TextEditor& editor, const Edit& edit) {
+  if (edit.kind == Edit::Kind::insert && editor.entry(edit.at / edit.key) != nullptr)
+    return fmt::format("'{}' is there already", edit.key);
+  if (changed(document, editor, edit)) return std::nullopt;
+  if (edit.kind == Edit::Kind::make_template)
+    return "the agent is written in one line, with anchors, or beside templates of another layout: move it in "
+           "the text";
+  if (const Entry* entry = editor.entry(edit.at); entry != nullptr && entry->is_alias)
+    return editor.value_text(edit.at) + " stands here; change what it stands for in the text";
+  return not_there;
 }
 
 /// Why the text after an edit is not taken; nullopt: it is.
@@ -144,75 +99,44 @@ TextEdit difference(const Lines& lines, std::string_view before, std::string_vie
 
 /// A placed model that is no agent's, and names of maps that only their key has.
 Renaming key_renamed(const Document& document, const TextEditor& editor, const Edit& edit) {
-  Changes changes = editor.rename_key(edit.at, edit.text);
-  if (changes.empty()) return {{}, not_there};
   const Path above = without_last(edit.at);
-  const std::string& key = *key_of(edit.at.back());
-  if (edit.text != key && editor.has(above / edit.text))
+  const Entry& entry = *editor.entry(edit.at);
+  const std::string& key = entry.key;
+  if (edit.text != key && editor.entry(above / edit.text) != nullptr)
     return {{}, fmt::format("'{}' is taken here", edit.text)};
+  Renaming renaming;
+  const auto replace = [&](const Extent& old, std::string text) {
+    renaming.edits.push_back({"", document.lines().range(old), std::move(text), true});
+  };
+  const std::size_t quote = entry.extent.begin - entry.whole.begin;
+  replace({entry.whole.begin, entry.extent.end + quote},
+          editor.node(above)->flow ? scalar_text(edit.text) : edit.text);
   const auto instance = [](std::string_view name) {
     std::string_view first = name.substr(0, name.find('['));
     return first.substr(0, first.find_last_not_of(' ') + 1);
   };
   if (above == Path{"simulation", "models"}) {
-    const std::vector<std::string> all = editor.keys(above);
     // robot[0] and robot[1] may be placed one by one: the checks go on to name those that stay.
-    const bool others = std::any_of(all.begin(), all.end(), [&](const std::string& one) {
+    const bool others = std::ranges::any_of(editor.keys(above), [&](const std::string& one) {
       return one != key && instance(one) == instance(key);
     });
     if (!others)
       for (const Extent& object : document.index().objects())
         if (std::string_view(editor.text()).substr(object.begin, object.end - object.begin) == instance(key))
-          changes.push_back({object, std::string(instance(edit.text))});
+          replace(object, std::string(instance(edit.text)));
   }
-  Renaming renaming;
-  for (const Change& change : changes)
-    renaming.edits.push_back({"", document.lines().range(change.extent), change.text, true});
   return renaming;
 }
 
 Renaming renamed(const Document& document, const Edit& edit, std::span<const Source> sources) {
   const TextEditor editor(document.text());
-  const std::optional<Extent> key = editor.key_extent(edit.at);
-  if (!key) return {{}, not_there};
-  const Use* use = document.index().at(key->begin);
+  const Entry* entry = editor.entry(edit.at);
+  if (entry == nullptr || key_of(edit.at.back()) == nullptr) return {{}, not_there};
+  const Use* name = document.index().defined_at(entry->extent.begin);
   const bool has_index = edit.text.find('[') != std::string::npos;
-  if (use == nullptr || !use->defines || use->extent.begin != key->begin ||
-      (document.index()[use->symbol].kind == Kind::process && has_index))
+  if (name == nullptr || (document.index()[name->symbol].kind == Kind::process && has_index))
     return key_renamed(document, editor, edit);
-  return rename(document, nullptr, document.lines().position(key->begin), sources, edit.text);
-}
-
-std::string_view prefix_of(Kind kind) {
-  switch (kind) {
-    case Kind::type:
-      return "type";
-    case Kind::parameter:
-      return "parameter";
-    case Kind::memory:
-      return "memory";
-    case Kind::input:
-      return "input";
-    case Kind::output:
-      return "output";
-    case Kind::real:
-      return "real";
-    case Kind::agent_template:
-      return "template";
-    case Kind::model:
-      return "model";
-    case Kind::process:
-      return "process";
-    case Kind::field:
-      return "field";
-    case Kind::condition:
-      return "condition";
-    case Kind::behaviour:
-    case Kind::subsystem:
-    case Kind::agent:
-      break;
-  }
-  return "";
+  return rename(document, nullptr, document.lines().position(entry->extent.begin), sources, edit.text);
 }
 
 std::string with_article(std::string_view words) {
@@ -229,24 +153,23 @@ Renaming edit(const Document& document, std::span<const Edit> edits, std::span<c
     if (renaming.problem) renaming.edits.clear();
     return renaming;
   }
-  std::string text = document.text();
+  TextEditor editor(document.text());
   for (const Edit& one : edits) {
     std::optional<Document> later;
-    if (&one != &edits.front()) later.emplace(text, document.grammar());
+    if (&one != &edits.front()) later.emplace(editor.text(), document.grammar());
     const Document& now = later ? *later : document;
-    After after;
     if (one.kind == Edit::Kind::rename) {
       const Renaming renaming = renamed(now, one, {});
-      after = {edited(now, renaming.edits), renaming.problem};
-    } else {
-      after = edited_once(now, one);
+      if (renaming.problem) return {{}, renaming.problem};
+      editor.change({0, editor.text().size()}, edited(now, renaming.edits));
+    } else if (std::optional<std::string> problem = problem_with(now, editor, one)) {
+      return {{}, std::move(problem)};
     }
-    if (after.problem) return {{}, after.problem};
-    text = std::move(after.text);
   }
-  if (text == document.text()) return {};
-  if (std::optional<std::string> problem = worse(document.text(), text)) return {{}, std::move(problem)};
-  return {{difference(document.lines(), document.text(), text)}, {}};
+  if (editor.text() == document.text()) return {};
+  if (std::optional<std::string> problem = worse(document.text(), editor.text()))
+    return {{}, std::move(problem)};
+  return {{difference(document.lines(), document.text(), editor.text())}, {}};
 }
 
 Named find_name(const Document& document, std::string_view name) {

@@ -1,6 +1,9 @@
 #include "language/edits/elements.hpp"
 
 #include <algorithm>
+#include <functional>
+#include <iterator>
+#include <vector>
 
 namespace tessera::language {
 namespace {
@@ -8,16 +11,6 @@ namespace {
 std::string field(const Fields& fields, const std::string& key) {
   const auto found = fields.find(key);
   return found == fields.end() ? std::string() : found->second;
-}
-
-/// The use of a name that a key defines.
-const Symbol* symbol_at(const Document& document, const TextEditor& editor, const Path& at,
-                        SymbolId* id = nullptr) {
-  const std::optional<Extent> key = editor.key_extent(at);
-  const Use* use = key ? document.index().at(key->begin) : nullptr;
-  if (use == nullptr || !use->defines || use->extent.begin != key->begin) return nullptr;
-  if (id != nullptr) *id = use->symbol;
-  return &document.index()[use->symbol];
 }
 
 /// Finds the entries that use a symbol.
@@ -38,21 +31,21 @@ class Dependents {
   }
 
  private:
-  [[nodiscard]] bool is_used(std::optional<Extent> in) const {
-    return in && std::any_of(uses_.begin(), uses_.end(),
-                             [&](std::size_t use) { return in->begin <= use && use < in->end; });
+  [[nodiscard]] bool is_used(const Extent& in) const {
+    return std::ranges::any_of(uses_, [&](std::size_t use) { return in.begin <= use && use < in.end; });
   }
 
   void items(const Path& list) {
     const Node* node = editor_.list(list);
     for (std::size_t at = 0; node != nullptr && at < node->items.size(); ++at)
-      if (is_used(editor_.extent(list / at))) found_.push_back(list / at);
+      if (is_used(node->items[at].whole)) found_.push_back(list / at);
   }
 
   void entries(const Path& map, bool with_value) {
-    for (const std::string& key : editor_.keys(map))
-      if (is_used(with_value ? editor_.extent(map / key) : editor_.key_extent(map / key)))
-        found_.push_back(map / key);
+    const Node* node = editor_.map(map);
+    if (node == nullptr) return;
+    for (const Entry& entry : node->entries)
+      if (is_used(with_value ? entry.whole : entry.extent)) found_.push_back(map / entry.key);
   }
 
   /// A process without agents goes, and so does a deployment without processes.
@@ -69,8 +62,8 @@ class Dependents {
       if (const Node* list = editor_.list(at)) {
         count = list->items.size();
         for (std::size_t item = 0; item < count; ++item)
-          if (is_used(editor_.extent(at / item))) mine.push_back(at / item);
-      } else if (is_used(editor_.value_extent(at))) {
+          if (is_used(list->items[item].whole)) mine.push_back(at / item);
+      } else if (const Entry* agent = editor_.entry(at); agent != nullptr && is_used(agent->written)) {
         mine.push_back(process);
       }
       if (!mine.empty() && mine.size() == count) {
@@ -100,15 +93,16 @@ NextEntry read_entry(const TextEditor& editor, const Path& at) {
   return {editor.value_text(at / "to"), editor.value_text(at / "when")};
 }
 
-/// The parts to remove with entries of `next`: all of it, if none is left.
-std::vector<Path> next_to_remove(const TextEditor& editor, const Path& behaviour,
-                                 const std::vector<std::size_t>& entries) {
-  const std::vector<Path> all = next_entries(editor, behaviour);
-  if (entries.empty()) return {};
-  if (entries.size() == all.size()) return {behaviour / "next"};
-  std::vector<Path> gone;
-  for (const std::size_t at : entries) gone.push_back(all[at]);
-  return gone;
+/// The entries of `next` of a behaviour.
+std::vector<Path> next_entries(const TextEditor& editor, const Path& behaviour) {
+  const Path at = behaviour / "next";
+  const Entry* next = editor.entry(at);
+  if (next == nullptr || next->written.empty()) return {};
+  const Node* list = editor.list(at);
+  if (list == nullptr) return {at};
+  std::vector<Path> entries;
+  for (std::size_t item = 0; item < list->items.size(); ++item) entries.push_back(at / item);
+  return entries;
 }
 
 void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector<Path>& paths) {
@@ -117,11 +111,11 @@ void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector
   if (editor.value_text(unit / "start") == name) paths.push_back(unit / "start");
   for (const std::string& other : editor.keys(behaviours)) {
     if (other == name) continue;
-    std::vector<std::size_t> hits;
     const std::vector<Path> entries = next_entries(editor, behaviours / other);
-    for (std::size_t entry = 0; entry < entries.size(); ++entry)
-      if (read_entry(editor, entries[entry]).to == name) hits.push_back(entry);
-    const std::vector<Path> gone = next_to_remove(editor, behaviours / other, hits);
+    std::vector<Path> gone;
+    std::ranges::copy_if(entries, std::back_inserter(gone),
+                         [&](const Path& entry) { return read_entry(editor, entry).to == name; });
+    if (!gone.empty() && gone.size() == entries.size()) gone = {behaviours / other / "next"};
     paths.insert(paths.end(), gone.begin(), gone.end());
   }
 }
@@ -135,14 +129,12 @@ void add_device_entries(const TextEditor& editor, const Path& at, std::vector<Pa
       if (key == name || key.starts_with(name + ".")) paths.push_back(unit / part / key);
 }
 
-}  // namespace
-
+/// The element at a path, and what cannot be without it.
 std::vector<Path> to_remove(const Document& document, const TextEditor& editor, const Path& at) {
   std::vector<Path> paths{at};
-  SymbolId id{};
-  const Symbol* symbol = symbol_at(document, editor, at, &id);
-  if (symbol == nullptr) return paths;
-  switch (symbol->kind) {
+  const Use* name = document.index().defined_at(editor.entry(at)->extent.begin);
+  if (name == nullptr) return paths;
+  switch (document.index()[name->symbol].kind) {
     case Kind::real:
       add_device_entries(editor, at, paths);
       [[fallthrough]];
@@ -150,7 +142,7 @@ std::vector<Path> to_remove(const Document& document, const TextEditor& editor, 
     case Kind::subsystem:
     case Kind::input:
     case Kind::output: {
-      const std::vector<Path> others = Dependents(document, editor, id).find();
+      const std::vector<Path> others = Dependents(document, editor, name->symbol).find();
       paths.insert(paths.end(), others.begin(), others.end());
       break;
     }
@@ -161,6 +153,18 @@ std::vector<Path> to_remove(const Document& document, const TextEditor& editor, 
       break;
   }
   return paths;
+}
+
+}  // namespace
+
+bool remove_with_uses(const Document& document, TextEditor& editor, const Path& at) {
+  if (editor.entry(at) == nullptr) return false;
+  std::vector<Path> paths = to_remove(document, editor, at);
+  // From below: the positions of the others stay. The rest of a list decides how the next one goes.
+  std::ranges::stable_sort(paths, std::greater{},
+                           [&](const Path& path) { return editor.entry(path)->whole.begin; });
+  for (const Path& path : paths) editor.remove(path);
+  return true;
 }
 
 // ------------------------------------------------------------------------------------------------ channels
@@ -177,114 +181,88 @@ std::string channel_text(const Fields& fields) {
   return "{ from: " + scalar_text(from) + ", to: " + scalar_text(to) + rest + " }";
 }
 
-Changes change_channel(const TextEditor& editor, const Path& at, const Fields& change) {
+bool change_channel(TextEditor& editor, const Path& at, Fields change) {
   if (editor.map(at) == nullptr) {
     const std::string text = editor.value_text(at);
     const std::size_t arrow = text.find("->");
-    if (arrow == std::string::npos) return {};
+    if (arrow == std::string::npos) return false;
     const auto trimmed = [](std::string part) {
       part.erase(0, part.find_first_not_of(' '));
       return part.erase(part.find_last_not_of(' ') + 1);
     };
-    Fields fields = change;
-    fields["from"] = trimmed(text.substr(0, arrow));
-    fields["to"] = trimmed(text.substr(arrow + 2));
-    return editor.replace(at, channel_text(fields));
+    change["from"] = trimmed(text.substr(0, arrow));
+    change["to"] = trimmed(text.substr(arrow + 2));
+    return editor.replace(at, channel_text(change));
   }
-  Changes changes;
-  for (const auto& [key, value] : change) {
-    const Changes one = editor.set(at, key, value == "non_blocking" ? "" : value, Writing::scalar);
-    changes.insert(changes.end(), one.begin(), one.end());
-  }
-  return changes;
+  // A model says itself how the ends wait.
+  if (!field(change, "model").empty()) change["send"] = change["receive"] = "";
+  for (const auto& [key, value] : change)
+    editor.set(at, key, value == "non_blocking" ? "" : value, Writing::scalar);
+  return true;
 }
 
 // ------------------------------------------------------------------------------------------------ next
 
-std::vector<Path> next_entries(const TextEditor& editor, const Path& behaviour) {
-  const Path at = behaviour / "next";
-  const std::optional<Extent> value = editor.value_extent(at);
-  if (!value || value->empty()) return {};
-  std::vector<Path> entries;
-  const Node* list = editor.list(at);
-  if (list == nullptr) return {at};
-  for (std::size_t item = 0; item < list->items.size(); ++item) entries.push_back(at / item);
-  return entries;
-}
-
-std::string with_next(const TextEditor& editor, const Path& behaviour, const Fields& entry) {
+bool add_next(TextEditor& editor, const Path& behaviour, const Fields& entry) {
   const Path at = behaviour / "next";
   const std::string when = field(entry, "when");
   const std::string text = entry_text(field(entry, "to"), when);
-  const auto done = [&](const Changes& changes) { return applied(editor.text(), changes); };
-  if (editor.list(at) != nullptr) return done(editor.append(at, text));
-  if (next_entries(editor, behaviour).empty())
-    return done(editor.set(behaviour, "next", when.empty() ? text : "[" + text + "]", Writing::as_is));
-  const TextEditor listed(done(editor.make_list(at)));
-  return applied(listed.text(), listed.append(at, text));
+  if (editor.list(at) == nullptr) {
+    if (next_entries(editor, behaviour).empty())
+      return editor.set(behaviour, "next", when.empty() ? text : "[" + text + "]", Writing::as_is);
+    editor.make_list(at);
+  }
+  return editor.append(at, text);
 }
 
-std::string changed_next(const TextEditor& editor, const Path& behaviour, std::size_t at,
-                         const Fields& change) {
+bool change_next(TextEditor& editor, const Path& behaviour, std::size_t at, const Fields& change) {
   const std::vector<Path> entries = next_entries(editor, behaviour);
-  if (at >= entries.size()) return editor.text();
-  const auto done = [&](const Changes& changes) { return applied(editor.text(), changes); };
-  if (const auto to = change.find("to"); to != change.end() && to->second.empty()) {
-    Changes gone;
-    for (const Path& path : next_to_remove(editor, behaviour, {at})) gone = editor.remove(path);
-    return done(gone);
-  }
+  if (at >= entries.size()) return false;
   const Path& path = entries[at];
+  if (const auto to = change.find("to"); to != change.end() && to->second.empty())
+    return editor.remove(entries.size() == 1 ? behaviour / "next" : path);
   NextEntry entry = read_entry(editor, path);
   if (change.contains("to")) entry.to = change.at("to");
   if (change.contains("when")) entry.when = change.at("when");
   const Node* map = editor.map(path);
   // A map in one line becomes a name again when it loses its condition.
-  const std::string written = editor.text().substr(
-      editor.value_extent(path)->begin, editor.value_extent(path)->end - editor.value_extent(path)->begin);
-  const bool one_line = map != nullptr && map->flow && written.find('\n') == std::string::npos;
+  const bool one_line =
+      map != nullptr && map->flow &&
+      editor.text().substr(map->extent.begin, map->extent.end - map->extent.begin).find('\n') ==
+          std::string::npos;
   if (map != nullptr && (!entry.when.empty() || !one_line)) {
-    std::string text = editor.text();
-    for (const auto& [key, value] : change) {
-      const TextEditor now(text);
-      text = applied(text, now.set(path, key, value, Writing::scalar));
-    }
-    return text;
+    for (const auto& [key, value] : change) editor.set(path, key, value, Writing::scalar);
+    return true;
   }
   const std::string text = entry_text(entry.to, entry.when);
   const bool is_item = key_of(path.back()) == nullptr;
-  return done(editor.replace(path, !entry.when.empty() && !is_item ? "[" + text + "]" : text));
+  return editor.replace(path, !entry.when.empty() && !is_item ? "[" + text + "]" : text);
 }
 
 // ------------------------------------------------------------------------------------------------ templates
 
-std::optional<std::string> with_template(const TextEditor& editor, const Path& agent) {
-  const std::string& text = editor.text();
-  const std::string name = agent.empty() || key_of(agent.back()) == nullptr ? "" : *key_of(agent.back());
-  const std::optional<Extent> whole = editor.extent(agent);
+bool make_template(TextEditor& editor, const Path& agent) {
+  const Entry* whole = editor.entry(agent);
   const Node* body = editor.map(agent);
+  if (whole == nullptr || body == nullptr || body->flow || body->find("use") != nullptr) return false;
+  const std::string name = whole->key;
   const Path templates{"templates"};
-  if (!whole || body == nullptr || body->flow || body->find("use") != nullptr || editor.has(templates / name))
-    return std::nullopt;
-  const std::vector<std::string> beside = editor.keys(templates);
-  if (editor.has(templates) && (beside.empty() || editor.map(templates)->flow)) return std::nullopt;
-  const std::size_t indent =
-      beside.empty() ? 2 : editor.column_of(editor.extent(templates / beside.front())->begin);
-  if (editor.column_of(whole->begin) != indent) return std::nullopt;
+  const Node* others = editor.map(templates);
+  if (editor.entry(templates) != nullptr &&
+      (others == nullptr || others->flow || others->find(name) != nullptr))
+    return false;
+  const std::size_t indent = others == nullptr ? 2 : editor.column_of(others->entries.front().whole.begin);
+  if (editor.column_of(whole->whole.begin) != indent) return false;
   // A comment behind the last value goes along.
-  const std::size_t end = editor.line_end(whole->end);
-  const std::string entry = text.substr(whole->begin, end - whole->begin);
-  const Outline own(entry);
-  if (!own.anchors().empty()) return std::nullopt;
-  std::string inside = entry.substr(entry.find(':') + 1);
-  inside.erase(inside.find_last_not_of(" \t\r\n") + 1);
-  Changes changes = editor.insert(templates, name, Value::scalar(inside));
-  // The text of the body begins with what stands behind its colon, without the blank of a scalar.
-  for (Change& change : changes)
-    if (const std::size_t at = change.text.find(name + ": " + inside); at != std::string::npos)
-      change.text.erase(at + name.size() + 1, 1);
-  changes.push_back({{whole->begin, end}, name + ": { use: " + name + " }"});
-  return applied(text, changes);
+  const std::size_t end =
+      std::min(editor.text().find_first_of("\r\n", whole->written.end), editor.text().size());
+  const std::string inside = editor.text().substr(whole->behind, end - whole->behind);
+  const Outline own(name + ":" + inside);
+  if (!own.anchors().empty()) return false;
+  editor.change({whole->behind, end}, " { use: " + name + " }");
+  editor.insert(templates, name, Value::scalar("here"));
+  return editor.change({editor.entry(templates / name)->behind, editor.entry(templates / name)->written.end},
+                       inside);
 }
 
 }  // namespace tessera::language

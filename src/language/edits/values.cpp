@@ -158,26 +158,30 @@ std::string list_text(std::string_view text, const std::vector<std::string>& anc
   return "[" + list + "]";
 }
 
+std::string flow_parts(const Value& value) {
+  std::string inside;
+  for (std::size_t at = 0; at < value.items.size(); ++at) {
+    if (at > 0) inside += ", ";
+    if (value.kind == Value::Kind::map) inside += value.keys[at] + ": ";
+    inside += flow_text(value.items[at]);
+  }
+  return inside;
+}
+
 std::string flow_text(const Value& value) {
   if (value.kind == Value::Kind::text) return value.text;
-  const bool is_map = value.kind == Value::Kind::map;
-  std::string inside;
-  for (std::size_t at = 0; at < value.items.size(); ++at)
-    inside +=
-        (at == 0 ? "" : ", ") + (is_map ? value.keys[at] + ": " : std::string()) + flow_text(value.items[at]);
-  if (!is_map) return "[" + inside + "]";
-  return inside.empty() ? "{}" : "{ " + inside + " }";
+  if (value.kind == Value::Kind::list) return "[" + flow_parts(value) + "]";
+  return value.items.empty() ? "{}" : "{ " + flow_parts(value) + " }";
 }
 
 std::string block_text(const Value& value, std::size_t indent, std::string_view end) {
   if (value.kind == Value::Kind::text || value.items.empty()) return " " + flow_text(value);
-  const std::string start = std::string(end) + std::string(indent + 2, ' ');
   std::string lines;
   for (std::size_t at = 0; at < value.items.size(); ++at) {
-    const Value& one = value.items[at];
-    lines +=
-        start + (value.kind == Value::Kind::list ? "- " + flow_text(one)
-                                                 : value.keys[at] + ":" + block_text(one, indent + 2, end));
+    lines += std::string(end) + std::string(indent, ' ');
+    lines += value.kind == Value::Kind::list
+                 ? "- " + flow_text(value.items[at])
+                 : value.keys[at] + ":" + block_text(value.items[at], indent + 2, end);
   }
   return lines;
 }

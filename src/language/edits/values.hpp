@@ -35,9 +35,11 @@ struct Value {
 
 /// A value in one line.
 [[nodiscard]] std::string flow_text(const Value& value);
+/// The same of a list or map without its brackets.
+[[nodiscard]] std::string flow_parts(const Value& value);
 
-/// The text behind the colon of a key at column `indent`: maps that hold maps in lines of their own, others in one
-/// line; each item of a list in its own line. end: of a line.
+/// The text behind the colon of a key whose entries or items stand at column `indent`: maps that hold maps in lines of
+/// their own, others in one line; each item of a list in its own line. end: of a line.
 [[nodiscard]] std::string block_text(const Value& value, std::size_t indent, std::string_view end);
 
 }  // namespace tessera::language

@@ -5,13 +5,30 @@
 
 namespace tessera::language {
 
-std::string_view words_of(Kind kind) {
-  constexpr std::array<std::string_view, 14> words{
-      "structure",     "field",       "parameter",           "memory cell", "input buffer",
-      "output buffer", "real buffer", "behaviour",           "condition",   "subsystem",
-      "agent",         "template",    "communication model", "process"};
-  return words[static_cast<std::size_t>(kind)];
-}
+namespace {
+
+struct Words {
+  std::string_view words, prefix;
+};
+constexpr std::array<Words, 14> words_of_kinds{{{"structure", "type"},
+                                                {"field", "field"},
+                                                {"parameter", "parameter"},
+                                                {"memory cell", "memory"},
+                                                {"input buffer", "input"},
+                                                {"output buffer", "output"},
+                                                {"real buffer", "real"},
+                                                {"behaviour", ""},
+                                                {"condition", "condition"},
+                                                {"subsystem", ""},
+                                                {"agent", ""},
+                                                {"template", "template"},
+                                                {"communication model", "model"},
+                                                {"process", "process"}}};
+
+}  // namespace
+
+std::string_view words_of(Kind kind) { return words_of_kinds[static_cast<std::size_t>(kind)].words; }
+std::string_view prefix_of(Kind kind) { return words_of_kinds[static_cast<std::size_t>(kind)].prefix; }
 
 const Use* Index::at(std::size_t offset) const {
   const Use* best = nullptr;
@@ -26,6 +43,11 @@ const Use* Index::at(std::size_t offset) const {
     if (use->extent.begin + 256 < offset) break;  // a name is short
   }
   return best;
+}
+
+const Use* Index::defined_at(std::size_t offset) const {
+  const Use* use = at(offset);
+  return use != nullptr && use->defines && use->extent.begin == offset ? use : nullptr;
 }
 
 const UnitNames* Index::unit_at(const Way& way) const {

@@ -34,8 +34,10 @@ enum class Kind : std::uint8_t {
   model,
   process
 };
-/// In words: "an input buffer".
+/// In words: "input buffer".
 [[nodiscard]] std::string_view words_of(Kind kind);
+/// The word that tells a name from others of its path: "input"; "" if none is needed.
+[[nodiscard]] std::string_view prefix_of(Kind kind);
 
 struct Symbol {
   Kind kind = Kind::type;
@@ -88,6 +90,8 @@ class Index {
   [[nodiscard]] const std::vector<Extent>& objects() const { return objects_; }
   /// The use that a cursor touches.
   [[nodiscard]] const Use* at(std::size_t offset) const;
+  /// The definition that begins there; or nullptr.
+  [[nodiscard]] const Use* defined_at(std::size_t offset) const;
 
   [[nodiscard]] const std::string& system() const { return system_; }
   [[nodiscard]] const std::vector<DefinitionNames>& definitions() const { return definitions_; }

@@ -164,7 +164,7 @@ class IndexBuilder {
   }
   void use_items(const Node& list, const NamesOf& names) {
     use(list, names);
-    for (const Node* item : list.items) use(*item, names);
+    for (const Entry& item : list.items) use(*item.value, names);
   }
 
   void use_type(const Node& value) {
@@ -202,7 +202,7 @@ class IndexBuilder {
   /// The keys of a map that is a value of a structure.
   void use_fields(const Node& value, const std::string& type) {
     const NamesOf* fields = index_.fields_of(type);
-    for (const Node* item : value.items) use_fields(*item, type);
+    for (const Entry& item : value.items) use_fields(*item.value, type);
     if (fields == nullptr) return;
     for (const Entry& field : value.entries) {
       use(field.extent, *fields, field.key);
@@ -250,7 +250,7 @@ class IndexBuilder {
     };
     const Node& next = body["next"];
     step(next);
-    for (const Node* item : next.items) step(*item);
+    for (const Entry& item : next.items) step(*item.value);
   }
 
   void use_expression(const UnitNames& unit, const Node& text) {
@@ -303,11 +303,12 @@ class IndexBuilder {
   }
 
   void use_in_channels() {
-    for (const Node* channel : root_["channels"].items) {
-      paths(*channel, Place::formula);
-      paths((*channel)["from"], Place::from);
-      paths((*channel)["to"], Place::to);
-      use((*channel)["model"], index_.models_);
+    for (const Entry& item : root_["channels"].items) {
+      const Node& channel = *item.value;
+      paths(channel, Place::formula);
+      paths(channel["from"], Place::from);
+      paths(channel["to"], Place::to);
+      use(channel["model"], index_.models_);
     }
   }
 
@@ -319,16 +320,16 @@ class IndexBuilder {
     for (const Entry& process : root_["deploy"]["processes"].entries) {
       const Node& agents = process.value->is_map() ? (*process.value)["agents"] : *process.value;
       paths(agents, Place::agent);
-      for (const Node* agent : agents.items) paths(*agent, Place::agent);
+      for (const Entry& agent : agents.items) paths(*agent.value, Place::agent);
     }
   }
 
   void use_in_formulas() {
-    for (const Node* property : root_["properties"].items)
-      for (const Entry& entry : property->entries) {
+    for (const Entry& property : root_["properties"].items)
+      for (const Entry& entry : property.value->entries) {
         if (entry.key == "name") continue;
         paths(*entry.value, Place::formula);
-        for (const Node* item : entry.value->items) paths(*item, Place::formula);
+        for (const Entry& item : entry.value->items) paths(*item.value, Place::formula);
       }
   }
 
@@ -349,11 +350,10 @@ class IndexBuilder {
           index_.objects_.push_back(at);
           use(at, index_.agents_, written(at));
         }
-      for (const Entry& entry : node.entries) inside(*entry.value, only_marked, inside);
-      for (const Node* item : node.items) inside(*item, only_marked, inside);
+      for (const Entry& part : node.parts()) inside(*part.value, only_marked, inside);
     };
-    for (const Node* check : simulation["checks"].items)
-      for (const Entry& entry : check->entries)
+    for (const Entry& check : simulation["checks"].items)
+      for (const Entry& entry : check.value->entries)
         if (entry.key != "name" && entry.key != "within") objects(*entry.value, false, objects);
     for (const Entry& measure : simulation["measures"].entries) objects(*measure.value, false, objects);
     for (const Entry& driver : simulation["drivers"].entries)

@@ -31,7 +31,8 @@ std::string channels_of(const Document& document, SymbolId id) {
   std::string text;
   std::size_t count = 0;
   const Node& channels = document.outline().root()["channels"];
-  for (const Node* channel : channels.items) {
+  for (const Entry& item : channels.items) {
+    const Node* channel = item.value;
     const auto& uses = document.index().uses();
     const auto first = std::lower_bound(uses.begin(), uses.end(), channel->extent.begin,
                                         [](const Use& use, std::size_t at) { return use.extent.begin < at; });

@@ -39,6 +39,10 @@ class Fixer {
     fixes_.push_back(std::move(fix));
   }
 
+  void add_at(std::size_t offset, std::string title, std::string text) {
+    add(std::move(title), document_.lines().range({offset, offset}), std::move(text));
+  }
+
   void for_diagnostic(const diagnostics::Diagnostic& one) {
     if (one.proposal) add(fmt::format("Replace by '{}'", *one.proposal), at_, *one.proposal);
     const UnitNames* unit = unit_here(document_.lines().offset(at_.start));
@@ -74,12 +78,11 @@ class Fixer {
       const bool empty = map.entries.empty();
       const std::size_t inside = map.extent.begin + 1;
       const bool space = inside < text.size() && text[inside] == ' ';
-      const Position at = document_.lines().position(inside);
-      add(std::move(title), {at, at},
-          fmt::format(" {}: {}{}{}", key, value, empty ? "" : ",", empty && !space ? " " : ""));
+      add_at(inside, std::move(title),
+             fmt::format(" {}: {}{}{}", key, value, empty ? "" : ",", empty && !space ? " " : ""));
     } else {
-      const Position at = document_.lines().position(map.extent.begin);
-      add(std::move(title), {at, at}, fmt::format("{}: {}\n{}", key, value, std::string(map.column, ' ')));
+      add_at(map.extent.begin, std::move(title),
+             fmt::format("{}: {}\n{}", key, value, std::string(map.column, ' ')));
     }
   }
 
@@ -94,11 +97,9 @@ class Fixer {
     if (body.find("next") == nullptr)
       return add_entry(behaviour->way, "next", fmt::format("[{}, end]", entry), title);
     if (next.is_sequence() && next.flow) {
-      const Position at = document_.lines().position(next.extent.begin + 1);
-      add(title, {at, at}, entry + (next.items.empty() ? "" : ", "));
+      add_at(next.extent.begin + 1, title, entry + (next.items.empty() ? "" : ", "));
     } else if (next.is_sequence()) {
-      const Position at = document_.lines().position(next.extent.begin);
-      add(title, {at, at}, fmt::format("- {}\n{}", entry, std::string(next.column, ' ')));
+      add_at(next.extent.begin, title, fmt::format("- {}\n{}", entry, std::string(next.column, ' ')));
     } else if (next.is_scalar() || next.flow) {
       const Range whole = document_.lines().range(next.extent);
       const std::string text =
@@ -122,10 +123,9 @@ class Fixer {
     if (behaviour == nullptr) return;
     const Node& next = node_at(document_.outline(), behaviour->way)["next"];
     if (!next.is_sequence() || next.items.empty()) return;
-    const std::size_t end = next.items.back()->extent.end;
-    const Position at = document_.lines().position(end);
-    const std::string title = "Add a last entry without a condition: end";
-    add(title, {at, at}, next.flow ? ", end" : fmt::format("\n{}- end", std::string(next.column, ' ')));
+    const std::size_t end = next.items.back().value->extent.end;
+    add_at(end, "Add a last entry without a condition: end",
+           next.flow ? ", end" : fmt::format("\n{}- end", std::string(next.column, ' ')));
   }
 
   /// Offers that need no diagnostic.
@@ -134,15 +134,15 @@ class Fixer {
     if (const UnitNames* unit = unit_here(offset); unit != nullptr && unit->role == SubsystemRole::effector &&
                                                    index_[unit->symbol].definition.touches(offset))
       write_safe(*unit);
-    for (const Node* channel : document_.outline().root()["channels"].items) {
+    for (const Entry& item : document_.outline().root()["channels"].items) {
+      const Node* channel = item.value;
       const bool waits = (*channel)["send"].text == "blocking" || (*channel)["receive"].text == "blocking";
       const bool limited = channel->find("timeout") != nullptr || channel->find("send_timeout") != nullptr ||
                            channel->find("receive_timeout") != nullptr;
       if (!channel->is_map() || !channel->extent.touches(offset) || !waits || limited || !channel->flow)
         continue;
       const std::size_t last = channel->entries.back().value->extent.end;
-      const Position at = document_.lines().position(last);
-      add("Wait for at most 200 ms: timeout", {at, at}, ", timeout: 200 ms");
+      add_at(last, "Wait for at most 200 ms: timeout", ", timeout: 200 ms");
     }
   }
 

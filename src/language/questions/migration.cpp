@@ -15,9 +15,6 @@ namespace {
 using spec::Behaviour;
 using spec::FormerRoute;
 
-bool is_blank(char one) { return one == ' ' || one == '\t'; }
-bool is_line_end(char one) { return one == '\n' || one == '\r'; }
-
 /// Writes the entries of `next` for one text.
 class Migrator {
  public:
@@ -66,93 +63,29 @@ class Migrator {
     return nullptr;
   }
 
-  /// The first byte of the value of a key, with its anchor, tag or quote; npos: the value begins on another line.
-  [[nodiscard]] std::size_t value_of(const Entry& entry) const {
-    std::size_t at = entry.extent.end;
-    if (at < text_.size() && (text_[at] == '"' || text_[at] == '\'')) ++at;
-    while (at < text_.size() && is_blank(text_[at])) ++at;
-    if (at >= text_.size() || text_[at] != ':') return std::string::npos;
-    ++at;
-    while (at < text_.size() && is_blank(text_[at])) ++at;
-    if (at >= text_.size() || is_line_end(text_[at]) || text_[at] == '#') return std::string::npos;
-    return at;
-  }
-
   [[nodiscard]] TextEdit edit(Extent extent, std::string with) const {
     return {.path = "", .range = document_.lines().range(extent), .text = std::move(with)};
   }
 
+  /// A new item before one of a list, or a list of the new item and the value.
   [[nodiscard]] std::optional<TextEdit> edit_of(const Entry& entry, const FormerRoute& route,
                                                 const std::string& added) const {
     const Node& next = *entry.value;
-    const std::size_t value = value_of(entry);
-    if (next.is_sequence() && !next.flow) return before_line(next, route, added);
-    if (value == std::string::npos) return std::nullopt;
-    const bool alias = text_[value] == '*';
     if (next.is_sequence()) {
-      if (alias) return std::nullopt;
-      const std::size_t item = flow_item(next.extent.begin, route.before.value);
-      if (item == std::string::npos) return std::nullopt;
-      return edit({item, item}, added + ", ");
+      if ((next.flow && entry.is_alias) || route.before.value >= next.items.size()) return std::nullopt;
+      const std::size_t item = next.items[route.before.value].whole.begin;
+      if (next.flow) return edit({item, item}, added + ", ");
+      const bool crlf = text_.find("\r\n") != std::string::npos;
+      return edit({item, item},
+                  fmt::format("- {}{}{}", added, crlf ? "\r\n" : "\n", std::string(next.column, ' ')));
     }
-    if (next.is_map() && !next.flow && !alias) return std::nullopt;
-    std::size_t end = next.extent.end;
-    if (alias) {
-      end = value + 1;
-      while (end < text_.size() && !is_blank(text_[end]) && !is_line_end(text_[end]) &&
-             std::string_view(",}]#").find(text_[end]) == std::string_view::npos)
-        ++end;
-    } else if (next.is_scalar() && next.quoted && end < text_.size() &&
-               (text_[end] == '"' || text_[end] == '\'')) {
-      ++end;
-    }
-    if (end <= value) return std::nullopt;
+    if (next.is_map() && !next.flow && !entry.is_alias) return std::nullopt;
+    // The value with its anchor or tag, if it begins on the line of its key.
+    const std::size_t value = text_.find_first_not_of(" \t", entry.behind), end = entry.written.end;
+    if (value >= end || std::string_view("\r\n#").find(text_[value]) != std::string_view::npos)
+      return std::nullopt;
     if (route.no_terminal && text_[value] != '&') return edit({value, end}, added);
     return edit({value, end}, fmt::format("[{}, {}]", added, text_.substr(value, end - value)));
-  }
-
-  /// A new line before that of the item of a block sequence.
-  [[nodiscard]] std::optional<TextEdit> before_line(const Node& next, const FormerRoute& route,
-                                                    const std::string& added) const {
-    if (route.before.value >= next.items.size()) return std::nullopt;
-    const Lines& lines = document_.lines();
-    const Node& item = *next.items[route.before.value];
-    if (!next.extent.touches(item.extent.begin)) return std::nullopt;  // an alias
-    const std::size_t start = lines.start_of(lines.position(item.extent.begin).line);
-    const std::size_t dash = start + next.column;
-    if (dash >= text_.size() || text_[dash] != '-') return std::nullopt;
-    const bool crlf = text_.find("\r\n") != std::string::npos;
-    return edit({dash, dash},
-                fmt::format("- {}{}{}", added, crlf ? "\r\n" : "\n", std::string(next.column, ' ')));
-  }
-
-  /// The first byte of item `number` of the list [...] at `begin`; npos: there is none.
-  [[nodiscard]] std::size_t flow_item(std::size_t begin, std::size_t number) const {
-    std::size_t depth = 0, items = 0;
-    bool starts = true;  // nothing of the item has been read
-    for (std::size_t at = begin; at < text_.size(); ++at) {
-      const char one = text_[at];
-      if (one == '#' && at > 0 && (is_blank(text_[at - 1]) || is_line_end(text_[at - 1]))) {
-        while (at + 1 < text_.size() && !is_line_end(text_[at + 1])) ++at;
-        continue;
-      }
-      if (depth == 1 && starts && !is_blank(one) && !is_line_end(one)) {
-        if (items == number) return at;
-        starts = false;
-      }
-      if (one == '"' || one == '\'') {
-        at = text_.find(one, at + 1);
-        if (at == std::string::npos) return at;
-      } else if (one == '[' || one == '{') {
-        ++depth;
-      } else if (one == ']' || one == '}') {
-        if (--depth == 0) break;
-      } else if (one == ',' && depth == 1) {
-        ++items;
-        starts = true;
-      }
-    }
-    return std::string::npos;
   }
 
   /// Only the steps of the subsystem in which the span lies.

@@ -10,8 +10,8 @@ bool find_place(const Node& node, std::size_t offset, const Node* parent, PlaceI
     place.parent = parent;
     return true;
   }
-  for (const Entry& entry : node.entries) {
-    if (entry.extent.touches(offset)) {
+  for (const Entry& entry : node.parts()) {
+    if (node.is_map() && entry.extent.touches(offset)) {
       place.key = &entry;
       place.parent = &node;
       return true;
@@ -19,12 +19,6 @@ bool find_place(const Node& node, std::size_t offset, const Node* parent, PlaceI
     if (!entry.value->extent.touches(offset)) continue;
     place.way.push_back(entry.key);
     if (find_place(*entry.value, offset, &node, place)) return true;
-    place.way.pop_back();
-  }
-  for (const Node* item : node.items) {
-    if (!item->extent.touches(offset)) continue;
-    place.way.emplace_back();
-    if (find_place(*item, offset, &node, place)) return true;
     place.way.pop_back();
   }
   return false;

@@ -31,6 +31,7 @@ class OutlineReader {
     // Skips the lines after one that fits nowhere.
     while (!done()) {
       const std::size_t before = at_;
+      alias_ = {};
       const Node* more = block(0, 0);
       if (root->is_map() && more->is_map()) {
         if (joined == nullptr) {
@@ -41,6 +42,7 @@ class OutlineReader {
         }
         joined->entries.insert(joined->entries.end(), more->entries.begin(), more->entries.end());
         joined->extent.end = at_;
+        joined->written = {root->extent.begin, more->written.end};
       }
       if (at_ == before) skip_line();
     }
@@ -144,20 +146,29 @@ class OutlineReader {
     Node& node = make(Node::Kind::sequence, at_);
     node.column = indent;
     while (!done() && column() == indent && at_dash()) {
-      node.dashes.push_back(at_);
-      alias_ = {};
-      ++at_;
+      const std::size_t dash = at_++;
       skip_blank();
       const Node* item = at_line_end()     ? block(indent + 1, depth + 1)
                          : depth < deepest ? content(column(), indent + 1, depth + 1)
                                            : too_deep();
-      node.items.push_back(item);
-      node.item_aliases.push_back(alias_);
+      node.items.push_back(placed({.value = item}, dash, dash + 1));
       node.extent.end = std::max(node.extent.end, item->extent.end);
       next_content();
     }
-    alias_ = {};
+    node.written = {node.extent.begin, node.items.back().whole.end};
     return &node;
+  }
+
+  /// Fills in where an entry or item stands that was read last. begin: its first byte.
+  Entry placed(Entry entry, std::size_t begin, std::size_t behind) {
+    entry.is_alias = !alias_.empty();
+    entry.behind = behind;
+    entry.written = entry.is_alias                          ? alias_
+                    : entry.value->kind == Node::Kind::null ? Extent{behind, behind}
+                                                            : entry.value->written;
+    entry.whole = {begin, entry.written.end};
+    alias_ = {};
+    return entry;
   }
 
   const Node* too_deep() {
@@ -174,21 +185,21 @@ class OutlineReader {
       node.extent.end = std::max(node.entries.back().extent.end, node.entries.back().value->extent.end);
       next_content();
     }
-    alias_ = {};
+    node.written = {node.extent.begin, node.entries.back().whole.end};
     return &node;
   }
 
   Entry entry(std::size_t indent, std::size_t depth) {
     const Key key = scan_key(text_, at_, false);
-    Entry entry{key.text, key.extent, {}, nullptr, true};
-    alias_ = {};
+    Entry entry{.key = key.text, .extent = key.extent};
+    const std::size_t begin = at_;
     at_ = key.after;
     if (here() != ':') {
       entry.complete = false;
       // The rest of a line that is no entry: an unfinished key, or a text without a key.
       while (!done() && !at_line_end()) ++at_;
       entry.value = &make(Node::Kind::null, key.extent.end);
-      return entry;
+      return placed(entry, begin, end_of(key, begin));
     }
     ++at_;
     const std::size_t after_colon = at_;
@@ -207,8 +218,12 @@ class OutlineReader {
     } else {
       entry.value = anchored(anchor, value(indent + 1, depth));
     }
-    entry.alias = alias_;
-    return entry;
+    return placed(entry, begin, after_colon);
+  }
+
+  /// The end of a key that begins there, with its quotes.
+  [[nodiscard]] static std::size_t end_of(const Key& key, std::size_t begin) {
+    return key.extent.end + (key.extent.begin - begin);
   }
 
   /// A scalar, an alias or a collection in brackets. least: the indentation of its further lines.
@@ -295,38 +310,36 @@ class OutlineReader {
       } else if (is_map) {
         node.entries.push_back(flow_entry(least, depth));
       } else {
-        alias_ = {};
-        node.items.push_back(flow_item(least, depth));
-        node.item_aliases.push_back(alias_);
+        const std::size_t begin = at_;
+        node.items.push_back(placed({.value = flow_item(least, depth)}, begin, begin));
       }
     }
     node.extent.end = at_;
-    alias_ = {};
+    node.written = node.extent;
     return &node;
   }
 
   Entry flow_entry(std::size_t least, std::size_t depth) {
     const Key key = scan_key(text_, at_, true);
-    Entry entry{key.text, key.extent, {}, nullptr, true};
-    alias_ = {};
+    Entry entry{.key = key.text, .extent = key.extent};
+    const std::size_t begin = at_;
     at_ = std::max(key.after, at_);
     skip_blank();
     if (here() != ':') {
       if (at_ == key.extent.begin && !at_line_end()) ++at_;
       entry.complete = false;
       entry.value = &make(Node::Kind::null, at_);
-      return entry;
+      return placed(entry, begin, end_of(key, begin));
     }
     ++at_;
     const std::size_t after_colon = at_;
     const std::size_t key_line = line_start_;
     if (!flow_content(least, key_line) || here() == ',' || here() == '}' || here() == ']') {
       entry.value = &make(Node::Kind::null, after_colon);
-      return entry;
+    } else {
+      entry.value = flow_value(least, depth);
     }
-    entry.value = flow_value(least, depth);
-    entry.alias = alias_;
-    return entry;
+    return placed(entry, begin, after_colon);
   }
 
   const Node* flow_value(std::size_t least, std::size_t depth) {
@@ -348,7 +361,7 @@ class OutlineReader {
       map.flow = true;
       map.entries.push_back(flow_entry(least, depth));
       map.extent.end = at_;
-      alias_ = {};
+      map.written = {map.extent.begin, map.entries.back().whole.end};
       return &map;
     }
     const Node* node = flow_value(least, depth);
@@ -361,7 +374,7 @@ class OutlineReader {
   std::size_t at_ = 0;
   std::size_t line_start_ = 0;
   std::string anchor_;
-  Extent alias_;  ///< the alias that was read last; empty: the last value is none
+  Extent alias_;  ///< the alias that was read as the value of the present entry; empty: none
   std::map<std::string, const Node*> anchors_;
   std::vector<Anchor>& names_;
 };

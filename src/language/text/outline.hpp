@@ -14,32 +14,35 @@ namespace tessera::language {
 
 struct Node;
 
-/// A key of a map with its value.
+/// A key of a map with its value, or an item of a sequence, which has no key.
 struct Entry {
-  std::string key;
-  Extent extent;                ///< of the key without quotes
-  Extent alias;                 ///< the alias that stands for the value, with its *; empty: none does
+  std::string key{};
+  Extent extent{};              ///< of the key without quotes
   const Node* value = nullptr;  ///< never null
   bool complete = true;         ///< false: there is no colon yet
+  bool is_alias = false;        ///< an alias stands for the value
+  Extent whole{};          ///< from the quotes of the key, the dash or the anchor to the end of the value
+  Extent written{};        ///< the value as it is written, or the alias; empty: there is none
+  std::size_t behind = 0;  ///< where a value may begin: behind the colon or the dash
 };
 
 struct Node {
   enum class Kind : std::uint8_t { null, scalar, sequence, map } kind = Kind::null;
   Extent extent;           ///< a scalar: its text without quotes; others: from the first to the last byte
-  Extent written;          ///< of a scalar: with its quotes, or from | or > on
+  Extent written;          ///< with the quotes of scalars, or from | or > on
   std::string text;        ///< of a scalar
   bool quoted = false;     ///< '...', "..." or a block (|, >)
   bool verbatim = false;   ///< text is exactly the bytes of `extent`
   bool flow = false;       ///< { } or [ ]
   std::size_t column = 0;  ///< of a block map or sequence: bytes before its entries
   std::vector<Entry> entries;
-  std::vector<const Node*> items;
-  std::vector<Extent> item_aliases;  ///< of each item, like Entry::alias
-  std::vector<std::size_t> dashes;   ///< of each item of a block sequence
+  std::vector<Entry> items;
 
   [[nodiscard]] bool is_scalar() const { return kind == Kind::scalar; }
   [[nodiscard]] bool is_map() const { return kind == Kind::map; }
   [[nodiscard]] bool is_sequence() const { return kind == Kind::sequence; }
+  /// The entries of a map, or the items of a sequence.
+  [[nodiscard]] const std::vector<Entry>& parts() const { return is_map() ? entries : items; }
   /// The first entry of that key, or nullptr.
   [[nodiscard]] const Entry* find(std::string_view key) const;
   /// The value of that key; a null node if there is none.

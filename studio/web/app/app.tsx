@@ -25,10 +25,10 @@ export function App() {
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
-  const editing = useStore(studio.draft.store, (draft) => draft.editing);
+  const busy = useStore(studio.draft.store, (draft) => draft.editing || draft.checking);
   useShortcuts();
   return (
-    <div className="app" aria-busy={editing}>
+    <div className="app" aria-busy={busy}>
       <EmergencyBar />
       <Toolbar />
       <ConnectionBanner />
@@ -70,8 +70,8 @@ function useShortcuts(): void {
       const actions: Record<string, () => void> = {
         k: () => studio.view.set({ searching: true }),
         s: () => void studio.draft.save(),
-        z: () => void (event.shiftKey ? studio.draft.redo() : studio.draft.undo()),
-        y: () => void studio.draft.redo(),
+        z: () => void (event.shiftKey ? studio.editor.redo() : studio.editor.undo()),
+        y: () => void studio.editor.redo(),
       };
       const action = actions[event.key.toLowerCase()];
       if (!action || isField(event.target, event.key)) return;

@@ -14,9 +14,10 @@ import {
 } from "@xyflow/react";
 import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
+import { keysNow, named } from "../live/editor";
 import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { connect as connectEdit, freeName, freshAgent, insert, remove } from "../model/text/edits";
+import { connect as connectEdit, freshAgent, insert, remove } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
 import { channelEnd } from "../model/structure/connections";
 import { channelOf, channelPath, findThing, withoutIndex, type Structure } from "../model/structure/structure";
@@ -194,7 +195,7 @@ function Drawing() {
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
     const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
-    void studio.change(connectEdit(from, to), { selected: channelPath(structure.channels.length), panel: "inspect" });
+    void studio.change(connectEdit(from, to), (now) => ({ selected: channelPath(now.channels.length - 1), panel: "inspect" }));
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
@@ -214,15 +215,12 @@ function Drawing() {
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);
     if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
-      void studio.change(remove(["channels", thing.of.index]), { selected: null });
+      void studio.change(remove(["channels", thing.of.index]), () => ({ selected: null }));
     }
   };
   const add = () => {
-    const name = freeName(
-      "agent",
-      structure.agents.map((agent) => agent.name),
-    );
-    void studio.change(insert(["agents"], name, freshAgent), { selected: name, panel: "inspect" });
+    const added = named("agent", keysNow(["agents"]), (name) => insert(["agents"], name, freshAgent));
+    void studio.change(added.wish, () => ({ selected: added.name, panel: "inspect" }));
   };
   return (
     <div className="canvas structure" data-testid="structure">

@@ -1,4 +1,5 @@
 import { createContext, useContext, useRef, useSyncExternalStore } from "react";
+import { isUnsaved } from "../live/draft";
 import type { Store } from "../live/store";
 import type { Studio } from "../live/studio";
 
@@ -28,7 +29,7 @@ export function useStore<T extends object, S>(store: Store<T>, select: (value: T
 /** Whether a run would save something first: the specification, or C++. */
 export function useUnsaved(): boolean {
   const studio = useStudio();
-  const specification = useStore(studio.draft.store, (draft) => draft.text !== draft.saved);
+  const specification = useStore(studio.draft.store, isUnsaved);
   const code = useStore(studio.sources.store, (all) => all.unsaved.length > 0);
   return specification || code;
 }

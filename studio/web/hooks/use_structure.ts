@@ -1,17 +1,12 @@
 import { useMemo } from "react";
-import { readStructure, thingAt, type Structure } from "../model/structure/structure";
+import { structureOf, thingAt, type Structure } from "../model/structure/structure";
 import { useStore, useStudio } from "./use";
 
-let last: { text: string; structure: Structure } | null = null;
-
-/** The structure of the current text, read once for all components. */
+/** The structure of the current text. */
 export function useStructure(): Structure {
   const studio = useStudio();
   const text = useStore(studio.draft.store, (draft) => draft.text);
-  return useMemo(() => {
-    if (last?.text !== text) last = { text, structure: readStructure(text) };
-    return last.structure;
-  }, [text]);
+  return structureOf(text);
 }
 
 /** Complaints by the path of the element on whose line they are. */

@@ -1,10 +1,10 @@
 import { History, type FileStep } from "../model/history";
-import { after, applied } from "../model/text/edits";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
 import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError, message } from "./api";
-import type { Analysis, Diagnostic, Edit, EditAnswer, FileRenamed, SpecAnswer } from "./protocol";
+import type { Analysis, Diagnostic, Edit, FileRenamed, SpecAnswer } from "./protocol";
+import { Queue } from "./queue";
 import { Store } from "./store";
 
 export interface DraftState {
@@ -38,6 +38,16 @@ interface File {
   revision: string;
 }
 
+/** What a tab keeps until it is saved: its text, the text on disk that this began with, and edits that are not done. */
+interface Kept {
+  text?: string;
+  base?: string;
+  edits?: Edit[][];
+}
+
+/** Whether something is not in the file: an edit that is not done yet is neither. */
+export const isUnsaved = ({ text, saved, editing }: DraftState) => editing || text !== saved;
+
 const netOf = ({ net, net_hash }: Analysis, text: string) => (net ? new NetModel(net, net_hash ?? "", text) : null);
 
 /**
@@ -62,16 +72,14 @@ export class Draft {
     editing: false,
     renaming: null,
   });
-  /** Saves what other parts of the page hold of the files that a rename changes. false: it is not saved. */
-  saveOthers: () => Promise<boolean> = () => Promise.resolve(true);
   /** Called with the names of files that this page has written. */
   wrote: (files: readonly string[]) => void = () => {};
-  /** The edits that the server is asked for, one after the other. */
-  private editing: Promise<unknown> = Promise.resolve();
-  private waiting = 0;
-  /** The renames that are done: an edit that was asked for meanwhile has the old names. */
-  private readonly renamed: Edit[] = [];
-  private agreed: (yes: boolean) => void = () => {};
+  /** The edits that are not done yet, and all that has to wait for them. */
+  readonly queue = new Queue((editing) => this.store.set({ editing }));
+  /** The page is about to be closed or loaded again. Requests without an answer are broken off then. */
+  leaving = false;
+  /** These edits, so that a reload does not forget them. */
+  private waiting: Edit[][] = [];
   private name = "";
   /** The key under which this tab keeps unsaved text. Each project has its own: another may be served at this address. */
   private kept = "";
@@ -83,25 +91,33 @@ export class Draft {
 
   constructor(private readonly api: Api) {}
 
-  get dirty(): boolean {
-    return this.store.get().text !== this.store.get().saved;
+  get text(): string {
+    return this.store.get().text;
   }
 
-  /** Reads the file, and restores text that this tab had not saved before a reload. name: of the file, with its folder. */
-  async load(name: Promise<string>): Promise<void> {
+  get dirty(): boolean {
+    return isUnsaved(this.store.get());
+  }
+
+  /**
+   * Reads the file, and restores text that this tab had not saved before a reload. name: of the file, with its folder. Gives
+   * the edits that were not done then.
+   */
+  async load(name: Promise<string>): Promise<Edit[][]> {
     const [answer, of] = await Promise.all([this.api.spec(), name]);
     this.kept = `tessera.draft ${of}`;
     this.name = of.split("/").at(-1)!;
     const file = this.fileOf(answer);
     this.history = new History(file.text);
     this.onDisk(file);
-    const { text, base } = JSON.parse(sessionStorage.getItem(this.kept) ?? "{}") as { text?: string; base?: string };
+    const { text, base, edits = [] } = JSON.parse(sessionStorage.getItem(this.kept) ?? "{}") as Kept;
     this.store.set({ text: file.text, loaded: true });
     this.analysed(answer.analysis.diagnostics, netOf(answer.analysis, file.text));
-    if (text === undefined || text === file.text) return;
+    if (text === undefined || text === file.text) return edits;
     const merged = merge(base ?? file.text, text, file.text);
     this.edit(merged ?? text, "reload");
     if (merged === null) this.ask(file, base ?? file.text);
+    return edits;
   }
 
   /** Asks about the lines that both changed. Until then, this tab keeps the text that they were before. */
@@ -134,104 +150,44 @@ export class Draft {
   }
 
   /**
-   * Does an edit. If a rename changes other files, the user is asked first; then the specification and all of them are
-   * written together. then: called with the new text. false: it was not done, and a notice says why.
+   * An edit of the text `before`. What was typed since then stays, and is the first that is undone. false: it is not done,
+   * since the same lines were changed.
    */
-  change(edit: Edit | Edit[], then: () => void = () => {}): Promise<boolean> {
-    const known = this.renamed.length;
-    const now = (one: Edit) => this.renamed.slice(known).reduce((all, renamed) => after(renamed, all), one);
-    return this.queued(async () => {
-      const edits = [edit].flat().map(now);
-      const done = await this.changeNow(edits, then);
-      if (done) this.renamed.push(...edits.filter((one) => one.do === "rename"));
-      return done;
-    });
+  editOf(before: string, after: string): boolean {
+    if (before === after) return true;
+    if (!this.history.insert(before, after, performance.now(), merge)) return false;
+    this.show(this.history.current);
+    return true;
   }
 
-  /** The text after an edit, which is not done; undefined: it cannot be done. */
-  async preview(edit: Edit): Promise<{ before: string; after: string } | undefined> {
-    await this.settled();
-    const before = this.store.get().text;
-    const answer = await this.answerTo(before, edit);
-    return answer && { before, after: applied(before, answer.edits) };
+  /** What is typed from now on is a step of its own. */
+  endTyping(): void {
+    this.history.endTyping();
+  }
+
+  /** Keeps edits that are asked for in this tab, until the function that it gives is called. */
+  keepEdits(edits: Edit[]): () => void {
+    this.waiting.push(edits);
+    this.keep();
+    return () => {
+      this.waiting = this.waiting.filter((one) => one !== edits);
+      this.keep();
+    };
   }
 
   /** All edits so far are done or refused. */
-  async settled(): Promise<void> {
-    await this.editing;
+  settled(): Promise<void> {
+    return this.queue.settled();
   }
 
-  private queued<T>(work: () => Promise<T>): Promise<T> {
-    this.waiting += 1;
-    this.store.set({ editing: true });
-    const done = this.editing.then(work).finally(() => {
-      this.waiting -= 1;
-      this.store.set({ editing: this.waiting > 0 });
-    });
-    this.editing = done.catch(() => undefined);
-    return done;
-  }
-
-  private refused(why: string): false {
+  /** Tells why an edit is not done. */
+  refused(why: string): false {
     this.store.set({ notice: `Not changed: ${why}` });
     return false;
   }
 
-  private async answerTo(text: string, edit: Edit | Edit[]): Promise<EditAnswer | undefined> {
-    try {
-      return await this.api.edit(text, edit);
-    } catch (error) {
-      this.refused(message(error));
-      return undefined;
-    }
-  }
-
-  private async changeNow(edit: Edit[], then: () => void): Promise<boolean> {
-    // Text that was typed meanwhile stays.
-    for (;;) {
-      const { text } = this.store.get();
-      const answer = await this.answerTo(text, edit);
-      if (!answer) return false;
-      if (this.store.get().text !== text) continue;
-      if (answer.files.length > 0) return this.renameEverywhere(edit, answer.files, then);
-      this.edit(applied(text, answer.edits), "edit");
-      then();
-      return true;
-    }
-  }
-
-  /** The answer of the user to a rename that changes other files. */
-  agree(yes: boolean): void {
-    this.agreed(yes);
-  }
-
-  private async renameEverywhere(edit: Edit[], files: readonly FileRenamed[], then: () => void): Promise<boolean> {
-    this.store.set({ renaming: { name: edit[0]!.text ?? "", files } });
-    const yes = await new Promise<boolean>((agreed) => (this.agreed = agreed));
-    this.store.set({ renaming: null });
-    if (!yes) return false;
-    if (this.store.get().conflict) return this.refused("the file was changed by another program");
-    if (!(await this.saveOthers())) return this.refused("a function is not saved");
-    const { text } = this.store.get();
-    const answer = await this.answerTo(text, edit);
-    if (!answer) return false;
-    const after = applied(text, answer.edits);
-    const changed = answer.files.filter(({ lines }) => lines.length > 0);
-    const texts = changed.map((one) => ({ ...one, text: one.after }));
-    if (!(await this.write(after, texts))) return false;
-    this.edit(this.withTyped(text, after), "rename", changed);
-    this.keep();
-    then();
-    return true;
-  }
-
-  /** The text `after`, with what was typed since it was `before`. If both changed the same lines, undo leads to the typed ones. */
-  private withTyped(before: string, after: string): string {
-    return merge(before, after, this.store.get().text) ?? after;
-  }
-
   /** Writes the specification and other files together. */
-  private async write(text: string, others: readonly { file: string; text: string; revision: string }[]): Promise<boolean> {
+  async write(text: string, others: readonly { file: string; text: string; revision: string }[]): Promise<boolean> {
     while (this.saving) await this.saving;
     this.saving = this.writeNow(text, others);
     const written = await this.saving;
@@ -252,37 +208,13 @@ export class Draft {
     }
   }
 
-  undo = (): Promise<void> => this.step("undo");
-  redo = (): Promise<void> => this.step("redo");
-
-  private async step(way: "undo" | "redo"): Promise<void> {
-    if (this.waiting === 0 && !this.history.ahead(way)?.files.length) return this.show(this.history[way]());
-    await this.queued(async () => {
-      const ahead = this.history.ahead(way);
-      const { text } = this.store.get();
-      if (!ahead || (ahead.files.length > 0 && !(await this.stepFiles(ahead.text, ahead.files)))) return;
-      if (this.store.get().text === text) this.show(this.history[way]());
-      else this.edit(this.withTyped(text, ahead.text), "rename", ahead.files);
-      this.keep();
-    });
+  /** The text and the files that undo or redo leads to; undefined: there is none. */
+  ahead(way: "undo" | "redo") {
+    return this.history.ahead(way);
   }
 
-  /** Takes a change of files back, or does it again; what was changed elsewhere in them since then stays. */
-  private async stepFiles(text: string, steps: readonly FileStep[]): Promise<boolean> {
-    if (!(await this.saveOthers())) return this.refused("a function is not saved");
-    const files = [];
-    for (const { file, before, after } of steps) {
-      let now;
-      try {
-        now = await this.api.source(file);
-      } catch (error) {
-        return this.refused(message(error));
-      }
-      const merged = merge(before, after, now.text);
-      if (merged === null) return this.refused(`the same lines of ${file} were changed since then. Rename it instead`);
-      files.push({ file, text: merged, revision: now.revision });
-    }
-    return this.write(text, files);
+  step(way: "undo" | "redo"): void {
+    this.show(this.history[way]());
   }
 
   private show(text: string | undefined): void {
@@ -293,10 +225,12 @@ export class Draft {
     this.timer = setTimeout(() => void this.check(), 120);
   }
 
-  private keep(): void {
+  /** Keeps in this tab what is not saved. */
+  keep(): void {
     const { text, saved, conflict } = this.store.get();
-    if (text === saved) sessionStorage.removeItem(this.kept);
-    else sessionStorage.setItem(this.kept, JSON.stringify({ text, base: conflict?.base ?? saved }));
+    const edits = this.waiting;
+    if (text === saved && edits.length === 0) sessionStorage.removeItem(this.kept);
+    else sessionStorage.setItem(this.kept, JSON.stringify({ text, base: conflict?.base ?? saved, edits }));
   }
 
   private async check(): Promise<void> {
@@ -338,6 +272,8 @@ export class Draft {
 
   /** The server reports that the file changed on disk. */
   async changedOnDisk(revision: string): Promise<void> {
+    // Edits that are not done yet are changes of this page, too.
+    await this.settled();
     await this.saving;
     if (revision === this.store.get().revision) return this.asBefore();
     let answer: SpecAnswer;

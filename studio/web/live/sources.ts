@@ -126,6 +126,7 @@ export class Sources {
   /** Writes the beginning of a function that is missing. */
   async add({ subsystem, function: name }: FunctionShown): Promise<void> {
     try {
+      await this.draft.settled();
       const { file } = await this.api.addFunction(this.draft.store.get().text, subsystem, name);
       await Promise.all([this.look(), this.open(file)]);
     } catch (error) {
@@ -136,6 +137,7 @@ export class Sources {
   /** Gives the function `from` the name of its behaviour, in all sources. */
   async rename({ subsystem, function: name }: FunctionShown, from: string): Promise<void> {
     try {
+      await this.draft.settled();
       const { files } = await this.api.renameFunction(this.draft.store.get().text, subsystem, from, name);
       await Promise.all([this.look(), ...files.filter((file) => file.startsWith("src/")).map((file) => this.open(file))]);
     } catch (error) {

@@ -5,13 +5,14 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
-import type { Edit, Project, RunRequest, Verdict } from "./protocol";
+import { Editor, type Wish } from "./editor";
+import type { Project, RunRequest, Verdict } from "./protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
-import { findThing, type Structure } from "../model/structure/structure";
+import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -49,6 +50,7 @@ export class Studio {
   readonly api = new Api(takeToken());
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
+  readonly editor = new Editor(this.api, this.draft);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
@@ -82,6 +84,8 @@ export class Studio {
   });
   /** The element that the last edit has selected. */
   private ledTo: string | null | undefined;
+  /** The element that was renamed last: its form stays the one under its old name, with what is typed there. */
+  private renamed = { path: "", form: "" };
   private serverStart: string | undefined;
   /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
@@ -89,7 +93,7 @@ export class Studio {
   private reloading = false;
 
   constructor() {
-    this.draft.saveOthers = () => this.sources.saveAll();
+    this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
@@ -109,8 +113,13 @@ export class Studio {
     this.operator.watch(document, window);
     // After a reload, what is not saved is there again; after the tab is closed, it is gone.
     addEventListener("beforeunload", (event) => {
+      // A field takes what is typed in it.
+      (document.activeElement as HTMLElement | null)?.blur();
+      this.draft.leaving = true;
       if (this.unsaved && !this.reloading) event.preventDefault();
     });
+    // The user has stayed.
+    for (const input of ["keydown", "pointerdown"]) addEventListener(input, () => (this.draft.leaving = false), true);
     // An address that is opened in this tab changes only the part after the #.
     addEventListener("hashchange", () => (hasToken() ? this.reload() : this.follow(readLink(location.hash))));
     this.draft.store.subscribe(() => {
@@ -152,7 +161,7 @@ export class Studio {
   async open(): Promise<void> {
     try {
       const asked = this.api.project();
-      const [project] = await Promise.all([asked, this.draft.load(asked.then(fileOf))]);
+      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
     } catch (error) {
@@ -192,7 +201,7 @@ export class Studio {
     if (!this.project.get().project) {
       const project = await this.api.project();
       this.project.set({ project, problem: "" });
-      await this.draft.load(Promise.resolve(fileOf(project)));
+      await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
     } else if (known !== undefined && known !== start) {
       const { project } = this.project.get();
@@ -266,14 +275,23 @@ export class Studio {
    * Does an edit of the specification and then selects what it leads to, unless the user has selected something else
    * meanwhile. The promise is false if the edit was refused.
    */
-  change(edit: Edit | Edit[], leadsTo: Partial<Pick<ViewState, "selected" | "panel">>): Promise<boolean> {
+  change(wish: Wish, leadsTo: (now: Structure) => Partial<Pick<ViewState, "selected" | "panel">> = () => ({})): Promise<boolean> {
     const asked = this.view.get().selected;
-    return this.draft.change(edit, () => {
+    const renamed = typeof wish !== "function" && !Array.isArray(wish) && wish.do === "rename";
+    return this.editor.change(wish, (before, moved) => {
       const { selected } = this.view.get();
-      if (leadsTo.selected === undefined || (selected !== asked && selected !== this.ledTo)) return;
-      this.ledTo = leadsTo.selected;
-      this.view.set(leadsTo);
+      const next = leadsTo(structureOf(this.draft.text));
+      if (next.selected !== undefined && (selected === asked || selected === this.ledTo)) {
+        if (renamed) this.renamed = { path: next.selected ?? "", form: this.formOf(selected ?? "") };
+        this.ledTo = next.selected;
+        this.view.set(next);
+      } else if (renamed && selected !== null) this.view.set({ selected: selectionAfter(structureOf(before), selected, moved) });
     });
+  }
+
+  /** The form of a selected element. */
+  formOf(selected: string): string {
+    return this.renamed.path === selected ? this.renamed.form : selected;
   }
 
   /** Selects an element of the structure, its line and its form. */

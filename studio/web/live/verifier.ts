@@ -31,6 +31,7 @@ export class Verifier {
     problem: "",
   });
   private job: string | null = null;
+  private started = 0;
 
   constructor(
     private readonly api: Api,
@@ -45,9 +46,15 @@ export class Verifier {
   }
 
   async start(): Promise<void> {
+    this.job = null;
+    const started = ++this.started;
+    const { text: before, net: drawn } = this.draft.store.get();
+    const begun = { property: "", states: 0, rate: 0, verdicts: [], problem: "" };
+    this.store.set({ ...begun, state: "running", text: before, net: drawn });
     await this.draft.settled();
+    if (started !== this.started || this.store.get().state !== "running") return;
     const { text, net } = this.draft.store.get();
-    this.store.set({ state: "running", property: "", states: 0, rate: 0, verdicts: [], text, net, problem: "" });
+    this.store.set({ text, net });
     try {
       this.job = (await this.api.verify(text)).job;
       await this.ask();

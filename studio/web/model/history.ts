@@ -45,6 +45,35 @@ export class History {
     this.lastTime = now;
   }
 
+  /** The next change is a step of its own, whatever its kind is. */
+  endTyping(): void {
+    this.lastKind = "";
+  }
+
+  /**
+   * A change of one of the last texts, `before`. The steps that followed stay after it: merged tells their texts with it, from
+   * the text that both changed. false: it was not done, since one of them has no such text.
+   */
+  insert(
+    before: string,
+    after: string,
+    now: number,
+    merged: (base: string, mine: string, theirs: string) => string | null,
+  ): boolean {
+    if (before === this.now.text) {
+      this.change(after, "edit", now);
+      return true;
+    }
+    const all = [...this.past, this.now];
+    const at = all.findLastIndex(({ text }) => text === before);
+    const later = all.slice(at + 1).map((step) => ({ ...step, text: merged(before, after, step.text) }));
+    if (at < 0 || !later.every((step): step is Step => step.text !== null)) return false;
+    this.past.splice(at + 1, Infinity, { text: after, files: [] }, ...later);
+    this.now = this.past.pop()!;
+    this.future.length = 0;
+    return true;
+  }
+
   /** The text and the files that a step leads to; undefined: there is none. */
   ahead(way: "undo" | "redo"): Step | undefined {
     if (way === "redo") return this.future.at(-1);

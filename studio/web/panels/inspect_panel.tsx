@@ -41,7 +41,7 @@ export function InspectPanel() {
       {net && <MemoryNow subsystem={ownerOf(thing, selected)} />}
       {thing && (
         <Suspense fallback={<p className="faint">Loading the form…</p>}>
-          <EditForm key={selected} structure={structure} thing={thing} />
+          <EditForm key={studio.formOf(selected)} structure={structure} thing={thing} />
         </Suspense>
       )}
       {net && element && (

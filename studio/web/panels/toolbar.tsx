@@ -1,4 +1,5 @@
 import { useStore, useStudio } from "../hooks/use";
+import { isUnsaved } from "../live/draft";
 import type { View } from "../model/view_state";
 import { About } from "./about";
 import { Icon, IconButton } from "./icons";
@@ -10,7 +11,7 @@ export function Toolbar() {
   const project = useStore(studio.project, (all) => all.project);
   const { view, text, theme } = useStore(studio.view, (all) => all);
   const draft = useStore(studio.draft.store, (all) => all);
-  const dirty = draft.text !== draft.saved;
+  const dirty = isUnsaved(draft);
   const views: View[] = project && project.processes.length > 0 ? ["net", "structure", "fleet"] : ["net", "structure"];
   const choose = (next: View) => studio.view.set({ view: next });
   return (
@@ -37,15 +38,15 @@ export function Toolbar() {
         name="undo"
         label="Undo"
         title="Undo (Ctrl Z)"
-        disabled={!draft.canUndo}
-        onClick={() => void studio.draft.undo()}
+        disabled={!draft.canUndo && !draft.editing}
+        onClick={() => void studio.editor.undo()}
       />
       <IconButton
         name="redo"
         label="Redo"
         title="Redo (Ctrl Shift Z)"
-        disabled={!draft.canRedo}
-        onClick={() => void studio.draft.redo()}
+        disabled={!draft.canRedo && !draft.editing}
+        onClick={() => void studio.editor.redo()}
       />
       <button
         className="icon"

@@ -109,6 +109,15 @@ export function readStructure(text: string): Structure {
   };
 }
 
+let last: { text: string; structure: Structure }[] = [];
+
+/** The same, read once for all who ask for one of the last texts. */
+export function structureOf(text: string): Structure {
+  const known = last.find((one) => one.text === text);
+  if (!known) last = [{ text, structure: readStructure(text) }, ...last].slice(0, 4);
+  return (known ?? last[0]!).structure;
+}
+
 /** The template of a name, with its subsystems; undefined: there is none. */
 export function readTemplate({ yaml }: Structure, name: string): Agent | undefined {
   const at = ["templates", name];
@@ -262,6 +271,20 @@ export function findThing(structure: Structure, selection: string): Thing | unde
   if (behaviour) return { kind: "behaviour", of: behaviour, subsystem };
   const buffer = subsystem.buffers.find((one) => one.name === rest[1] && (!direction || one.direction === direction));
   return buffer && { kind: "buffer", of: buffer, subsystem };
+}
+
+/** What selects an element after paths in the file have changed: `moved` gives the present one of a path. */
+export function selectionAfter(structure: Structure, selection: string, moved: (at: YamlPath) => YamlPath): string {
+  const direction = selection.slice(0, selection.length - selectedPath(selection).length);
+  const names = selectedPath(selection).split(".");
+  const present = names.map((name, index) => {
+    const part = names.slice(0, index + 1).join(".");
+    const thing = findThing(structure, index === names.length - 1 ? direction + part : part);
+    if (!thing || thing.kind === "channel") return name;
+    const [own] = /^template:/.exec(name) ?? [""];
+    return `${own}${String(moved(thing.of.yaml).at(-1))}${/\[.*$/.exec(name)?.[0] ?? ""}`;
+  });
+  return direction + present.join(".");
 }
 
 /** The innermost element on a line. */

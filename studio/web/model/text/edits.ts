@@ -1,5 +1,7 @@
 import type { Agent, Behaviour, Buffer, Channel, Subsystem, SubsystemKind } from "../structure/structure";
 import { lineStarts } from "./line_ends";
+import { diff } from "./merge";
+import type { YamlPath, YamlText } from "./yaml_text";
 
 /** Edits as the server does them (`POST /api/edit`): share/tessera/studio.schema.json defines their form. */
 
@@ -65,13 +67,48 @@ export const replace = (at: At, value: EditValue): Edit => ({ do: "replace", at:
 export const remove = (at: At): Edit => ({ do: "remove", at: path(at) });
 /** Gives it another name wherever it is used, also in C++ and params.yaml. */
 export const rename = (at: At, name: string): Edit => ({ do: "rename", at: path(at), text: name });
-/** An edit that was asked for before the rename of another, or the same, part was done. */
-export function after(renamed: Edit, { at = [], key, ...edit }: Edit): Edit {
-  const { at: from = [], text: name = "" } = renamed;
-  const isFrom = (path: At) => path.length >= from.length && from.every((step, index) => step === path[index]);
-  const moved = isFrom(at) ? at.map((step, index) => (index === from.length - 1 ? name : step)) : at;
-  const isKey = edit.do === "set" && from.length === at.length + 1 && key !== undefined && isFrom([...at, key]);
-  return { ...edit, at: moved, ...(key === undefined ? {} : { key: isKey ? name : key }) };
+/** A path that was known before the rename of an element was done. */
+export function pathAfter({ at: from = [], text: name = "" }: Edit, at: At): At {
+  const isInside = at.length >= from.length && from.every((step, index) => step === at[index]);
+  return isInside ? at.map((step, index) => (index === from.length - 1 ? name : step)) : at;
+}
+
+/** Texts of the items of a list. */
+const itemsAt = (yaml: YamlText, at: At) => (yaml.seq(at)?.items ?? []).map((_, index) => yaml.valueText([...at, index]) ?? "");
+
+/** The number of an item after others were removed, added or put back; undefined: it is gone itself. */
+function numberNow(index: number, before: readonly string[], after: readonly string[]): number | undefined {
+  let now = index;
+  for (const { from, to, lines } of before.length > 0 ? diff(before, after) : []) {
+    if (to <= index) now += lines.length - (to - from);
+    else if (from <= index && lines.length < to - from) return undefined;
+  }
+  return now;
+}
+
+/**
+ * The path, in the text `now`, of an element that stood at a path of the text `before`. renamed: its path with the names that
+ * were given since then.
+ */
+export function pathNow(at: At, renamed: (at: At) => At, before: YamlText, now: YamlText): YamlPath {
+  const found = [...renamed(at)];
+  if (before !== now)
+    at.forEach((step, index) => {
+      if (typeof step !== "number") return;
+      const number = numberNow(step, itemsAt(before, at.slice(0, index)), itemsAt(now, found.slice(0, index)));
+      if (number === undefined) throw new Error("it is not there any more");
+      found[index] = number;
+    });
+  return found;
+}
+
+/** An edit with the paths that elements have now. */
+export function moved({ at = [], key, ...edit }: Edit, now: (at: At) => At): Edit {
+  const number = edit.do === "next" && key !== undefined ? Number(key) : undefined;
+  const last = edit.do === "set" && key !== undefined ? now([...at, key]).at(-1) : undefined;
+  const next = number === undefined ? undefined : now([...at, "next", number]).at(-1);
+  const present = last ?? next ?? key;
+  return { ...edit, at: [...now(at)], ...(present === undefined ? {} : { key: String(present) }) };
 }
 
 export const makeTemplate = (agent: Agent): Edit => ({ do: "make_template", at: path(agent.yaml) });

@@ -40,16 +40,16 @@ export function parameterParts(yaml: YamlText, at: YamlPath): ParameterParts {
 /** A part of a map in one line. */
 const inMap = (text: string) => (/^[\w./+-][^,[\]{}#:"']*$/.test(text) || text.startsWith("[") ? text : JSON.stringify(text));
 
-/** Changes parts of a parameter. It keeps its short form as long as that can express it. */
-export function setParameter(yaml: YamlText, at: YamlPath, change: Partial<ParameterParts>): Edit {
-  const before = parameterParts(yaml, at);
+/** Changes parts of a parameter; present: its path in `yaml`, if it is another one. It keeps its short form as long as that can express it. */
+export function setParameter(yaml: YamlText, at: YamlPath, change: Partial<ParameterParts>, present = at): Edit {
+  const before = parameterParts(yaml, present);
   const after = { ...before, ...change };
   if (after.type && !isNumber(after.type.split("[")[0]!)) Object.assign(after, { unit: "", min: "", max: "" });
   if (after.type === "bool" && !/^(true|false)$/.test(after.value)) after.value = "false";
   // A text needs its quotes.
   const as = after.type.startsWith("string") ? "quoted" : "scalar";
-  if (isMap(yaml.node(at)) && after.type === before.type) {
-    const apart = yaml.node([...at, "unit"]) !== undefined;
+  if (isMap(yaml.node(present)) && after.type === before.type) {
+    const apart = yaml.node([...present, "unit"]) !== undefined;
     const [key] = Object.keys(change) as (keyof ParameterParts)[];
     if (key === "min" || key === "max") return set(at, key, after[key]);
     if (key === "unit" && (apart || !before.unit)) return set(at, "unit", after.unit);

@@ -49,7 +49,7 @@ export function BehaviourForm({
       <CodeForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
       <div className="buttons">
-        <Remove what="behaviour" structure={structure} at={behaviour.yaml} select={subsystem.path} />
+        <Remove what="behaviour" at={behaviour.yaml} select={subsystem.path} />
       </div>
     </>
   );

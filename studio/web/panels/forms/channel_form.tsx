@@ -61,7 +61,7 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
       />
       {structure.yaml.map(at) && <ObjectFields structure={structure} at={at} shapes={timeouts} />}
       <div className="buttons">
-        <Remove what="channel" structure={structure} at={at} select={null} />
+        <Remove what="channel" at={at} select={null} />
       </div>
     </>
   );

@@ -23,7 +23,7 @@ export function ConnectForm({ structure, buffer }: { structure: Structure; buffe
     if (!chosen) return;
     const ends = [buffer.path, chosen.path].map((path) => channelEnd(structure, path));
     const [from, to] = sends ? ends : ends.reverse();
-    void edit(edits.connect(from!, to!), channelPath(structure.channels.length));
+    void edit(edits.connect(from!, to!), (now) => channelPath(now.channels.length - 1));
   };
   return (
     <div className="field connect">

@@ -76,6 +76,13 @@ function optionsOf({ kind, options }: DriverKind, value: unknown): readonly Fiel
   return definition ? fieldsFor({ $ref: `#/$defs/${definition}` }, schema, value) : options;
 }
 
+/** The kind of a driver and its device. */
+function driverAt({ yaml }: Structure, at: YamlPath) {
+  const keys = yaml.keys(at);
+  const is = kinds.find(({ kind }) => keys.includes(kind));
+  return { is, target: is ? (yaml.valueText([...at, is.kind]) ?? "") : "" };
+}
+
 interface DriverFieldsProps {
   structure: Structure;
   at: YamlPath;
@@ -87,16 +94,17 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
   const { yaml } = structure;
   const edit = useEdit();
   const problem = useProblems(structure);
-  const keys = yaml.keys(at);
-  const is = kinds.find(({ kind }) => keys.includes(kind));
+  const { is, target } = driverAt(structure, at);
   const possible = fitting(sideOf(structure, String(at.at(-1))), where);
   const choices = is && !possible.includes(is) ? [is, ...possible] : possible;
-  const target = is ? (yaml.valueText([...at, is.kind]) ?? "") : "";
   const choose = (kind: string) => {
     const next = kinds.find((one) => one.kind === kind)!;
-    // Options belong to a kind. A target that the new kind also has stays.
-    const kept = targets[kind]?.includes(target) ? target : firstTarget(next, targets);
-    return edit(replace(at, { [kind]: kept, ...(kind === "ros2" ? { type: "std_msgs/msg/Float64" } : {}) }));
+    return edit((now) => {
+      // Options belong to a kind. A target that the new kind also has stays.
+      const { target } = driverAt(now.structure, now.at(at));
+      const kept = targets[kind]?.includes(target) ? target : firstTarget(next, targets);
+      return replace(at, { [kind]: kept, ...(kind === "ros2" ? { type: "std_msgs/msg/Float64" } : {}) });
+    });
   };
   return (
     <>

@@ -1,3 +1,4 @@
+import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
 import {
   bufferSelection,
@@ -18,7 +19,7 @@ import { limitHelp, limitsHelp, safeHelp } from "./form_help";
 import { ObjectFields } from "./object_fields";
 import { ParameterFields } from "./parameter_fields";
 import { schema } from "./schema";
-import { MemoryFields, TypeInputs } from "./type_fields";
+import { changed, MemoryFields, TypeInputs } from "./type_fields";
 import { AddSubsystem, TemplateForm, TemplateLink } from "./templates_form";
 import { MapForm } from "./map_form";
 import { OwnProblem } from "./use_problems";
@@ -87,7 +88,7 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
       <div className="buttons">
         <AddSubsystem agent={agent} />
         {!agent.template && <button onClick={() => void edit(edits.makeTemplate(agent), agent.name)}>Make it a template</button>}
-        <Remove what="agent" structure={structure} at={agent.yaml} select={null} />
+        <Remove what="agent" at={agent.yaml} select={null} />
       </div>
     </>
   );
@@ -96,15 +97,15 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
 function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; subsystem: Subsystem; agent: Agent }) {
   const edit = useEdit();
   const set = (key: string) => (text: string) => edit(edits.set(subsystem.yaml, key, text));
-  const taken = [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
+  const taken = keysNow(...["behaviours", "inputs", "outputs", "real"].map((key) => [...subsystem.yaml, key]));
   const addBuffer = (direction: Buffer["direction"], wish: string) => {
-    const name = edits.freeName(wish, taken);
-    const added = edits.addBuffer(subsystem, direction, name, structure.types[0] ?? "float64");
-    void edit(added, bufferSelection(direction, `${subsystem.path}.${name}`));
+    const type = structure.types[0] ?? "float64";
+    const added = named(wish, taken, (name) => edits.addBuffer(subsystem, direction, name, type));
+    void edit(added.wish, () => bufferSelection(direction, `${subsystem.path}.${added.name}`));
   };
   const addBehaviour = () => {
-    const name = edits.freeName("act", taken);
-    void edit(edits.addBehaviour(subsystem, name), `${subsystem.path}.${name}`);
+    const added = named("act", taken, (name) => edits.addBehaviour(subsystem, name));
+    void edit(added.wish, () => `${subsystem.path}.${added.name}`);
   };
   return (
     <>
@@ -144,7 +145,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <button onClick={() => addBuffer("input", "input")}>Add input</button>
         <button onClick={() => addBuffer("output", "output")}>Add output</button>
         {subsystem.kind !== "control" && <button onClick={() => addBuffer("real", "device")}>Add real buffer</button>}
-        <Remove what="subsystem" structure={structure} at={subsystem.yaml} select={agent.name} />
+        <Remove what="subsystem" at={subsystem.yaml} select={agent.name} />
       </div>
       <ObjectFields structure={structure} at={subsystem.yaml} shapes={optionsOf[subsystem.kind]} />
       <MapForm
@@ -224,15 +225,11 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
         wrong={nameProblem(buffer.name, namesIn(subsystem))}
         onChange={(name) => edit(edits.rename(buffer.yaml, name), bufferSelection(buffer.direction, `${subsystem.path}.${name}`))}
       />
-      <TypeInputs
-        structure={structure}
-        value={buffer.type}
-        onChange={(type) => edit(edits.set(buffer.yaml.slice(0, -1), buffer.name, type))}
-      />
+      <TypeInputs structure={structure} value={buffer.type} onChange={(change) => edit(changed(buffer.yaml, change))} />
       <LimitsForm structure={structure} subsystem={subsystem} buffer={buffer} />
       <ConnectForm key={buffer.selection} structure={structure} buffer={buffer} />
       <div className="buttons">
-        <Remove what="buffer" structure={structure} at={buffer.yaml} select={subsystem.path} />
+        <Remove what="buffer" at={buffer.yaml} select={subsystem.path} />
       </div>
     </>
   );

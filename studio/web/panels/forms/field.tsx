@@ -1,5 +1,6 @@
-import { useEffect, useId, useRef, useState, type KeyboardEvent } from "react";
+import { useEffect, useId, useRef, type KeyboardEvent } from "react";
 import { useStudio } from "../../hooks/use";
+import { useTyped } from "../../hooks/use_typed";
 
 interface FieldProps {
   label: string;
@@ -47,37 +48,35 @@ export function Field({
 }: FieldProps) {
   const studio = useStudio();
   const id = useId();
-  const [text, setText] = useState(value);
-  useEffect(() => setText(value), [value]);
-  const refused = text === value ? undefined : wrong?.(text);
+  const input = useRef<HTMLInputElement>(null);
+  const { text, base, type, reset, take } = useTyped(value, onChange);
+  useEffect(() => {
+    // A text that was refused goes with the value that it was to replace.
+    if (input.current !== document.activeElement) reset();
+  }, [value]);
+  const refused = text === base() ? undefined : wrong?.(text);
   const problem = text === value ? found : refused;
-  const sent = useRef<string | null>(null);
-  const take = async () => {
-    if (text === value || refused || sent.current === text) return;
-    sent.current = text;
-    const done = await onChange(text);
-    if (sent.current === text) sent.current = null;
-    if (done === false) setText((now) => (now === text ? value : now));
-  };
+  const takeNow = () => void (refused === undefined && take(text));
   const key = (event: KeyboardEvent<HTMLInputElement>) => {
     const undo = undoOf(event);
     if (undo && !apart) {
       // The browser would undo letters, also those of values that have taken effect long ago.
       event.preventDefault();
       event.stopPropagation();
-      if (text !== value && sent.current !== text) setText(value);
-      else if (undo === "undo") void studio.draft.undo();
-      else void studio.draft.redo();
+      if (text !== base()) reset();
+      else if (undo === "undo") void studio.editor.undo();
+      else void studio.editor.redo();
     }
-    if (event.key === "Enter") void take();
+    if (event.key === "Enter") takeNow();
     // The text of the field is saved, too.
-    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") void take();
-    if (event.key === "Escape") setText(value);
+    if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "s") takeNow();
+    if (event.key === "Escape") reset();
   };
   return (
     <div className="field">
       <Label id={id} label={label} of={of} tip={hint} />
       <input
+        ref={input}
         id={id}
         type="text"
         className={mono ? "mono" : ""}
@@ -88,8 +87,8 @@ export function Field({
         aria-describedby={problem || hint ? `${id}-hint` : undefined}
         spellCheck={false}
         autoComplete="off"
-        onChange={(event) => setText(event.target.value)}
-        onBlur={() => void take()}
+        onChange={(event) => type(event.target.value)}
+        onBlur={() => takeNow()}
         onKeyDown={key}
       />
       {choices && (
@@ -140,15 +139,16 @@ export function Choice<T extends string>({
   onChange: (value: T) => unknown;
 }) {
   const id = useId();
+  const { text, take } = useTyped(value, onChange);
   return (
     <div className="field">
       <Label id={id} label={label} of={of} tip={hint} />
       <select
         id={id}
-        value={value}
+        value={text}
         aria-invalid={problem !== undefined}
         aria-describedby={problem || hint ? `${id}-hint` : undefined}
-        onChange={(event) => void onChange(event.target.value as T)}
+        onChange={(event) => void take(event.target.value as T)}
       >
         {choices.map((choice) => (
           <option key={choice.value} value={choice.value}>

@@ -1,9 +1,9 @@
 import { useState } from "react";
 import { useStudio } from "../../hooks/use";
 import { changedLines } from "../../model/text/changed_lines";
-import type { Edit } from "../../live/protocol";
+import type { Wish } from "../../live/editor";
 import { isName, remove } from "../../model/text/edits";
-import { sharersOf, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
+import { sharersOf, structureOf, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";
 
 /** Why a name cannot be used for an element beside those that exist. */
@@ -21,23 +21,30 @@ export const namespaceHint = "Its C++ namespace and headers have the same name, 
 
 export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
 
+type Select = string | null | undefined;
+
 /** Does an edit of the specification and selects the changed element. The promise is false if it was refused. */
 export function useEdit() {
   const studio = useStudio();
-  return (edit: Edit | Edit[], select?: string | null) => studio.change(edit, select === undefined ? {} : { selected: select });
+  return (wish: Wish, select?: Select | ((now: Structure) => Select)) =>
+    studio.change(wish, (now) => {
+      const selected = typeof select === "function" ? select(now) : select;
+      return selected === undefined ? {} : { selected };
+    });
 }
 
 /** Removes an element. It asks first if something else goes or changes with it. */
-export function Remove({ what, structure, at, select }: RemoveProps) {
+export function Remove({ what, at, select }: RemoveProps) {
   const studio = useStudio();
   const edit = useEdit();
   const [asking, ask] = useState<string[] | null>(null);
   const removeNow = () => edit(remove(at), select);
   const removeIfAlone = async () => {
-    const found = await studio.draft.preview(remove(at));
+    const found = await studio.editor.preview(remove(at));
     if (!found) return;
     const lines = changedLines(found.before, found.after);
-    const own = structure.yaml.endLine(at) - structure.yaml.line(at) + 1;
+    const { yaml } = structureOf(found.before);
+    const own = yaml.endLine(found.at(at)) - yaml.line(found.at(at)) + 1;
     if (lines.length > own) ask(lines);
     else await removeNow();
   };
@@ -63,7 +70,6 @@ export function Remove({ what, structure, at, select }: RemoveProps) {
 
 interface RemoveProps {
   what: string;
-  structure: Structure;
   /** The element. */
   at: YamlPath;
   /** The element to select then. */

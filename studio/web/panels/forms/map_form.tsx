@@ -1,7 +1,8 @@
 import { useState, type ReactNode } from "react";
 import { useStudio } from "../../hooks/use";
+import { keysNow, named } from "../../live/editor";
 import type { EditValue } from "../../live/protocol";
-import { freeName, insert, remove, rename, set } from "../../model/text/edits";
+import { insert, remove, rename, set } from "../../model/text/edits";
 import type { Structure } from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";
 import { Field } from "./field";
@@ -40,6 +41,8 @@ export function MapForm(props: MapFormProps) {
   const edit = useEdit();
   const { yaml } = structure;
   const [opened, open] = useState<string | null>(null);
+  // A renamed entry keeps its form, with what is typed there.
+  const [forms] = useState(new Map<string, string>());
   const taken = yaml.keys(at);
   return (
     <fieldset className="map-form">
@@ -48,15 +51,22 @@ export function MapForm(props: MapFormProps) {
       {taken
         .filter((name) => !without.includes(name))
         .map((name) => (
-          <Entry key={name} of={props} name={name} taken={taken} opened={opened === name} open={open} />
+          <Entry
+            key={forms.get(name) ?? name}
+            of={props}
+            name={name}
+            taken={taken}
+            opened={opened === name}
+            open={open}
+            renamed={(to) => forms.set(to, forms.get(name) ?? name)}
+          />
         ))}
       {hint && <p className="faint">{hint}</p>}
       {fresh && (
         <button
           onClick={() => {
-            const name = freeName(fresh.name, taken);
-            void edit(insert(at, name, fresh.value));
-            open(name);
+            const added = named(fresh.name, keysNow(at), (name) => insert(at, name, fresh.value));
+            void edit(added.wish).then(() => open(added.name));
           }}
         >
           Add {one}
@@ -72,9 +82,10 @@ interface EntryProps {
   taken: readonly string[];
   opened: boolean;
   open: (name: string | null) => void;
+  renamed: (to: string) => void;
 }
 
-function Entry({ of, name, taken, opened, open }: EntryProps) {
+function Entry({ of, name, taken, opened, open, renamed }: EntryProps) {
   const { structure, at, names, line, field } = of;
   const fields = line?.(name) ? undefined : of.fields;
   const studio = useStudio();
@@ -83,9 +94,13 @@ function Entry({ of, name, taken, opened, open }: EntryProps) {
   const where = [...at, name];
   const edit = useEdit();
   const renameTo = async (to: string) => {
-    const done = await edit(rename(where, to));
-    if (done) open(to);
-    return done;
+    // With the new name, before it is drawn.
+    const begin = () => {
+      renamed(to);
+      open(to);
+      return undefined;
+    };
+    await edit(rename(where, to), begin);
   };
   const wrong = (text: string) =>
     of.wrong

@@ -3,6 +3,7 @@ import { useStudio } from "../../hooks/use";
 import { fieldOf, type FieldShape, type Schema } from "../../model/text/schema_fields";
 import { freshValue, shapeOf, type Case, type ValueShape } from "../../model/text/value_shape";
 import { lineText } from "../../model/text/list_text";
+import type { Now } from "../../live/editor";
 import type { Edit, EditValue } from "../../live/protocol";
 import type { Structure } from "../../model/structure/structure";
 import * as edits from "../../model/text/edits";
@@ -50,12 +51,18 @@ interface ObjectFieldsProps {
   always?: "all" | readonly string[];
   /** Keys may have any name. */
   open?: boolean;
+  /** The key that says of which kind the map is. Its field stays the same, with what is typed there, if that changes. */
+  kind?: string | undefined;
   /** Keys that the shapes do not have are shown, so that they can be removed; otherwise they are shown elsewhere. */
   strays?: boolean;
   help?: HelpByKey;
   /** The map is left out with its last key; called when that happens. */
   onEmpty?: () => void;
 }
+
+/** A text, or what a function makes of the present value at a path. */
+const presentText = (text: string | ((now: string) => string), { structure, at }: Now, where: YamlPath) =>
+  typeof text === "string" ? text : text(lineText(structure.yaml, at(where)));
 
 const anyText = (key: string): FieldShape => ({
   key,
@@ -70,7 +77,7 @@ const anyText = (key: string): FieldShape => ({
 
 /** The keys of a map, each as a field of its kind in the schema. An empty field leaves its key out. */
 export function ObjectFields(props: ObjectFieldsProps) {
-  const { structure, at, shapes, without = [], always = [], open, strays = open, help = {}, onEmpty } = props;
+  const { structure, at, shapes, without = [], always = [], open, kind, strays = open, help = {}, onEmpty } = props;
   const edit = useEdit();
   const problem = useProblems(structure);
   const [wanted, want] = useState<readonly string[]>([]);
@@ -86,21 +93,25 @@ export function ObjectFields(props: ObjectFieldsProps) {
   ];
   const left = known.filter((one) => !shown.includes(one));
   const label = ({ key, title }: FieldShape) => help[key]?.title ?? title ?? titleOf(key);
-  const set = (key: string, text: string, as: Edit["as"] = "scalar") => {
-    const last = onEmpty && text.trim() === "" && there.length === 1 && there[0] === key;
-    if (last) onEmpty();
-    return edit(last ? edits.remove(at) : edits.set(at, key, text, as));
-  };
+  const set = (key: string, text: string | ((now: string) => string), as: Edit["as"] = "scalar") =>
+    edit((now) => {
+      const value = presentText(text, now, [...at, key]);
+      const left = now.structure.yaml.keys(now.at(at));
+      const last = onEmpty && value.trim() === "" && left.length === 1 && left[0] === now.at([...at, key]).at(-1);
+      if (last) onEmpty();
+      return last ? edits.remove(at) : edits.set(at, key, value, as);
+    });
   return (
     <>
       {shown.map((field) => {
         const where = [...at, field.key];
+        const key = field.key === kind ? "" : field.key;
         const shape = shapeOf(field.schema, root, yaml.data(where));
         const value = lineText(yaml, where);
         if (shape.kind !== "line")
           return (
             <ValueForm
-              key={field.key}
+              key={key}
               structure={structure}
               at={where}
               shape={shape}
@@ -110,9 +121,9 @@ export function ObjectFields(props: ObjectFieldsProps) {
               onEmpty={() => want([...wanted, field.key])}
             />
           );
-        if (value.includes("\n")) return <InTheText key={field.key} structure={structure} at={where} title={label(field)} />;
+        if (value.includes("\n")) return <InTheText key={key} structure={structure} at={where} title={label(field)} />;
         return (
-          <div key={field.key}>
+          <div key={key}>
             <OneField
               shape={field}
               label={label(field)}
@@ -166,14 +177,13 @@ function MoreOf({ structure, at, schema }: { structure: Structure; at: YamlPath;
   const { yaml } = structure;
   const shape = shapeOf(schema, root, yaml.data(at));
   if (shape.kind !== "line" || !shape.more) return null;
-  const now = lineText(yaml, at);
-  const value: EditValue = shape.more.key && now ? { [shape.more.key]: now } : {};
+  const { key } = shape.more;
+  const inFields = ({ structure: { yaml }, at: present }: Now) => {
+    const now = lineText(yaml, present(at));
+    return edits.replace(at, key && now ? { [key]: now } : {});
+  };
   return (
-    <button
-      className="link"
-      aria-label={`Give ${String(at.at(-1))} in several fields`}
-      onClick={() => void edit(edits.replace(at, value))}
-    >
+    <button className="link" aria-label={`Give ${String(at.at(-1))} in several fields`} onClick={() => void edit(inFields)}>
       In several fields
     </button>
   );
@@ -266,7 +276,10 @@ function OneEntry({ structure, at, name, schema, own }: OneEntryProps) {
         choices={own.choices ?? []}
         parts={[]}
         problem={problem(where)}
-        onChange={(text, as) => text.trim() !== "" && edit(edits.set(at, name, text, as))}
+        onChange={(text, as) =>
+          (typeof text !== "string" || text.trim() !== "") &&
+          edit((now) => edits.set(at, name, presentText(text, now, where), as))
+        }
       />
       {!yaml.map(where) && <MoreOf structure={structure} at={where} schema={schema} />}
     </div>
@@ -308,11 +321,15 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
   const choose = (key: string) => {
     const next = cases.find((one) => one.key === key);
     if (!next) return false;
-    if (!is) return edit(edits.set(at, key, "name"));
-    const gone = is.fields.filter(
-      (one) => one.key !== is.key && keys.includes(one.key) && !next.fields.some((other) => other.key === one.key),
-    );
-    return edit([...gone.map((one) => edits.remove([...at, one.key])), edits.rename([...at, is.key], key)]);
+    return edit(({ structure: { yaml }, at: present }) => {
+      const keys = yaml.keys(present(at));
+      const is = cases.find(({ key }) => keys.includes(key));
+      if (!is) return edits.set(at, key, "name");
+      const gone = is.fields.filter(
+        (one) => one.key !== is.key && keys.includes(one.key) && !next.fields.some((other) => other.key === one.key),
+      );
+      return [...gone.map((one) => edits.remove([...at, one.key])), edits.rename([...at, is.key], key)];
+    });
   };
   // The fields of every case, such as the name, stay in their place.
   const first = is ? fields.findIndex(({ key }) => key === is.key) : 0;
@@ -322,6 +339,7 @@ function Inside({ structure, at, shape, help, onEmpty }: InsideProps) {
       at={at}
       shapes={shapes}
       without={without.map(({ key }) => key)}
+      kind={is?.key}
       strays={shapes.at(-1) === fields.at(-1)}
       always={fields.length <= fewFields ? "all" : []}
       help={help}

@@ -15,7 +15,8 @@ interface OneFieldProps {
   label?: string;
   mono?: boolean;
   problem?: string | undefined;
-  onChange: (text: string, as?: Edit["as"]) => unknown;
+  /** text: the new value, or a function that gives it for the present one, which may have changed since it was drawn. */
+  onChange: (text: string | ((now: string) => string), as?: Edit["as"]) => unknown;
 }
 
 /** A value of one line, as its schema says: a choice, a list, parts with a field each, or a text. */
@@ -37,11 +38,14 @@ export function OneField({ shape, value, choices, parts, label = titleOf(shape.k
       />
     );
   if (shape.parts > 0) {
-    const now = value ? listAsTyped(value).split(/\s*,\s*/) : [];
-    const write = (at: number, text: string) => {
-      const next = Array.from({ length: shape.parts }, (_, index) => (index === at ? text : (now[index] ?? "0")) || "0");
-      return onChange(`[${next.join(", ")}]`);
-    };
+    const partsIn = (value: string) => (value ? listAsTyped(value).split(/\s*,\s*/) : []);
+    const now = partsIn(value);
+    const write = (at: number, text: string) =>
+      onChange((value) => {
+        const now = partsIn(value);
+        const next = Array.from({ length: shape.parts }, (_, index) => (index === at ? text : (now[index] ?? "0")) || "0");
+        return `[${next.join(", ")}]`;
+      });
     return (
       <fieldset className="tuple" aria-label={label}>
         <legend>{label}</legend>

@@ -11,7 +11,7 @@ export function ParameterFields({ structure, at }: { structure: Structure; at: Y
   const { yaml } = structure;
   const name = String(at.at(-1));
   const parts = parameterParts(yaml, at);
-  const set = (change: Partial<ParameterParts>) => edit(setParameter(yaml, at, change));
+  const set = (change: Partial<ParameterParts>) => edit((now) => setParameter(now.structure.yaml, at, change, now.at(at)));
   const field = (key: keyof ParameterParts, label: string, placeholder = "") => (
     <Field
       label={label}

@@ -14,7 +14,7 @@ export function RenameDialog() {
     else ref.current?.close();
   }, [renaming]);
   return (
-    <dialog ref={ref} className="dialog rename" aria-labelledby="rename-title" onClose={() => studio.draft.agree(false)}>
+    <dialog ref={ref} className="dialog rename" aria-labelledby="rename-title" onClose={() => studio.editor.agree(false)}>
       {renaming && <Asked name={renaming.name} files={renaming.files} />}
     </dialog>
   );
@@ -52,8 +52,8 @@ function Asked({ name, files }: { name: string; files: readonly FileRenamed[] })
       )}
       <p className="faint">Undo takes all of it back.</p>
       <div className="buttons">
-        <button onClick={() => studio.draft.agree(false)}>Keep the old name</button>
-        <button autoFocus className="primary" onClick={() => studio.draft.agree(true)}>
+        <button onClick={() => studio.editor.agree(false)}>Keep the old name</button>
+        <button autoFocus className="primary" onClick={() => studio.editor.agree(true)}>
           Rename everywhere
         </button>
       </div>

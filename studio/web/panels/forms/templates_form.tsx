@@ -7,6 +7,7 @@ import {
   type Structure,
   type Subsystem,
 } from "../../model/structure/structure";
+import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
 import { Field } from "./field";
 import { namespaceHint, nameProblem, SharedNote, useEdit } from "./form_parts";
@@ -18,8 +19,8 @@ export function TemplatesForm({ structure }: { structure: Structure }) {
   const { yaml } = structure;
   const names = yaml.keys(["templates"]);
   const add = () => {
-    const name = edits.freeName("member", names);
-    void edit(edits.insert(["templates"], name, edits.freshAgent), templatePath(name));
+    const added = named("member", keysNow(["templates"]), (name) => edits.insert(["templates"], name, edits.freshAgent));
+    void edit(added.wish, () => templatePath(added.name));
   };
   return (
     <fieldset className="map-form">
@@ -56,8 +57,10 @@ export function AddSubsystem({ agent }: { agent: Agent }) {
   const edit = useEdit();
   const names = agent.subsystems.map((one) => one.name);
   const add = (kind: Subsystem["kind"]) => {
-    const name = kind === "control" ? "control" : edits.freeName(kind === "receptor" ? "sensor" : "motor", names);
-    void edit(edits.addSubsystem(agent, kind, name), `${agent.name}.${name}`);
+    const wish = { control: "control", receptor: "sensor", effector: "motor" }[kind];
+    const taken = kind === "control" ? () => [] : keysNow([...agent.body, "receptors"], [...agent.body, "effectors"]);
+    const added = named(wish, taken, (name) => edits.addSubsystem(agent, kind, name));
+    void edit(added.wish, () => `${agent.name}.${added.name}`);
   };
   return (
     <>
@@ -78,11 +81,8 @@ export function TemplateForm({ structure, template }: { structure: Structure; te
     yaml.keys([part]).some((key) => yaml.valueText([part, key, "use"]) === name),
   );
   const addAgent = () => {
-    const agent = edits.freeName(
-      name,
-      structure.agents.map((one) => one.name),
-    );
-    void edit(edits.insert(["agents"], agent, `{ use: ${name} }`), agent);
+    const added = named(name, keysNow(["agents"]), (agent) => edits.insert(["agents"], agent, `{ use: ${name} }`));
+    void edit(added.wish, () => added.name);
   };
   return (
     <>

@@ -1,4 +1,6 @@
-import { freeName, insert, remove, rename, replace, set } from "../../model/text/edits";
+import { insert, remove, rename, replace, set } from "../../model/text/edits";
+import { keysNow, named, type Now } from "../../live/editor";
+import type { Edit } from "../../live/protocol";
 import type { Structure } from "../../model/structure/structure";
 import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
 import type { YamlPath } from "../../model/text/yaml_text";
@@ -12,8 +14,15 @@ interface TypeInputsProps {
   of?: string;
   /** Types that may not be chosen, such as the one that is described. */
   without?: readonly string[];
-  onChange: (text: string) => unknown;
+  /** change: gives the new type for the present one, which may have changed since it was drawn. */
+  onChange: (change: (now: string) => string) => unknown;
 }
+
+/** Sets the type at a path to what `change` makes of it. */
+export const changed =
+  (at: YamlPath, change: (now: string) => string) =>
+  (now: Now): Edit =>
+    set(at.slice(0, -1), String(at.at(-1)), change(now.structure.yaml.valueText(now.at(at)) ?? ""));
 
 const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
 
@@ -24,8 +33,8 @@ const wrongLength = (text: string) =>
 export function TypeInputs({ structure, value, of = "", without = [], onChange }: TypeInputsProps) {
   const parts = typeParts(value);
   const about = of ? { of } : {};
-  if (!parts) return <Field label="Type" {...about} mono value={value} onChange={onChange} />;
-  const change = (part: Partial<TypeParts>) => onChange(typeText({ ...parts, ...part }));
+  if (!parts) return <Field label="Type" {...about} mono value={value} onChange={(text) => onChange(() => text)} />;
+  const change = (part: Partial<TypeParts>) => onChange((now) => typeText({ ...(typeParts(now) ?? parts), ...part }));
   const types = [...structure.types.filter((one) => !without.includes(one)), ...plainTypes];
   // An unknown type stays until another one is chosen.
   const choices = (types.includes(parts.base) ? types : [parts.base, ...types]).map((one) => ({ value: one, title: one }));
@@ -78,7 +87,7 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
             of={`of ${name}`}
             without={[String(at.at(-1))]}
             value={yaml.valueText([...at, name]) ?? ""}
-            onChange={(type) => edit(set(at, name, type))}
+            onChange={(change) => edit(changed([...at, name], change))}
           />
           {names.length > 1 && (
             <button className="quiet" aria-label={`Remove the field ${name}`} onClick={() => void edit(remove([...at, name]))}>
@@ -87,7 +96,9 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
           )}
         </div>
       ))}
-      <button onClick={() => void edit(insert(at, freeName("value", names), "float64"))}>Add field</button>
+      <button onClick={() => void edit(named("value", keysNow(at), (name) => insert(at, name, "float64")).wish)}>
+        Add field
+      </button>
     </>
   );
 }
@@ -96,6 +107,7 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
 export function MemoryFields({ structure, at }: { structure: Structure; at: YamlPath }) {
   const edit = useEdit();
   const { yaml } = structure;
+  const isMap = ({ structure, at: present }: Now) => structure.yaml.map(present(at)) !== undefined;
   const map = yaml.map(at) !== undefined;
   const name = String(at.at(-1));
   const type = yaml.valueText(map ? [...at, "type"] : at) ?? "";
@@ -105,14 +117,19 @@ export function MemoryFields({ structure, at }: { structure: Structure; at: Yaml
         structure={structure}
         value={type}
         of={`of ${name}`}
-        onChange={(text) => edit(map ? set(at, "type", text) : set(at.slice(0, -1), name, text))}
+        onChange={(change) => edit((now) => changed(isMap(now) ? [...at, "type"] : at, change)(now))}
       />
       <Field
         label="Start"
         of={`of ${name}`}
         value={(map && yaml.valueText([...at, "initial"])) || ""}
         placeholder="zero"
-        onChange={(text) => edit(map ? set(at, "initial", text) : replace(at, { type, initial: text }))}
+        onChange={(text) =>
+          edit((now) => {
+            if (isMap(now)) return set(at, "initial", text);
+            return replace(at, { type: now.structure.yaml.valueText(now.at(at)) ?? "", initial: text });
+          })
+        }
       />
     </>
   );

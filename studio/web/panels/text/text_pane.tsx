@@ -38,9 +38,9 @@ export default function TextPane() {
       if (update.docChanged) studio.draft.edit(update.state.doc.toString(), "typing");
     });
     const undo = keymap.of([
-      { key: "Mod-z", run: () => (void studio.draft.undo(), true), preventDefault: true },
-      { key: "Mod-Shift-z", run: () => (void studio.draft.redo(), true), preventDefault: true },
-      { key: "Mod-y", run: () => (void studio.draft.redo(), true), preventDefault: true },
+      { key: "Mod-z", run: () => (void studio.editor.undo(), true), preventDefault: true },
+      { key: "Mod-Shift-z", run: () => (void studio.editor.redo(), true), preventDefault: true },
+      { key: "Mod-y", run: () => (void studio.editor.redo(), true), preventDefault: true },
     ]);
     const extensions = [
       lineNumbers(),

@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, draftText, drawn, example, judges, middleOf, onPage, tab, until } from "./page.mjs";
+import { button, draftText, drawn, example, judges, middleOf, noProblems, onPage, tab, until } from "./page.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "studio-building-"));
 after(() => rmSync(parent, { recursive: true, force: true }));
@@ -281,7 +281,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         await judge(`the form of the system at ${width}`);
       }
       assert.deepEqual(judged, []);
-      await page.getByText("No problems").waitFor();
+      await noProblems(page);
       /** The function of a behaviour: begun by a click, then typed. */
       const code = async (path, body) => {
         await chip(path);

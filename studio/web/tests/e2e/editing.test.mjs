@@ -3,7 +3,21 @@ import { execFileSync } from "node:child_process";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { button, changes, draftText, drawn, environment, example, find, folder, judges, onPage, tab, until } from "./page.mjs";
+import {
+  button,
+  changes,
+  draftText,
+  drawn,
+  environment,
+  example,
+  find,
+  folder,
+  judges,
+  noProblems,
+  onPage,
+  tab,
+  until,
+} from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -40,7 +54,7 @@ test("renaming an agent changes its name everywhere and nothing else", () =>
     await page.keyboard.press("Enter");
     await renameEverywhere(page);
     await page.locator('.agent-name[data-path="rover"]').waitFor();
-    await page.getByText("No problems").waitFor();
+    await noProblems(page);
     assert.equal(server.text().replaceAll("rover", "robot"), before);
     assert.notEqual(server.text(), before);
   }));
@@ -199,7 +213,7 @@ test("a broken file says where, keeps its drawing, and is repaired", () =>
     assert.ok((await page.locator(".problem-list .problem").count()) > 0);
     await page.keyboard.press("Backspace");
     await page.keyboard.press("Backspace");
-    await page.getByText("No problems").waitFor();
+    await noProblems(page);
   }));
 
 test("a file that is broken on disk opens with its errors", () =>
@@ -361,7 +375,7 @@ test("checks, measures, limits, templates and models have fields, which leave a 
     await page.locator('.agent-name[data-path="crossing"]').click();
     await button(page, "Make it a template").click();
     await button(page, "Template crossing").waitFor();
-    await page.getByText("No problems").waitFor();
+    await noProblems(page);
     assert.deepEqual(found, []);
     await button(page, "Save").click();
     await page.getByText("Saved").waitFor();

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { button, draftText, drawn, example, folder, onPage, serve, tab, until } from "./page.mjs";
+import { button, checked, draftText, drawn, example, folder, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 const subsystem = '[data-path="robot.control"]';
@@ -183,6 +183,94 @@ test("what is typed in a field is saved with the rest, and a second save waits f
     await until(page, () => /rate: 34 Hz/.test(server.text()), "both are saved");
     await page.getByLabel("not saved").waitFor({ state: "detached" });
     assert.equal(await page.getByRole("dialog").isVisible(), false);
+  }));
+
+/** Edits wait at the door of the server until they are let in. */
+async function holdEdits(page) {
+  let held = [];
+  let open = false;
+  await page.route("**/api/edit", async (route) => {
+    if (!open) await new Promise((done) => held.push(done));
+    await route.continue().catch(() => undefined); // the page may be loaded again
+  });
+  return {
+    hold: () => (open = false),
+    letIn: async () => {
+      open = true;
+      held.splice(0).forEach((done) => done());
+      await checked(page);
+    },
+  };
+}
+
+test("while edits are on their way, fields show what was typed, and nothing of it is lost", () =>
+  onPage(lineFollower, async (page) => {
+    const { hold, letIn } = await holdEdits(page);
+    await tab(page, "Structure").click();
+    await page.locator(subsystem).click();
+    const rate = page.getByRole("textbox", { name: "Rate" });
+    await rate.fill("33 Hz");
+    await rate.press("Enter");
+    await page.getByLabel("not saved").waitFor();
+    await rate.fill("34 Hz");
+    await letIn();
+    assert.equal(await rate.inputValue(), "34 Hz", "it is not taken yet");
+    assert.match(await draftText(page), /rate: 33 Hz/);
+    hold();
+    await rate.press("Enter");
+    // Undo takes the edit back, also one on its way.
+    await rate.press("Control+z");
+    await letIn();
+    assert.equal(await rate.inputValue(), "33 Hz");
+    hold();
+    await button(page, "Add behaviour").click();
+    await button(page, "Add behaviour").click();
+    await letIn();
+    assert.match(await draftText(page), /act: \{\}\n\s+act_2: \{\}/);
+    hold();
+    const name = page.getByRole("textbox", { name: "Name", exact: true });
+    await name.fill("stop");
+    await name.press("Enter");
+    await name.fill("stop_now");
+    await letIn();
+    await page.getByRole("heading", { name: "Behaviour stop" }).waitFor();
+    assert.equal(await name.inputValue(), "stop_now");
+    hold();
+    await name.press("Enter");
+    // An element is chosen under its old name.
+    await page.locator(subsystem).click();
+    await letIn();
+    await page.getByRole("heading", { name: "Subsystem control" }).waitFor();
+    assert.match(await draftText(page), /stop_now: \{\}/);
+    hold();
+    await rate.fill("36 Hz");
+    // Without leaving the field.
+    await page.reload();
+    await letIn();
+    await until(page, async () => /rate: 36 Hz/.test((await draftText(page)) ?? ""), "the edit of before");
+  }));
+
+test("parts of one value that are changed while edits are on their way are all changed", () =>
+  onPage(lineFollower, async (page) => {
+    const { hold, letIn } = await holdEdits(page);
+    await tab(page, "Structure").click();
+    await tab(page, "Element").click();
+    await page.getByLabel("Value of v", { exact: true }).fill("0.5");
+    await page.getByLabel("Unit of v", { exact: true }).fill("cm/s");
+    const start = page.getByRole("group", { name: "Start", exact: true });
+    await start.getByLabel("x", { exact: true }).fill("1.5");
+    await start.getByLabel("y", { exact: true }).fill("0.25");
+    await start.getByLabel("y", { exact: true }).press("Enter");
+    await letIn();
+    assert.match(await draftText(page), /v: 0\.5 cm\/s[^]*start: \[1\.5, 0\.25, /);
+    hold();
+    await page.locator('.channel-label[data-path="channel:1"]').click();
+    const receiver = page.getByLabel("The receiver");
+    await receiver.selectOption("non_blocking");
+    assert.equal(await receiver.inputValue(), "non_blocking");
+    await letIn();
+    assert.equal(await receiver.inputValue(), "non_blocking");
+    assert.doesNotMatch(await draftText(page), /receive: blocking/);
   }));
 
 test("a conflict that another program puts right is none, and undo leads to the text that was not kept", () =>

@@ -22,11 +22,30 @@ export async function onPage(project, test, options = {}) {
   }
 }
 
+/**
+ * A slow machine, to find what depends on the speed of this one. STUDIO_DELAY: milliseconds by which edits and checks of the
+ * specification are late. STUDIO_SLOWDOWN: how many times slower the page is.
+ */
+async function slowDown(context) {
+  const { STUDIO_DELAY: delay = 0, STUDIO_SLOWDOWN: rate = 1 } = process.env;
+  if (Number(delay) > 0)
+    await context.route(/\/api\/(edit|check)$/, async (route) => {
+      await new Promise((done) => setTimeout(done, Number(delay)));
+      await route.continue().catch(() => undefined); // the page may be closed
+    });
+  if (Number(rate) > 1)
+    context.on("page", async (page) => {
+      const session = await context.newCDPSession(page);
+      await session.send("Emulation.setCPUThrottlingRate", { rate: Number(rate) });
+    });
+}
+
 async function onServer(browser, server, test) {
   const context = await browser.newContext({
     viewport: { width: 1440, height: 900 },
     reducedMotion: "reduce",
   });
+  await slowDown(context);
   const problems = [];
   const open = async (on = server) => {
     const page = await context.newPage();
@@ -68,9 +87,18 @@ export const element = (page, path) => page.locator(`.sheet [data-path="${path}"
 export const tab = (page, name) => page.getByRole("tab", { name, exact: true });
 export const button = (page, name) => page.getByRole("button", { name, exact: true });
 
+/** Waits until all edits are done and the text is checked. */
+export const checked = (page) => page.locator('.app[aria-busy="true"]').waitFor({ state: "detached" });
+
+/** Waits until the text as it is now has no problems. */
+export async function noProblems(page) {
+  await checked(page);
+  await page.getByText("No problems").waitFor();
+}
+
 /** The text of the page that is not saved, once the last edit is done; undefined: all is saved. */
 export async function draftText(page) {
-  await page.locator('.app[aria-busy="true"]').waitFor({ state: "detached" });
+  await checked(page);
   return page.evaluate(() => {
     const key = Object.keys(sessionStorage).find((one) => one.startsWith("tessera.draft"));
     return key && JSON.parse(sessionStorage.getItem(key)).text;

@@ -28,7 +28,9 @@ async function tessera(arguments_, where = folder) {
 function assertReadable(text, what) {
   const odd = [...text].find(
     (c) =>
-      !/[\n\x20-\x7e\u00a0\u00b7\u00d7\u2009\u2026\u2580-\u259f\u2500-\u257f\u2190-\u21ff\u2022\u2800-\u28ff\u25a0-\u25ff]/u.test(c),
+      !/[\n\x20-\x7e\u00a0\u00b7\u00d7\u2009\u2026\u2580-\u259f\u2500-\u257f\u2190-\u21ff\u2022\u2800-\u28ff\u25a0-\u25ff]/u.test(
+        c,
+      ),
   );
   assert.equal(odd, undefined, `${what}: U+${odd?.codePointAt(0).toString(16)} in ${JSON.stringify(text.slice(0, 500))}`);
   const left = /(\bnan\b|\binf(inity)?\b|\bundefined\b|\bnull\b|\[object |\{[a-z_]*\}|%[sdf]\b|TODO|FIXME)/i.exec(text);

@@ -6,7 +6,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "nod
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, find, folder, onPage, tab, until } from "./page.mjs";
+import { button, find, folder, noProblems, onPage, tab, until } from "./page.mjs";
 
 const pictures = process.env.STUDIO_PICTURES;
 const picture = async (page, name) => {
@@ -121,7 +121,7 @@ test("a behaviour is added in the drawing, verified, given its function, run and
     await fill(page, "Terminal condition", "!in.line.middle");
     await followedBy(page, "turn");
     await page.getByTestId("editor").getByText("next: turn").waitFor();
-    await page.getByText("No problems").waitFor();
+    await noProblems(page);
     await picture(page, "structure");
     // 4. Verify
     await tab(page, "Verify").click();

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import type { Edit } from "../../live/protocol";
 import * as edits from "../../model/text/edits";
 import { findThing, readStructure, thingAt, type Buffer } from "../../model/structure/structure";
 import { behaviour, example, structure, subsystem } from "./edited_example";
@@ -65,13 +66,14 @@ describe("edits of the server", () => {
     expect(edits.applied("", [{ from: place(0, 0), to: place(0, 0), text: "a" }])).toBe("a");
   });
   it("have the new names of what was renamed before them", () => {
+    const after = (renamed: Edit, edit: Edit) => edits.moved(edit, (at) => edits.pathAfter(renamed, at));
     const at = ["agents", "a", "control", "outputs"];
     const renamed = edits.rename([...at, "output"], "motion");
-    expect(edits.after(renamed, edits.set(at, "output", "bool"))).toEqual(edits.set(at, "motion", "bool"));
-    expect(edits.after(renamed, edits.remove([...at, "output"]))).toEqual(edits.remove([...at, "motion"]));
-    expect(edits.after(renamed, edits.set(at, "other", "bool"))).toEqual(edits.set(at, "other", "bool"));
-    expect(edits.after(renamed, edits.insert(at, "output", "bool"))).toEqual(edits.insert(at, "output", "bool"));
-    expect(edits.after(edits.rename(["agents", "a"], "b"), edits.set(at, "x", "1")).at![1]).toBe("b");
+    expect(after(renamed, edits.set(at, "output", "bool"))).toEqual(edits.set(at, "motion", "bool"));
+    expect(after(renamed, edits.remove([...at, "output"]))).toEqual(edits.remove([...at, "motion"]));
+    expect(after(renamed, edits.set(at, "other", "bool"))).toEqual(edits.set(at, "other", "bool"));
+    expect(after(renamed, edits.insert(at, "output", "bool"))).toEqual(edits.insert(at, "output", "bool"));
+    expect(after(edits.rename(["agents", "a"], "b"), edits.set(at, "x", "1")).at![1]).toBe("b");
   });
   it("name what they change by its path", () => {
     expect(edits.addBuffer(subsystem(structure, "robot.sensor"), "real", "extra", "bool")).toEqual({

@@ -1,7 +1,7 @@
 import { isActive } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
 import { runningBehaviours } from "../model/net/game";
-import type { Breakpoint } from "../live/protocol";
+import type { Breakpoint } from "../model/protocol";
 import type { Stage } from "../live/stage";
 
 /**

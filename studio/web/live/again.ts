@@ -1,6 +1,6 @@
 /** The request that repeats a run from its beginning, and shows it from some time on. */
 
-import type { StartRequest } from "./protocol";
+import type { StartRequest } from "../model/protocol";
 
 /** The default for a simulated run. */
 const defaultTime = "600s";

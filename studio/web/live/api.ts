@@ -1,4 +1,4 @@
-import type { ControlRequest, Edit, LanguageQuestion, Requests, RunRequest } from "./protocol";
+import type { ControlRequest, Edit, LanguageQuestion, Requests, RunRequest } from "../model/protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {

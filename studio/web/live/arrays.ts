@@ -1,6 +1,6 @@
 import { count } from "../model/sorted";
 import { message } from "./api";
-import type { ArraysEvent, ArraysRow, RecordedArrays as Answer } from "./protocol";
+import type { ArraysEvent, ArraysRow, RecordedArrays as Answer } from "../model/protocol";
 
 /** The numbers of a buffer in a recording; null: not recorded, or too large to be sent. */
 export type Bytes = Uint8Array | null;

@@ -1,6 +1,6 @@
 import { functionAt, type FunctionText } from "../model/text/cpp_function";
 import { merge } from "../model/text/merge";
-import type { FunctionShown } from "./protocol";
+import type { FunctionShown } from "../model/protocol";
 
 /** Text of a function that is not saved yet, and the text of the file that it was made of. */
 export interface Edited {

@@ -1,5 +1,5 @@
 import { type Api, message } from "./api";
-import type { Coverage } from "./protocol";
+import type { Coverage } from "../model/protocol";
 import type { Pane, Scene } from "./scene";
 import type { Runner } from "./runner";
 import { Store } from "./store";

@@ -1,5 +1,5 @@
 import type { Connection } from "./stream/connection";
-import type { DeploymentSeen, LinkSeen, ProcessSeen } from "./protocol";
+import type { DeploymentSeen, LinkSeen, ProcessSeen } from "../model/protocol";
 import type { Runner } from "./runner";
 import { Store } from "./store";
 

@@ -3,7 +3,7 @@ import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line
 import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError, message } from "./api";
-import type { Analysis, Diagnostic, Edit, FileRenamed, SpecAnswer } from "./protocol";
+import type { Analysis, Diagnostic, Edit, FileRenamed, SpecAnswer } from "../model/protocol";
 import { Queue } from "./queue";
 import { Store } from "./store";
 

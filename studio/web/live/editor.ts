@@ -5,7 +5,7 @@ import { merge } from "../model/text/merge";
 import type { YamlPath } from "../model/text/yaml_text";
 import { message, type Api } from "./api";
 import type { Draft } from "./draft";
-import type { Edit, EditAnswer, FileRenamed } from "./protocol";
+import type { Edit, EditAnswer, FileRenamed } from "../model/protocol";
 
 /** The specification when an edit is done: other edits may have changed it since the user asked for it. */
 export interface Now {

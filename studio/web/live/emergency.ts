@@ -1,6 +1,6 @@
 import { type Api, message } from "./api";
 import type { Connection } from "./stream/connection";
-import type { CommandDone, Driving } from "./protocol";
+import type { CommandDone, Driving } from "../model/protocol";
 import { Store } from "./store";
 
 export interface EmergencyState {

@@ -1,7 +1,7 @@
 import { concernedIn, stuckIn, titleOf, waitsIn, type Wait } from "../model/causes";
 import { type Api, message } from "./api";
 import type { NetModel } from "../model/net/net";
-import type { SubsystemAtEnd } from "./protocol";
+import type { SubsystemAtEnd } from "../model/protocol";
 import { Store } from "./store";
 
 /** The subsystems of a standstill, for the drawings. */

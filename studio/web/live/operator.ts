@@ -1,5 +1,5 @@
 import { type Api, message } from "./api";
-import type { PanelShown } from "./protocol";
+import type { PanelShown } from "../model/protocol";
 import type { Runner } from "./runner";
 import { Store } from "./store";
 import { neutralInputs, padInputs, released, type Inputs, type Pad } from "../model/run/panel_inputs";

@@ -2,7 +2,7 @@ import type { NetModel } from "../model/net/net";
 import { type Api, message } from "./api";
 import { RecordedArrays } from "./arrays";
 import type { Draft } from "./draft";
-import type { Recording, RecordingInfo } from "./protocol";
+import type { Recording, RecordingInfo } from "../model/protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
 import { RecordedWorld } from "./world";

@@ -3,7 +3,7 @@ import { candidatesFor, type Candidate } from "../model/text/repair_edits";
 import { readStructure } from "../model/structure/structure";
 import { applied } from "../model/text/edits";
 import { type Api, ApiError, message } from "./api";
-import type { Verdict } from "./protocol";
+import type { Verdict } from "../model/protocol";
 import { Store } from "./store";
 
 /** An edit that was verified: the violations of the cause are gone, and no property that held is violated. */

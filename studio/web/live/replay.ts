@@ -2,7 +2,7 @@ import { fire, markingBefore, runningBehaviours } from "../model/net/game";
 import type { Scenes } from "../model/run/film";
 import type { NetModel } from "../model/net/net";
 import { count } from "../model/sorted";
-import type { FiringRow, PathRow, Recording } from "./protocol";
+import type { FiringRow, PathRow, Recording } from "../model/protocol";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";

@@ -20,7 +20,7 @@ import type {
   StartRequest,
   SubsystemsEvent,
   ValuesEvent,
-} from "./protocol";
+} from "../model/protocol";
 import { goesOn, idle, type RunnerState, type Wishes } from "./runner_state";
 import { Stage } from "./stage";
 import { Store } from "./store";

@@ -2,7 +2,7 @@ import { ApiError, message, type Api } from "./api";
 import { CodeDraft, edited, functionIn, nameOf, type Edited } from "./code_draft";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
 import type { Draft } from "./draft";
-import type { FunctionShown } from "./protocol";
+import type { FunctionShown } from "../model/protocol";
 import { Store } from "./store";
 
 export interface SourcesState {

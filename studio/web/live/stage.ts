@@ -1,6 +1,6 @@
 import { fire, initialMarking, isEnabled, type Marking } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
-import type { Coverage } from "./protocol";
+import type { Coverage } from "../model/protocol";
 import { Store } from "./store";
 
 export type StageMode = "edit" | "game" | "trace" | "live" | "recording";

@@ -6,7 +6,7 @@ import { Deployment } from "./deployment";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
-import type { Project, RunRequest, Verdict } from "./protocol";
+import type { Project, RunRequest, Verdict } from "../model/protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";

@@ -3,7 +3,7 @@ import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
-import type { PathRow } from "./protocol";
+import type { PathRow } from "../model/protocol";
 import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 

@@ -3,7 +3,7 @@ import type { NetModel } from "../model/net/net";
 import { type Api, message } from "./api";
 import type { Connection } from "./stream/connection";
 import type { Draft } from "./draft";
-import type { Verdict, VerifyAnswer, VerifyEvent } from "./protocol";
+import type { Verdict, VerifyAnswer, VerifyEvent } from "../model/protocol";
 import { Store } from "./store";
 
 export interface VerifierState {

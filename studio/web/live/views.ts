@@ -1,6 +1,6 @@
 import { anglesOf, numbersOf, type Rays } from "../model/net/views";
 import type { Api } from "./api";
-import type { WorldView } from "./protocol";
+import type { WorldView } from "../model/protocol";
 import type { Track } from "./track";
 
 /** Requests the devices that give scans and pictures; none if the world does not answer. */

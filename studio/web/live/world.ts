@@ -2,7 +2,7 @@ import { Paths } from "../model/run/robots";
 import { PoseFrames } from "../model/run/pose_frames";
 import { count } from "../model/sorted";
 import { message } from "./api";
-import type { PoseFrame, RecordedPoses, SceneShown } from "./protocol";
+import type { PoseFrame, RecordedPoses, SceneShown } from "../model/protocol";
 
 /** The poses at one time. Another object means other poses. */
 export type Poses = Float32Array;

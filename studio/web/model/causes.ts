@@ -1,30 +1,11 @@
+import type { SubsystemAtEnd, Verdict } from "./protocol";
 import { withoutIndex, type Channel } from "./structure/structure";
 
-/** The state of a subsystem in a run that has stopped, from the server (docs/reference/studio.md). */
-export interface SubsystemAtEnd {
-  path: string;
-  state: "waits" | "no_successor" | "ended" | "gives_no_more" | "takes_no_more";
-  awaited: "nothing" | "value" | "acknowledgement" | "memory";
-  behaviour: string;
-  channel: string;
-  from: string[];
-  text: string;
-}
-
-/** The part of a server's verdict that is needed here. */
-export interface Judged {
-  name: string;
-  verdict: "holds" | "violated" | "unknown";
-  why: string;
-  hint?: string;
-  cut_off?: string;
-  warning: boolean;
-  waits: readonly string[];
-  at_end: readonly SubsystemAtEnd[];
-  behaviours: readonly { path: string; line: number }[];
-  steps: number[] | null;
-  narrative: string | null;
-}
+/** The part of a verdict that is needed here. */
+type Judged = Pick<
+  Verdict,
+  "name" | "verdict" | "why" | "hint" | "cut_off" | "warning" | "waits" | "at_end" | "behaviours" | "steps" | "narrative"
+>;
 
 /** An arrow of the chain of waiting: the waiting subsystem, the one it waits for, and the channel. */
 export interface Wait {

@@ -1,12 +1,11 @@
 import type { NetModel } from "./net/net";
-
-interface Complaint {
-  severity: "error" | "warning" | "hint" | "note";
-  line: number;
-}
+import type { Diagnostic } from "./protocol";
 
 /** The pages to mark for complaints: the innermost page that begins on the line, or last before it. */
-export function flagsOf(net: NetModel, complaints: readonly Complaint[]): Map<string, "error" | "warning"> {
+export function flagsOf(
+  net: NetModel,
+  complaints: readonly Pick<Diagnostic, "severity" | "line">[],
+): Map<string, "error" | "warning"> {
   const flags = new Map<string, "error" | "warning">();
   for (const { severity, line } of complaints) {
     if (severity !== "error" && severity !== "warning") continue;

@@ -1,6 +1,6 @@
 import { useMemo } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import type { Verdict } from "../live/protocol";
+import type { Verdict } from "../model/protocol";
 import { causesOf } from "../model/causes";
 import { sentence } from "../model/net/labels";
 import { readStructure } from "../model/structure/structure";

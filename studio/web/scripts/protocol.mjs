@@ -1,5 +1,5 @@
 #!/usr/bin/env node
-// Writes the types of the page from the JSON Schemas: live/protocol.ts and model/net/net_json.ts. `--check` compares instead.
+// Writes the types of the page from the JSON Schemas: model/protocol.ts and model/net/net_json.ts. `--check` compares instead.
 import { readFileSync, writeFileSync } from "node:fs";
 import { fileURLToPath } from "node:url";
 import { compile } from "json-schema-to-typescript";
@@ -64,7 +64,7 @@ async function typesOf(schema, imports = "") {
 }
 
 const outputs = {
-  "live/protocol.ts": () => typesOf("studio.schema.json", 'import type { FoldedNet } from "../model/net/net_json";\n'),
+  "model/protocol.ts": () => typesOf("studio.schema.json", 'import type { FoldedNet } from "./net/net_json";\n'),
   "model/net/net_json.ts": () => typesOf(net),
 };
 

@@ -1,5 +1,5 @@
 import { Api, ApiError } from "../api";
-import type { Events } from "../protocol";
+import type { Events } from "../../model/protocol";
 import { Store } from "../store";
 import { openStream, type Stream } from "./stream";
 

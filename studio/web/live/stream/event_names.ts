@@ -1,4 +1,4 @@
-import type { Events } from "../protocol";
+import type { Events } from "../../model/protocol";
 
 const listened: Record<keyof Events, true> = {
   hello: true,

@@ -1,11 +1,6 @@
-/** A device of a simulated world whose values can be shown. */
-export interface View {
-  kind: "scan" | "camera" | "depth" | "labels";
-  from?: number;
-  to?: number;
-  width?: number;
-  height?: number;
-}
+import type { WorldView } from "../protocol";
+
+type View = Pick<WorldView, "kind" | "from" | "to" | "width" | "height">;
 
 /** The present state of a scan: rays on a body. */
 export interface Rays {

@@ -1,46 +1,39 @@
-/** The values of the controls of an operator's panel (docs/use/drivers.md, Teleoperation). */
+import type { PanelControl } from "../protocol";
 
-export interface ControlShape {
-  field: string;
-  control: "button" | "switch" | "slider" | "stick_x" | "stick_y";
-  unit: string;
-  minimum: number | null;
-  maximum: number | null;
-  whole: boolean;
-}
+/** The values of the controls of an operator's panel (docs/use/drivers.md, Teleoperation). */
 
 export type Inputs = Readonly<Record<string, number | boolean>>;
 
-const isStick = ({ control }: ControlShape) => control === "stick_x" || control === "stick_y";
+const isStick = ({ control }: PanelControl) => control === "stick_x" || control === "stick_y";
 /** The controls that return to neutral when they are released. */
-export const springsBack = (control: ControlShape) => isStick(control) || control.control === "button";
+export const springsBack = (control: PanelControl) => isStick(control) || control.control === "button";
 
 /**
  * False, zero, or the number of the range that is nearest to zero: the controller uses the same without an
  * operator.
  */
-export function neutralOf({ minimum, maximum }: ControlShape): number | boolean {
+export function neutralOf({ minimum, maximum }: PanelControl): number | boolean {
   return minimum === null || maximum === null ? false : Math.min(Math.max(0, minimum), maximum);
 }
 
-export function neutralInputs(controls: readonly ControlShape[]): Inputs {
+export function neutralInputs(controls: readonly PanelControl[]): Inputs {
   return Object.fromEntries(controls.map((one) => [one.field, neutralOf(one)]));
 }
 
 /** The same with all released controls at rest. */
-export function released(controls: readonly ControlShape[], inputs: Inputs): Inputs {
+export function released(controls: readonly PanelControl[], inputs: Inputs): Inputs {
   return { ...inputs, ...neutralInputs(controls.filter(springsBack)) };
 }
 
 /** A deflection from -1 to 1 in the range of the control, whose zero stays zero. */
-export function deflected({ minimum, maximum, whole }: ControlShape, deflection: number): number {
+export function deflected({ minimum, maximum, whole }: PanelControl, deflection: number): number {
   const part = Math.min(Math.max(deflection, -1), 1);
   const value = part < 0 ? -part * (minimum ?? -1) : part * (maximum ?? 1);
   return whole ? Math.round(value) : Number(value.toPrecision(4));
 }
 
 /** The position of a value, from -1 to 1. */
-export function deflectionOf({ minimum, maximum }: ControlShape, value: number): number {
+export function deflectionOf({ minimum, maximum }: PanelControl, value: number): number {
   const end = value < 0 ? -(minimum ?? -1) : (maximum ?? 1);
   return end === 0 ? 0 : value / end;
 }
@@ -62,7 +55,7 @@ const deadZone = 0.12;
  * The input of a gamepad for the panel with that number: its left stick and, in order, its buttons for the
  * first panel, its right stick for the second. Controls at rest are left out.
  */
-export function padInputs(controls: readonly ControlShape[], pad: Pad, panel: number): Inputs {
+export function padInputs(controls: readonly PanelControl[], pad: Pad, panel: number): Inputs {
   const found: Record<string, number | boolean> = {};
   const buttons = controls.filter(({ control }) => control === "button");
   for (const one of controls) {
@@ -76,7 +69,7 @@ export function padInputs(controls: readonly ControlShape[], pad: Pad, panel: nu
 }
 
 /** The step of a slider: about a hundred of them, a round number, and whole for whole numbers. */
-export function stepOfSlider({ minimum, maximum, whole }: ControlShape): number {
+export function stepOfSlider({ minimum, maximum, whole }: PanelControl): number {
   const fine = 10 ** Math.floor(Math.log10(((maximum ?? 1) - (minimum ?? 0)) / 100));
   return whole ? Math.max(1, fine) : fine;
 }

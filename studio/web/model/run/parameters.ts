@@ -1,14 +1,6 @@
-/** How a parameter of a run is shown and changed. */
+import type { ParameterShown } from "../protocol";
 
-export interface ShownParameter {
-  path: string;
-  type: string;
-  unit: string;
-  minimum: number | null;
-  maximum: number | null;
-  initial: string;
-  value: string | null;
-}
+/** How a parameter of a run is shown and changed. */
 
 export type Control = "switch" | "slider" | "number" | "text";
 
@@ -16,14 +8,14 @@ const isInteger = (type: string) => /^u?int(8|16|32|64)$/.test(type);
 const isNumber = (type: string) => isInteger(type) || /^float(32|64)$/.test(type);
 
 /** A slider needs a range; a value that is neither a number nor a bool is typed. */
-export function controlOf({ type, minimum, maximum }: ShownParameter): Control {
+export function controlOf({ type, minimum, maximum }: ParameterShown): Control {
   if (type === "bool") return "switch";
   if (!isNumber(type)) return "text";
   return minimum !== null && maximum !== null && minimum < maximum ? "slider" : "number";
 }
 
 /** The step of a slider: about a hundred of them, a round number, and whole for whole numbers. */
-export function stepOf({ type, minimum, maximum }: ShownParameter): number {
+export function stepOf({ type, minimum, maximum }: ParameterShown): number {
   const fine = 10 ** Math.floor(Math.log10(((maximum ?? 1) - (minimum ?? 0)) / 100));
   return isInteger(type) ? Math.max(1, fine) : fine;
 }

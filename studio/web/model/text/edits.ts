@@ -1,30 +1,10 @@
+import type { Edit, EditValue, PlacedText, TextPosition } from "../protocol";
 import type { Agent, Behaviour, Buffer, Channel, Subsystem, SubsystemKind } from "../structure/structure";
 import { lineStarts } from "./line_ends";
 import { diff } from "./merge";
 import type { YamlPath, YamlText } from "./yaml_text";
 
-/** Edits as the server does them (`POST /api/edit`): share/tessera/studio.schema.json defines their form. */
-
-export type EditValue = string | EditValue[] | { [key: string]: EditValue };
-export interface Edit {
-  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template";
-  at?: (string | number)[];
-  key?: string;
-  text?: string;
-  as?: "scalar" | "list" | "quoted" | "as_is";
-  value?: EditValue;
-  fields?: { [key: string]: string };
-}
-/** Lines and letters count from 0. */
-interface Place {
-  line: number;
-  character: number;
-}
-interface PlacedText {
-  from: Place;
-  to: Place;
-  text: string;
-}
+/** Edits that the server does (`POST /api/edit`). */
 
 /** `name`, with a number if it is taken. */
 export function freeName(name: string, taken: readonly string[]): string {
@@ -37,7 +17,7 @@ export const isName = (name: string) => /^[A-Za-z](?:_?[A-Za-z0-9])*$/.test(name
 /** The text after edits that do not overlap. */
 export function applied(text: string, edits: readonly PlacedText[]): string {
   const starts = lineStarts(text);
-  const offset = ({ line, character }: Place) => (starts[line] ?? text.length) + character;
+  const offset = ({ line, character }: TextPosition) => (starts[line] ?? text.length) + character;
   return edits
     .map(({ from, to, text: insert }) => ({ from: offset(from), to: offset(to), insert }))
     .sort((a, b) => b.from - a.from || b.to - a.to)

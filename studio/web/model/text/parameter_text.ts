@@ -1,5 +1,6 @@
 import { isMap, isScalar, isSeq } from "yaml";
-import { set, type Edit } from "./edits";
+import type { Edit } from "../protocol";
+import { set } from "./edits";
 import { isNumber } from "./type_text";
 import type { YamlPath, YamlText } from "./yaml_text";
 

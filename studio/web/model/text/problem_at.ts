@@ -1,18 +1,16 @@
+import type { Diagnostic } from "../protocol";
 import type { YamlPath, YamlText } from "./yaml_text";
-
-/** A complaint of the server about a part of the text, with its position from 1. */
-interface Complaint {
-  severity: string;
-  message: string;
-  line: number;
-  column: number;
-}
 
 /**
  * The complaints about the value at a path, in one text; undefined: there are none. `own`: without those about the entries
  * of the map or list.
  */
-export function problemAt(yaml: YamlText, complaints: readonly Complaint[], at: YamlPath, own: boolean): string | undefined {
+export function problemAt(
+  yaml: YamlText,
+  complaints: readonly Pick<Diagnostic, "severity" | "message" | "line" | "column">[],
+  at: YamlPath,
+  own: boolean,
+): string | undefined {
   const counted = complaints.filter(({ severity }) => severity === "error" || severity === "warning");
   if (counted.length === 0) return undefined;
   const range = yaml.range(at);

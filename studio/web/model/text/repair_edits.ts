@@ -1,6 +1,7 @@
 import type { Cause } from "../causes";
 import { channelOf, findThing, withoutIndex, type Channel, type Structure } from "../structure/structure";
-import { addNext, remove, set, setChannel, type Edit } from "./edits";
+import type { Edit } from "../protocol";
+import { addNext, remove, set, setChannel } from "./edits";
 
 /** An edit that may mend a cause. The verification decides whether it does. */
 export interface Candidate {

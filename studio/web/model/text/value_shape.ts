@@ -1,5 +1,5 @@
 import { accepts, fieldsOf, resolved, type FieldShape, type Schema } from "./schema_fields";
-import type { EditValue } from "./edits";
+import type { EditValue } from "../protocol";
 
 /** The form of a value of the specification. The schema decides it; among alternatives, the present value does. */
 export type ValueShape =

@@ -1,6 +1,6 @@
 import { useStore, useStudio } from "../../hooks/use";
 import { lossOf, trouble, worstFirst } from "../../live/deployment";
-import type { LinkSeen, ProcessSeen, WaitingChain } from "../../live/protocol";
+import type { LinkSeen, ProcessSeen, WaitingChain } from "../../model/protocol";
 import { reason } from "../pane_title";
 
 const stateTitles: Record<Exclude<ProcessSeen["state"], "absent">, string> = {

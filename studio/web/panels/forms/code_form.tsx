@@ -2,7 +2,7 @@ import { useEffect, useId, useRef, type ReactNode } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { useStructure } from "../../hooks/use_structure";
 import { edited, functionIn } from "../../live/code_draft";
-import type { FunctionShown } from "../../live/protocol";
+import type { FunctionShown } from "../../model/protocol";
 import { buildMessages, functionAt, type BuildMessage, type FunctionText } from "../../model/text/cpp_function";
 import type { Behaviour, Subsystem } from "../../model/structure/structure";
 import { mergeLines, taking, type Side } from "../../model/text/merge";

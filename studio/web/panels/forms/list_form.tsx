@@ -2,7 +2,7 @@ import { useRef, type ReactNode } from "react";
 import type { Structure } from "../../model/structure/structure";
 import { append, remove } from "../../model/text/edits";
 import type { YamlPath } from "../../model/text/yaml_text";
-import type { EditValue } from "../../live/protocol";
+import type { EditValue } from "../../model/protocol";
 import { useEdit } from "./form_parts";
 import { OwnProblem } from "./use_problems";
 

@@ -1,7 +1,7 @@
 import { useState, type ReactNode } from "react";
 import { useStudio } from "../../hooks/use";
 import { keysNow, named } from "../../live/editor";
-import type { EditValue } from "../../live/protocol";
+import type { EditValue } from "../../model/protocol";
 import { insert, remove, rename, set } from "../../model/text/edits";
 import type { Structure } from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";

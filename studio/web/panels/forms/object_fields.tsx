@@ -4,7 +4,7 @@ import { fieldOf, type FieldShape, type Schema } from "../../model/text/schema_f
 import { freshValue, shapeOf, type Case, type ValueShape } from "../../model/text/value_shape";
 import { lineText } from "../../model/text/list_text";
 import type { Now } from "../../live/editor";
-import type { Edit, EditValue } from "../../live/protocol";
+import type { Edit, EditValue } from "../../model/protocol";
 import type { Structure } from "../../model/structure/structure";
 import * as edits from "../../model/text/edits";
 import type { YamlPath } from "../../model/text/yaml_text";

@@ -1,6 +1,6 @@
 import type { FieldShape } from "../../model/text/schema_fields";
 import { listAsTyped } from "../../model/text/list_text";
-import type { Edit } from "../../live/protocol";
+import type { Edit } from "../../model/protocol";
 import { Choice, Field } from "./field";
 
 /** "per_second" as a label: "Per second". */

@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { FileRenamed } from "../../live/protocol";
+import type { FileRenamed } from "../../model/protocol";
 
 const linesOf = (lines: readonly number[]) => `${lines.length === 1 ? "line" : "lines"} ${[...new Set(lines)].join(", ")}`;
 

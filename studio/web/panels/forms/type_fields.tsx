@@ -1,6 +1,6 @@
 import { insert, remove, rename, replace, set } from "../../model/text/edits";
 import { keysNow, named, type Now } from "../../live/editor";
-import type { Edit } from "../../live/protocol";
+import type { Edit } from "../../model/protocol";
 import type { Structure } from "../../model/structure/structure";
 import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
 import type { YamlPath } from "../../model/text/yaml_text";

@@ -1,6 +1,6 @@
 import { useStore, useStudio } from "../../hooks/use";
 import type { Pane } from "../../live/scene";
-import type { Coverage } from "../../live/protocol";
+import type { Coverage } from "../../model/protocol";
 
 /** Switches the shade of unreached elements on the drawing, and explains it. */
 export function CoverageLegend({ pane }: { pane: Pane }) {

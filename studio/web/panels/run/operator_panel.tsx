@@ -1,6 +1,6 @@
 import { useEffect, useId, useRef, useState, type KeyboardEvent, type PointerEvent } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { PanelControl, PanelShown } from "../../live/protocol";
+import type { PanelControl, PanelShown } from "../../model/protocol";
 import { deflected, deflectionOf, neutralOf, pushOf, stepOfSlider, type Inputs } from "../../model/run/panel_inputs";
 
 /** The limit for fleets, which have too many panels to operate. */

@@ -1,5 +1,5 @@
 import { useStore, useStudio } from "../../hooks/use";
-import type { RunKind } from "../../live/protocol";
+import type { RunKind } from "../../model/protocol";
 import { stateTitles } from "../pane_title";
 
 const kindTitles: Record<RunKind, string> = {

@@ -1,4 +1,4 @@
-import type { CheckOutcome, MeasureOutcome, Outcome } from "../../live/protocol";
+import type { CheckOutcome, MeasureOutcome, Outcome } from "../../model/protocol";
 
 const count = (many: number) => many.toLocaleString("en");
 

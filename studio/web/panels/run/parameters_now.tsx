@@ -1,6 +1,6 @@
 import { useEffect, useId, useRef, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { ParameterShown } from "../../live/protocol";
+import type { ParameterShown } from "../../model/protocol";
 import { controlOf, same, stepOf } from "../../model/run/parameters";
 import { IconButton } from "../icons";
 

@@ -1,6 +1,6 @@
 import { useEffect } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { RecordingInfo } from "../../live/protocol";
+import type { RecordingInfo } from "../../model/protocol";
 
 /** The recordings of runs, to be opened alone, beside the run, or two side by side. */
 export function RecordingsPanel() {

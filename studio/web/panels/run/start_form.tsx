@@ -1,7 +1,7 @@
 import { useCallback, useEffect, useState } from "react";
 import { useHasWorld, useStore, useStudio, useUnsaved } from "../../hooks/use";
 import { message } from "../../live/api";
-import type { Project, RunRequest } from "../../live/protocol";
+import type { Project, RunRequest } from "../../model/protocol";
 import { Choice, Field } from "../forms/field";
 
 const kindsOf = (hasWorld: boolean, deployed: boolean) =>

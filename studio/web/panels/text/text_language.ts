@@ -10,7 +10,7 @@ import {
 } from "@codemirror/autocomplete";
 import type { EditorState, Extension, Text } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap, type Tooltip } from "@codemirror/view";
-import type { LanguageAnswer, LanguageQuestion, Proposal, TextPosition } from "../../live/protocol";
+import type { LanguageAnswer, LanguageQuestion, Proposal, TextPosition } from "../../model/protocol";
 
 /** Asks the server about the present text of the editor. */
 export type Ask = (question: LanguageQuestion) => Promise<LanguageAnswer>;

@@ -8,7 +8,7 @@ import { drawSelection, EditorView, highlightActiveLine, highlightActiveLineGutt
 import { tags } from "@lezer/highlight";
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Diagnostic } from "../../live/protocol";
+import type { Diagnostic } from "../../model/protocol";
 import { splice } from "../../model/text/merge";
 import { language } from "./text_language";
 

@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "react";
-import type { WorldView } from "../../live/protocol";
+import type { WorldView } from "../../model/protocol";
 import type { Track } from "../../live/track";
 import { numbersOf, pixelsOf } from "../../model/net/views";
 import { cut } from "../fleet/draw_fleet";

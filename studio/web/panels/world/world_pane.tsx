@@ -3,7 +3,7 @@ import { useStore, useStudio } from "../../hooks/use";
 import { message } from "../../live/api";
 import type { Track } from "../../live/track";
 import { Scans, viewsOf } from "../../live/views";
-import type { WorldView } from "../../live/protocol";
+import type { WorldView } from "../../model/protocol";
 import type { World } from "../../live/world";
 import { robotsOf, type Robot } from "../../model/run/robots";
 import { colourOf, cut, drawFleet } from "../fleet/draw_fleet";

@@ -156,6 +156,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       const buffer = async (subsystem, what, fresh, name, type) => {
         await head(subsystem);
         await button(page, `Add ${what}`).click();
+        await page.getByRole("heading", { name: `Buffer ${fresh}`, exact: true }).waitFor();
         await fill(field("Name"), name);
         const [base, unit] = type.split(" ");
         await page.getByLabel("Type", { exact: true }).selectOption(base);
@@ -214,6 +215,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       for (const name of ["turn_left", "turn_right", "back_off", "rest", "recover"]) {
         await head("robot.control");
         await button(page, "Add behaviour").click();
+        await page.getByRole("heading", { name: "Behaviour act" }).waitFor();
         await fill(field("Name"), name);
         await page.locator(`.chip[data-path="robot.control.${name}"]`).waitFor();
       }

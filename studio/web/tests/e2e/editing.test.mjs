@@ -27,6 +27,7 @@ test("an edit in the drawing is a clean diff, in the text too, and is undone", (
     await tab(page, "Structure").click();
     await page.locator('[data-path="robot.control"]').click();
     await button(page, "Add behaviour").click();
+    await page.getByRole("heading", { name: "Behaviour act" }).waitFor();
     await page.getByRole("textbox", { name: "Name" }).fill("stop");
     await page.keyboard.press("Enter");
     await page.locator('.chip[data-path="robot.control.stop"]').waitFor();

@@ -3,7 +3,7 @@ import { isMap, parseDocument, type Document, type Pair, type Scalar } from "yam
 import type { Api } from "../../live/api";
 import { Draft } from "../../live/draft";
 import { Editor, keysNow, named } from "../../live/editor";
-import type { Edit, PlacedText } from "../../live/protocol";
+import type { Edit, PlacedText } from "../../model/protocol";
 import { append, insert, remove, rename, set } from "../../model/text/edits";
 
 const begin = parseDocument(`system: s

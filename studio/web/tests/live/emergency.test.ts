@@ -2,7 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Api } from "../../live/api";
 import type { Connection } from "../../live/stream/connection";
 import { Emergency, stoppedOf } from "../../live/emergency";
-import type { Driving } from "../../live/protocol";
+import type { Driving } from "../../model/protocol";
 
 const controller = (name: string, more: Partial<Driving["controllers"][number]> = {}) => ({
   name,

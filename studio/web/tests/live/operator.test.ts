@@ -1,6 +1,6 @@
 import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import { Operator } from "../../live/operator";
-import type { ControlRequest, PanelShown } from "../../live/protocol";
+import type { ControlRequest, PanelShown } from "../../model/protocol";
 import { Store } from "../../live/store";
 import type { Runner } from "../../live/runner";
 import type { RunnerState } from "../../live/runner_state";

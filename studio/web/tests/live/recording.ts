@@ -1,4 +1,4 @@
-import type { Recording } from "../../live/protocol";
+import type { Recording } from "../../model/protocol";
 
 /** The answer of the server with these members, and otherwise only the consequences of its firings. */
 export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings">): Recording {

@@ -2,7 +2,7 @@ import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import type { Api } from "../../live/api";
 import type { Connection } from "../../live/stream/connection";
 import type { Draft } from "../../live/draft";
-import type { ControlRequest, RunInfo } from "../../live/protocol";
+import type { ControlRequest, RunInfo } from "../../model/protocol";
 import { Runner } from "../../live/runner";
 import { NetModel } from "../../model/net/net";
 import { lineFollower } from "../model/line_follower";

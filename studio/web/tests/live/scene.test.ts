@@ -1,5 +1,5 @@
 import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
-import type { FiringRow } from "../../live/protocol";
+import type { FiringRow } from "../../model/protocol";
 import type { Recordings, RecordingsState } from "../../live/recordings";
 import { Replay } from "../../live/replay";
 import type { Runner } from "../../live/runner";

@@ -1,5 +1,5 @@
 import { describe, expect, test } from "vitest";
-import type { RecordedPoses } from "../../live/protocol";
+import type { RecordedPoses } from "../../model/protocol";
 import { LiveWorld, RecordedWorld } from "../../live/world";
 import { PoseFrames } from "../../model/run/pose_frames";
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Edit } from "../../live/protocol";
+import type { Edit } from "../../model/protocol";
 import * as edits from "../../model/text/edits";
 import { findThing, readStructure, thingAt, type Buffer } from "../../model/structure/structure";
 import { behaviour, example, structure, subsystem } from "./edited_example";

@@ -1,18 +1,10 @@
 import { describe, expect, it } from "vitest";
-import {
-  deflected,
-  deflectionOf,
-  neutralInputs,
-  padInputs,
-  pushOf,
-  released,
-  stepOfSlider,
-  type ControlShape,
-} from "../../model/run/panel_inputs";
+import type { PanelControl } from "../../model/protocol";
+import { deflected, deflectionOf, neutralInputs, padInputs, pushOf, released, stepOfSlider } from "../../model/run/panel_inputs";
 
 const control = (
   field: string,
-  kind: ControlShape["control"],
+  kind: PanelControl["control"],
   minimum: number | null = null,
   maximum: number | null = null,
   whole = false,

@@ -1,7 +1,8 @@
 import { describe, expect, it } from "vitest";
-import { controlOf, same, stepOf, type ShownParameter } from "../../model/run/parameters";
+import type { ParameterShown } from "../../model/protocol";
+import { controlOf, same, stepOf } from "../../model/run/parameters";
 
-const shown = (known: Partial<ShownParameter>): ShownParameter => ({
+const shown = (known: Partial<ParameterShown>): ParameterShown => ({
   path: "robot.v",
   type: "float64",
   unit: "m/s",
@@ -9,6 +10,7 @@ const shown = (known: Partial<ShownParameter>): ShownParameter => ({
   maximum: null,
   initial: "0.2",
   value: "0.2",
+  differs: false,
   ...known,
 });
 

@@ -107,7 +107,7 @@ models:
 `;
 it("a complaint is shown at the value it is about", () => {
   const yaml = new YamlText(text);
-  const complaint = (line: number, column: number) => [{ severity: "error", message: "no", line, column }];
+  const complaint = (line: number, column: number) => [{ severity: "error" as const, message: "no", line, column }];
   expect(problemAt(yaml, complaint(5, 14), ["simulation", "checks", 0, "never"], false)).toBe("no");
   expect(problemAt(yaml, complaint(5, 24), ["simulation", "checks", 0, "never"], false)).toBe("no");
   expect(problemAt(yaml, complaint(5, 14), ["simulation", "checks", 0, "name"], false)).toBeUndefined();

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { SubsystemAtEnd, Verdict } from "../../live/protocol";
+import type { SubsystemAtEnd, Verdict } from "../../model/protocol";
 import { stepsOf, stuck } from "../../live/verifier";
 import { flagsOf } from "../../model/flags";
 import { niceStep, stepFor } from "../../panels/plots/draw_timeline";

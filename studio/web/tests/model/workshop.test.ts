@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { Edit, SubsystemAtEnd, Verdict } from "../../live/protocol";
+import type { Edit, SubsystemAtEnd, Verdict } from "../../model/protocol";
 import type { Api } from "../../live/api";
 import { mended, Repairs } from "../../live/repairs";
 import { causesOf, circleIn, titleOf, waitsIn } from "../../model/causes";

@@ -1,5 +1,5 @@
 // Made by scripts/protocol.mjs of share/tessera/studio.schema.json: change that, and run `npm run protocol`.
-import type { FoldedNet } from "../model/net/net_json";
+import type { FoldedNet } from "./net/net_json";
 
 /** Null: never; true: always. */
 export type ConditionShown = { name: string; text: string; line: number }[] | true | null;

@@ -12,6 +12,7 @@
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 #include "cli/watching/not_reached.hpp"
+#include "cli/watching/offers.hpp"
 #include "cli/watching/running_controller.hpp"
 #include "project/process/control_reader.hpp"
 #include "tessera/control_messages.hpp"
@@ -129,8 +130,11 @@ bool is_system(const std::string& which, const std::vector<SeenController>& proc
 }
 
 int set_command(const OperateOptions& options) {
-  auto [processes, code] = find_system(options.which, "it is unknown whether it takes the values");
+  auto [processes, code] =
+      find_system(options.which, options.values.empty() ? "it is unknown which parameters it has"
+                                                        : "it is unknown whether it takes the values");
   if (processes.empty()) return failed;
+  if (options.values.empty()) return std::max(code, list_parameters(processes));
   std::vector<command::Set> commands;
   for (const std::string& one : options.values) {
     const std::size_t equals = one.find('=');
@@ -250,10 +254,12 @@ void declare_controller(
 void add_set(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("set", "Change parameters of a controller that runs in real time");
   auto options = std::make_shared<OperateOptions>();
-  command.option("values", options->values, "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3")
-      .required();
+  command.option(
+      "values", options->values,
+      "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3; without any, it lists what there is");
   declare_controller(command, *options);
   command.footer(
+      "Without values it lists all parameters, with their values, units and ranges.\n"
       "A value that does not fit the parameter's type and range is refused, and then no value is set. A "
       "number\n"
       "may have any unit of its quantity: v='30 cm/s'. A subsystem takes the new value\n"

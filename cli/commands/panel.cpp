@@ -15,6 +15,7 @@
 
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
+#include "cli/watching/offers.hpp"
 #include "cli/watching/running_controller.hpp"
 #include "project/process/control_reader.hpp"
 #include "tessera/control_messages.hpp"
@@ -101,6 +102,7 @@ int panel_command(const PanelOptions& options) {
   std::vector<SeenController> processes = first_look(std::move(found.running));
   if (processes.empty()) return failed;
   if (processes.size() > 1 && !common_deployment(processes)) return complain_of_several(processes);
+  if (options.values.empty()) return list_panels(processes, options.path);
   std::signal(SIGINT, [](int) { interrupted = true; });
   std::signal(SIGTERM, [](int) { interrupted = true; });
   const auto end = Clock::now() + *duration;
@@ -123,13 +125,15 @@ int panel_command(const PanelOptions& options) {
 void add_panel(CommandLine& app, int& exit_code) {
   Subcommand command = app.add("panel", "Operate a panel of a controller that runs in real time");
   auto options = std::make_shared<PanelOptions>();
-  command.option("path", options->path, "The real buffer with the panel: robot.console.drive").required();
-  command.option("values", options->values, "FIELD=VALUE: forward=0.3, horn=true; the rest is neutral")
-      .required();
+  command.option("path", options->path, "The real buffer with the panel: robot.console.drive");
+  command.option(
+      "values", options->values,
+      "FIELD=VALUE: forward=0.3, horn=true; the rest is neutral. Without any, it lists what there is");
   command.option("--for", options->duration, "Hold the values for so long (500ms by default)");
   command.option("--controller", options->which,
                  "Its system, its process (cart[0]) or its process number; needed if several run");
   command.footer(
+      "Without values it lists the panels, or the one of the path, with values, units and ranges.\n"
       "The values are repeated while the command runs. When it ends, also by Ctrl+C, the panel is neutral.\n"
       "Example: tessera panel robot.console.drive forward=0.3 turn=0.1 --for 2s");
   command.callback([options, &exit_code] { exit_code = panel_command(*options); });

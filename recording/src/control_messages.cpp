@@ -110,6 +110,34 @@ void members(Is<Snapshot> auto& one, auto& each) {
   each("left_out", one.left_out, by_need);
 }
 
+void members(Is<Offered::Parameter> auto& one, auto& each) {
+  each("path", one.path);
+  each("value", one.value);
+  each("unit", one.unit, by_need);
+  each("minimum", one.minimum, by_need);
+  each("maximum", one.maximum, by_need);
+}
+
+void members(Is<Offered::Control> auto& one, auto& each) {
+  each("field", one.field);
+  each("value", one.value);
+  each("unit", one.unit, by_need);
+  each("minimum", one.minimum, by_need);
+  each("maximum", one.maximum, by_need);
+}
+
+void members(Is<Offered::Panel> auto& one, auto& each) {
+  each("path", one.path);
+  each("stale_s", one.stale_s);
+  each("operated", one.operated);
+  each("controls", one.controls);
+}
+
+void members(Is<Offered> auto& one, auto& each) {
+  each("parameters", one.parameters);
+  each("panels", one.panels);
+}
+
 void members(Is<PieceHead> auto& one, auto& each) {
   each("recording_bytes", one.bytes);
   each("begins", one.begins);
@@ -295,6 +323,7 @@ template <class Message>
   reader("answer", answer.id);
   reader("error", error);
   reader("elsewhere", answer.elsewhere);
+  reader("offered", answer.offered);
   if (!error.empty()) answer.problem = Problem{std::move(error)};
   return answer;
 }
@@ -336,6 +365,7 @@ std::string line_of(const ControllerHasEnded& /*end*/) { return text_of({{"ended
 std::string line_of(const CommandAnswer& answer) {
   json object{{"answer", answer.id}, {"error", answer.problem ? answer.problem->text : ""}};
   if (answer.elsewhere) object["elsewhere"] = true;
+  if (answer.offered) object["offered"] = json_of(*answer.offered);
   return text_of(object);
 }
 

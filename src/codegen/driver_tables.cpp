@@ -30,12 +30,13 @@ std::string option_text(const std::string& name, const spec::DriverOption& optio
                      option.unit.empty() ? "" : ", " + string_literal(option.unit));
 }
 
-/// "forward -0.5 0.5; horn", as the runtime reads it.
+/// "forward -0.5 0.5 m/s; horn", as the runtime reads it.
 std::string controls_text(const spec::Panel& panel) {
   std::string text;
   for (const spec::PanelControl& one : panel.controls) {
     text += (text.empty() ? "" : "; ") + one.field;
-    if (one.is_number()) text += fmt::format(" {} {}", one.minimum, one.maximum);
+    if (one.is_number())
+      text += fmt::format(" {} {}{}{}", one.minimum, one.maximum, one.unit.empty() ? "" : " ", one.unit);
   }
   return text;
 }

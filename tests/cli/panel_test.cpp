@@ -21,6 +21,7 @@ TEST_F(TeleoperationInATerminal, MovesTheRobotAndIsInTheRecording) {
       "$T run tele --for 60s --record tele.tsr >run.txt 2>&1 & R=$!; "
       "for i in $(seq 400); do $T panel crane.cabin.lever value=-1 --for 1ms 2>>none.txt && break; sleep "
       "0.05; done; "
+      "$T panel; $T panel robot.consol; $T set; "
       "$T panel robot.console.drive forward=0.5 horn=true --for 2s & "
       "sleep 1; $T panel robot.console.drive forward=0.25; echo code $?; wait $!; "
       "$T panel robot.console.drive forward=7; echo code $?; "
@@ -31,7 +32,9 @@ TEST_F(TeleoperationInATerminal, MovesTheRobotAndIsInTheRecording) {
   for (const char* part :
        {"another operator has the panel robot.console.drive", "code 1", "goes from -1 to 1, and 7 is out",
         "'nan' is neither a number nor true or false", "'forward' is not FIELD=VALUE",
-        "there is no panel 'robot.consol.drive'; did you mean 'robot.console.drive'?"})
+        "there is no panel 'robot.consol.drive'; did you mean 'robot.console.drive'?",
+        "robot.console.drive  neutral; an input counts for 0.5 s\n  forward", "there are no parameters",
+        "there is no panel 'robot.consol'; did you mean 'robot.console.drive'?"})
     EXPECT_NE(done.text.find(part), std::string::npos) << part << "\n" << done.text;
 
   const std::string values = tessera("replay tele.tsr --values=robot.console.drive").text;

@@ -59,8 +59,8 @@ TEST(ControlMessages, EveryCommandIsOneThatTheSchemaKnows) {
            command::Recording{}, command::Scene{}, command::Scene{7}, command::Own{},
            command::Set{"v", "0.3"}, command::EmergencyStop{"smoke"},
            command::Panel{"robot.console.drive", "page 1", {{{"forward", 0.5}, {"horn", true}}}},
-           command::Panel{"robot.console.drive", "page 1", {}}, command::EmergencyStop{}, command::Reset{},
-           command::Pause{}, command::Resume{}, command::StepFiring{},
+           command::Panel{"robot.console.drive", "page 1", {}}, command::Offers{}, command::EmergencyStop{},
+           command::Reset{}, command::Pause{}, command::Resume{}, command::StepFiring{},
            command::StepIteration{"robot.control"}, command::Speed{2},
            command::Breakpoints{{"robot.in"}, {}, {"t_in"}}}) {
     schema_test::judge_command(json::parse(line_of(one)));
@@ -161,7 +161,12 @@ TEST(ControlMessages, TheClientReadsEveryMemberThatTheControllerWrites) {
   snapshot.deployment.reset();
   snapshot.control = {.paused = true, .pauses = 1, .speed = 0.5, .broke_at = "p"};
   EXPECT_EQ(round(snapshot), line_of(snapshot));
-  for (const CommandAnswer& one : {CommandAnswer{3, Problem{"no"}, true}, CommandAnswer{4, {}, false}})
+  const Offered offered{
+      {{"a.b.v", "[1, 2]", "m", 0, 3}, {"a.b.w", "x", "", {}, {}}},
+      {{"a.eye.x", 0.5, true, {{"ahead", "1", "m/s", -1, 1}, {"horn", "true", "", {}, {}}}}}};
+  schema_test::judge_line(json::parse(line_of(CommandAnswer{3, {}, false, offered})));
+  for (const CommandAnswer& one : {CommandAnswer{3, Problem{"no"}, true}, CommandAnswer{4, {}, false},
+                                   CommandAnswer{5, {}, false, offered}})
     EXPECT_EQ(line_of(std::get<CommandAnswer>(read_control_line(line_of(one)).value())), line_of(one));
   const SceneHead scene{.bytes = 3, .from = 4, .total = 9};
   EXPECT_EQ(line_of(std::get<SceneHead>(read_control_line(line_of(scene)).value())), line_of(scene));

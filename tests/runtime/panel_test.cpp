@@ -47,9 +47,9 @@ class PanelOfTest : public ::testing::Test {
  protected:
   PanelOfTest() {
     panel_now = 1000 * ms;
-    const DriverSetup setup(
-        "robot.console.drive",
-        {{"controls", "forward -0.5 0.5; gear 1 5; horn; arm.lift 0 0.2; arm.grip"}, {"stale", 0.3, "s"}});
+    const DriverSetup setup("robot.console.drive",
+                            {{"controls", "forward -0.5 0.5 m/s; gear 1 5; horn; arm.lift 0 0.2 m; arm.grip"},
+                             {"stale", 0.3, "s"}});
     const std::unique_ptr<RealReceptor> made = panel_receptor<PanelDrive>(setup);
     panel_ = dynamic_cast<PanelReceptor&>(*made).panel();
     receptor_.emplace(panel_, value_encoding_of<PanelDrive>(), [] { return panel_now; });
@@ -72,6 +72,24 @@ TEST_F(PanelOfTest, HasNoValueBeforeTheFirstInput) {
   drive_.forward = 7;
   EXPECT_FALSE(read());
   EXPECT_EQ(drive_.forward, 7) << "untouched";
+}
+
+TEST_F(PanelOfTest, OffersItsControlsWithTheValuesThatCount) {
+  const auto shown = [&] {
+    const Offered::Panel all = panel_->offered(panel_now);
+    std::string text = all.operated ? "operated" : "neutral";
+    for (const Offered::Control& one : all.controls) text += "; " + one.field + ' ' + one.value + one.unit;
+    return text;
+  };
+  EXPECT_EQ(shown(), "neutral; forward 0m/s; gear 1; horn false; arm.lift 0m; arm.grip false");
+  EXPECT_EQ(feed({{"forward", 0.25}, {"horn", true}, {"gear", 3.0}}), "");
+  EXPECT_EQ(shown(), "operated; forward 0.25m/s; gear 3; horn true; arm.lift 0m; arm.grip false");
+  const Offered::Panel all = panel_->offered(panel_now);
+  EXPECT_EQ(all.controls[0].minimum, -0.5);
+  EXPECT_EQ(all.controls[0].maximum, 0.5);
+  EXPECT_FALSE(all.controls[2].minimum) << "a bool has no range";
+  panel_now += 300 * ms;
+  EXPECT_EQ(shown(), "neutral; forward 0m/s; gear 1; horn false; arm.lift 0m; arm.grip false");
 }
 
 TEST_F(PanelOfTest, GivesAnInputAndIsNeutralWhenItIsStale) {

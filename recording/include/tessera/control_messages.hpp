@@ -87,11 +87,33 @@ struct Snapshot {
   std::uint64_t left_out = 0;            ///< members of lists for which a message of the network has no room
 };
 
+/// What an operator can change, with the newest values.
+struct Offered {
+  /// A parameter of one subsystem.
+  struct Parameter {
+    std::string path, value, unit;           ///< "robot.control.v"; unit empty: none
+    std::optional<double> minimum, maximum;  ///< of each element; nullopt: none
+  };
+  struct Control {
+    std::string field, value, unit;
+    std::optional<double> minimum, maximum;  ///< nullopt: it is a bool
+  };
+  struct Panel {
+    std::string path;  ///< of its real buffer
+    double stale_s = 0;
+    bool operated = false;  ///< false: it is neutral
+    std::vector<Control> controls;
+  };
+  std::vector<Parameter> parameters;
+  std::vector<Panel> panels;
+};
+
 /// The result of a command.
 struct CommandAnswer {
   std::int64_t id = 0;
-  std::optional<Problem> problem;  ///< nullopt: done
-  bool elsewhere = false;          ///< no subsystem of this process has such a parameter or panel
+  std::optional<Problem> problem;    ///< nullopt: done
+  bool elsewhere = false;            ///< no subsystem of this process has such a parameter or panel
+  std::optional<Offered> offered{};  ///< of command::Offers
 };
 
 /// Precedes bytes of the recording.
@@ -148,6 +170,10 @@ struct Panel {
   /// By field; fields without a value are neutral. nullopt: the operator lets go of the panel.
   std::optional<std::map<std::string, Value>> values;
 };
+/// Asks for the parameters and the panels.
+struct Offers {
+  static constexpr auto name = "offers";
+};
 struct EmergencyStop {
   static constexpr auto name = "emergency_stop";
   std::string why;  ///< empty: the words of the controller
@@ -185,7 +211,7 @@ using SimulationCommand = std::variant<command::Pause, command::Resume, command:
                                        command::StepIteration, command::Speed, command::Breakpoints>;
 using ControlCommand =
     std::variant<command::Recording, command::Scene, command::Own, command::Set, command::Panel,
-                 command::EmergencyStop, command::Reset, SimulationCommand>;
+                 command::Offers, command::EmergencyStop, command::Reset, SimulationCommand>;
 
 /// With its end. Text that is no UTF-8 is replaced: it names nothing, and the controller says so.
 /// id: of the answer; nullopt: none is waited for.

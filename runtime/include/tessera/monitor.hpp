@@ -56,6 +56,9 @@
 ///                                                                an input of a panel (docs/use/drivers.md);
 ///                                                                without "values": the operator lets go
 ///
+///     {"command": "offers"}                                      the answer has "offered": all parameters and
+///                                                                panels, with values, units and ranges
+///
 /// An answer with {"elsewhere": true} says that no subsystem of this process has such a parameter or panel;
 /// another process of the system may have it.
 ///

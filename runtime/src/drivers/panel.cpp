@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <map>
@@ -40,19 +42,41 @@ void put_number(double value, std::byte* at) {
   std::memcpy(at, &number, sizeof number);
 }
 
-void put_number(const std::string& type, double value, std::byte* at) {
-  using Put = void (*)(double, std::byte*);
-  constexpr std::pair<std::string_view, Put> kinds[] = {
-      {"int8", put_number<std::int8_t>},     {"int16", put_number<std::int16_t>},
-      {"int32", put_number<std::int32_t>},   {"int64", put_number<std::int64_t>},
-      {"uint8", put_number<std::uint8_t>},   {"uint16", put_number<std::uint16_t>},
-      {"uint32", put_number<std::uint32_t>}, {"uint64", put_number<std::uint64_t>},
-      {"float32", put_number<float>},        {"float64", put_number<double>}};
-  for (const auto& [name, put] : kinds)
-    if (name == type) put(value, at);
+template <class Number>
+std::string shown_number(const std::byte* at) {
+  Number number{};
+  std::memcpy(&number, at, sizeof number);
+  return fmt::format("{}", number);
 }
 
-/// "forward -0.5 0.5; horn": the fields that have controls, with the ranges of numbers.
+struct NumberKind {
+  std::string_view name;
+  void (*put)(double, std::byte*);
+  std::string (*text)(const std::byte*);
+};
+
+template <class Number>
+constexpr NumberKind number_kind(std::string_view name) {
+  return {name, put_number<Number>, shown_number<Number>};
+}
+
+/// nullptr: it is no number.
+const NumberKind* kind_of(std::string_view type) {
+  static constexpr std::array kinds = {
+      number_kind<std::int8_t>("int8"),     number_kind<std::int16_t>("int16"),
+      number_kind<std::int32_t>("int32"),   number_kind<std::int64_t>("int64"),
+      number_kind<std::uint8_t>("uint8"),   number_kind<std::uint16_t>("uint16"),
+      number_kind<std::uint32_t>("uint32"), number_kind<std::uint64_t>("uint64"),
+      number_kind<float>("float32"),        number_kind<double>("float64")};
+  const auto found = std::ranges::find(kinds, type, &NumberKind::name);
+  return found == kinds.end() ? nullptr : &*found;
+}
+
+void put_number(const std::string& type, double value, std::byte* at) {
+  if (const NumberKind* const kind = kind_of(type)) kind->put(value, at);
+}
+
+/// "forward -0.5 0.5 m/s; horn": the fields that have controls, with the ranges and units of numbers.
 std::vector<Panel::Control> controls_of(const std::string& text, const ValueLayout& layout,
                                         std::size_t& size) {
   const std::vector<std::string> paths = layout.paths(), types = layout.types();
@@ -84,7 +108,9 @@ std::vector<Panel::Control> controls_of(const std::string& text, const ValueLayo
     if (blank != std::string_view::npos) {
       const char* const end = one.data() + one.size();
       const auto first = std::from_chars(one.data() + blank + 1, end, control.minimum);
-      if (first.ptr != end) std::from_chars(first.ptr + 1, end, control.maximum);
+      auto second = first;
+      if (first.ptr != end) second = std::from_chars(first.ptr + 1, end, control.maximum);
+      if (second.ptr != end) control.unit.assign(second.ptr + 1, end);
     }
     controls.push_back(std::move(control));
   }
@@ -131,6 +157,20 @@ std::optional<Problem> Panel::put(const std::string& field, const command::Panel
                                path_, found->minimum, found->maximum, *number)};
   put_number(found->type, *number, at);
   return std::nullopt;
+}
+
+Offered::Panel Panel::offered(std::int64_t now_ns) const {
+  const std::lock_guard lock(mutex_);
+  Offered::Panel all{path_, std::chrono::duration<double>(stale_).count(), counts(input_, now_ns), {}};
+  const std::vector<std::byte>& bytes = all.operated ? input_.bytes : neutral_;
+  for (const Control& one : controls_) {
+    const std::byte* const at = bytes.data() + one.offset;
+    if (const NumberKind* const kind = kind_of(one.type))
+      all.controls.push_back({one.field, kind->text(at), one.unit, one.minimum, one.maximum});
+    else
+      all.controls.push_back({one.field, *at == std::byte{0} ? "false" : "true", {}, {}, {}});
+  }
+  return all;
 }
 
 std::optional<Problem> Panel::feed(const command::Panel& input, std::int64_t now_ns) {
@@ -205,6 +245,13 @@ std::vector<std::string> Panels::paths() const {
 bool Panels::knows(const std::string& path) const {
   const std::lock_guard lock(mutex_);
   return panels_.contains(path);
+}
+
+std::vector<Offered::Panel> Panels::offered() const {
+  const std::lock_guard lock(mutex_);
+  std::vector<Offered::Panel> all;
+  for (const auto& [path, panel] : panels_) all.push_back(panel->offered(monotonic_ns()));
+  return all;
 }
 
 std::optional<Problem> Panels::feed(const command::Panel& input) const {

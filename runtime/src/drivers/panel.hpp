@@ -30,6 +30,7 @@ class Panel {
     std::string type;  ///< "bool", "int8", "float64"
     std::size_t offset = 0;
     double minimum = 0, maximum = 0;
+    std::string unit{};  ///< empty: none
   };
   /// size: of the encoded value in bytes.
   Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale);
@@ -40,6 +41,9 @@ class Panel {
 
   /// Returns the mistake in the input; nullopt: it counts from now on. now_ns: of monotonic_ns().
   [[nodiscard]] std::optional<Problem> feed(const command::Panel& input, std::int64_t now_ns);
+
+  /// The values that count, or the neutral ones.
+  [[nodiscard]] Offered::Panel offered(std::int64_t now_ns) const;
 
   struct Input {
     std::vector<std::byte> bytes;          ///< the encoded value
@@ -58,7 +62,7 @@ class Panel {
   const std::vector<Control> controls_;
   const Duration stale_;
   std::vector<std::byte> neutral_;
-  std::mutex mutex_;  // guards the members below
+  mutable std::mutex mutex_;  // guards the members below
   Input input_;
   std::string who_;
 };
@@ -88,6 +92,7 @@ class Panels {
   void add(std::shared_ptr<Panel> panel);
   [[nodiscard]] std::vector<std::string> paths() const;
   [[nodiscard]] bool knows(const std::string& path) const;
+  [[nodiscard]] std::vector<Offered::Panel> offered() const;
   /// As Panel::feed; also for a path that names no panel.
   [[nodiscard]] std::optional<Problem> feed(const command::Panel& input) const;
 

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "subsystem/parameters.hpp"
+#include "tessera/control_messages.hpp"
 
 namespace tessera {
 
@@ -21,8 +22,7 @@ namespace tessera {
 class ParameterChanges {
  public:
   /// owners: per instance; the data that they refer to must outlive this object.
-  explicit ParameterChanges(std::vector<ParameterOwner> owners)
-      : owners_(std::move(owners)), waiting_(std::make_unique<Waiting[]>(owners_.size())) {}
+  explicit ParameterChanges(std::vector<ParameterOwner> owners);
 
   /// Returns the mistake in the request; nullopt: the change will take place. path: as in set_parameters.
   /// Threads: any.
@@ -31,6 +31,9 @@ class ParameterChanges {
   [[nodiscard]] std::optional<Problem> try_out(const std::string& path, const std::string& value) const;
   /// Whether a subsystem here has a parameter that `path` names. Threads: any.
   [[nodiscard]] bool knows(const std::string& path) const { return has_parameter(owners_, path); }
+
+  /// All parameters, with the values that were requested last. Threads: any.
+  [[nodiscard]] std::vector<Offered::Parameter> offered() const;
 
   /// Applies the changes that wait for a subsystem, in the order of the requests, and calls
   /// `tell("robot.control.v=0.3")` for each. Never waits: changes that are being requested at the moment
@@ -62,6 +65,10 @@ class ParameterChanges {
   };
   std::vector<ParameterOwner> owners_;
   std::unique_ptr<Waiting[]> waiting_;  // per instance
+  /// The subsystems use the values themselves, so that no other thread may read them while the system runs.
+  std::vector<Offered::Parameter> offered_;
+  std::vector<std::size_t> first_offered_;  // per instance, into `offered_`
+  mutable std::mutex offered_mutex_;
 };
 
 }  // namespace tessera

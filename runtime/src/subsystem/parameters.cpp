@@ -180,7 +180,62 @@ template <class Number>
   return std::nullopt;
 }
 
+template <class Number>
+[[nodiscard]] std::string given_number(const void* at) {
+  Number number{};
+  std::memcpy(&number, at, sizeof number);
+  return fmt::format("{}", number);
+}
+
+[[nodiscard]] std::string given_string(const void* at) {
+  std::uint32_t size = 0;  // as store_string has written it
+  std::memcpy(&size, at, sizeof size);
+  return {static_cast<const char*>(at) + sizeof size, size};
+}
+
 }  // namespace
+
+std::string text_of(const Bindings::Parameter& parameter, const void* at) {
+  if (parameter.elements > 0) {
+    Parameter element = parameter;
+    element.elements = 0;
+    element.size = parameter.size / parameter.elements;
+    std::string all;
+    for (std::size_t index = 0; index < parameter.elements; ++index)
+      all += (index == 0 ? "" : ", ") +
+             text_of(element, static_cast<const std::byte*>(at) + index * element.size);
+    return '[' + all + ']';
+  }
+  switch (parameter.kind) {
+    case ValueKind::boolean:
+      return given_number<bool>(at);
+    case ValueKind::int8:
+      return given_number<std::int8_t>(at);
+    case ValueKind::int16:
+      return given_number<std::int16_t>(at);
+    case ValueKind::int32:
+      return given_number<std::int32_t>(at);
+    case ValueKind::int64:
+      return given_number<std::int64_t>(at);
+    case ValueKind::uint8:
+      return given_number<std::uint8_t>(at);
+    case ValueKind::uint16:
+      return given_number<std::uint16_t>(at);
+    case ValueKind::uint32:
+      return given_number<std::uint32_t>(at);
+    case ValueKind::uint64:
+      return given_number<std::uint64_t>(at);
+    case ValueKind::float32:
+      return given_number<float>(at);
+    case ValueKind::float64:
+      return given_number<double>(at);
+    case ValueKind::string:
+      return given_string(at);
+    case ValueKind::other:
+      break;
+  }
+  return "?";
+}
 
 bool has_parameter(std::span<const ParameterOwner> owners, const std::string& path) {
   const std::size_t dot = path.rfind('.');

@@ -30,6 +30,9 @@ struct CheckedValue {
                                                      const std::string& path, const std::string& value,
                                                      std::vector<CheckedValue>& checked);
 
+/// A value as `--set` takes it, without its unit: "0.2", "[1, 2]". at: as the parameter is stored in memory.
+[[nodiscard]] std::string text_of(const Bindings::Parameter& parameter, const void* at);
+
 /// Whether `path` names a parameter of one of the owners (see set_parameters).
 [[nodiscard]] bool has_parameter(std::span<const ParameterOwner> owners, const std::string& path);
 

@@ -273,6 +273,8 @@ void Monitor::execute_request(MonitorClient& client, const ControlRequest& reque
         } else if constexpr (std::is_same_v<Command, command::Recording> ||
                              std::is_same_v<Command, command::Scene>) {
           send_piece(client, one);
+        } else if constexpr (std::is_same_v<Command, command::Offers>) {
+          answer(client, {.id = request.id, .problem = {}, .offered = offered()});
         } else {
           const std::optional<Problem> wrong = this->execute(one);
           // In simulated time, the devices may stand still, and no person is near them.
@@ -318,6 +320,8 @@ std::optional<Problem> Monitor::execute(const command::Set& command) {
 std::optional<Problem> Monitor::execute(const command::Panel& command) {
   return assembly_.panels.feed(command);
 }
+
+Offered Monitor::offered() const { return {assembly_.changes->offered(), assembly_.panels.offered()}; }
 
 /// Whether the name exists in another process only.
 bool Monitor::is_elsewhere(const ControlCommand& command) const {

@@ -63,6 +63,7 @@ class Monitor {
   [[nodiscard]] std::optional<Problem> execute(const SimulationCommand& command);
   [[nodiscard]] std::optional<Problem> execute(const command::Set& command);
   [[nodiscard]] std::optional<Problem> execute(const command::Panel& command);
+  [[nodiscard]] Offered offered() const;
   [[nodiscard]] bool is_elsewhere(const ControlCommand& command) const;
   [[nodiscard]] std::optional<Problem> execute(const command::EmergencyStop& command);
   [[nodiscard]] std::optional<Problem> execute(const command::Reset& command);

@@ -206,33 +206,31 @@ std::string text_of(const Bindings::Parameter& parameter, const void* at) {
              text_of(element, static_cast<const std::byte*>(at) + index * element.size);
     return '[' + all + ']';
   }
-  switch (parameter.kind) {
-    case ValueKind::boolean:
+  if (parameter.capacity > 0) return given_string(at);
+  if (!parameter.scalar) return "?";
+  switch (*parameter.scalar) {
+    case Scalar::boolean:
       return given_number<bool>(at);
-    case ValueKind::int8:
+    case Scalar::int8:
       return given_number<std::int8_t>(at);
-    case ValueKind::int16:
+    case Scalar::int16:
       return given_number<std::int16_t>(at);
-    case ValueKind::int32:
+    case Scalar::int32:
       return given_number<std::int32_t>(at);
-    case ValueKind::int64:
+    case Scalar::int64:
       return given_number<std::int64_t>(at);
-    case ValueKind::uint8:
+    case Scalar::uint8:
       return given_number<std::uint8_t>(at);
-    case ValueKind::uint16:
+    case Scalar::uint16:
       return given_number<std::uint16_t>(at);
-    case ValueKind::uint32:
+    case Scalar::uint32:
       return given_number<std::uint32_t>(at);
-    case ValueKind::uint64:
+    case Scalar::uint64:
       return given_number<std::uint64_t>(at);
-    case ValueKind::float32:
+    case Scalar::float32:
       return given_number<float>(at);
-    case ValueKind::float64:
+    case Scalar::float64:
       return given_number<double>(at);
-    case ValueKind::string:
-      return given_string(at);
-    case ValueKind::other:
-      break;
   }
   return "?";
 }

@@ -8,9 +8,13 @@
 #include "cli/terminal.hpp"
 #include "project/process/process.hpp"
 #include "tessera/signals.hpp"
+#include "tessera/standard_streams.hpp"
 
-int main(int argc, char** argv) {
-  namespace cli = tessera::cli;
+namespace {
+
+namespace cli = tessera::cli;
+
+int command(int argc, char** argv) {
   cli::CommandLine line("tessera", TESSERA_VERSION,
                         "Tessera: robot controllers from hierarchical Petri nets.\n"
                         "From one file to a proved net, a C++ controller and a simulated robot.");
@@ -53,4 +57,11 @@ int main(int argc, char** argv) {
     return cli::complain("a library failed without saying why");
   }
   return exit_code;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  tessera::open_missing_streams();
+  return cli::end_output(command(argc, argv));
 }

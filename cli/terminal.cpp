@@ -46,6 +46,12 @@ StandardError& standard_error() {
   return one;
 }
 
+/// Whether it was reported that standard output does not take text.
+bool& output_failed() {
+  static bool failed = false;
+  return failed;
+}
+
 }  // namespace
 
 bool is_unreadable(const diagnostics::Diagnostics& found) {
@@ -65,6 +71,13 @@ int complain(const std::string& text) {
   return failed;
 }
 
+int end_output(int exit_code) {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return exit_code;
+  if (!output_failed())
+    complain(fmt::format("not all text could be written to standard output: {}", std::strerror(errno)));
+  return exit_code == ok ? failed : exit_code;
+}
+
 std::string for_output(std::string_view text) {
   return isatty(STDOUT_FILENO) != 0 ? printable(text) : std::string(text);
 }
@@ -78,6 +91,7 @@ void write_output(const std::string& file, std::string_view text) {
     throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   const bool closed = stream == stdout ? std::fflush(stream) == 0 : std::fclose(stream) == 0;
+  output_failed() = output_failed() || (stream == stdout && (!written || !closed));
   if (!written || !closed)
     throw std::runtime_error(fmt::format("cannot write {}: {}", file, std::strerror(errno)));
 }

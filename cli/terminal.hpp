@@ -27,6 +27,10 @@ int complain(const std::string& text);
 /// file exists and is no earlier output of the same kind (check_replaceable).
 void write_output(const std::string& file, std::string_view text);
 
+/// Ends the output of a command: if standard output did not take all of it (full disk), says so. Returns the exit
+/// code: `failed` in place of `ok` then.
+[[nodiscard]] int end_output(int exit_code);
+
 /// A text of a recording, a net or a controller as it goes to standard output: a terminal gets it without
 /// characters that command it (tessera::printable), a file or a pipe gets its bytes.
 [[nodiscard]] std::string for_output(std::string_view text);

@@ -54,16 +54,14 @@ int rename_command(const RenameOptions& options) {
   std::map<std::string, std::set<std::uint32_t>> sure, unsure;
   for (const language::TextEdit& edit : renaming.edits)
     (edit.sure ? sure : unsure)[edit.path].insert(edit.range.start.line + 1);
-  std::vector<Replacement> files;
-  for (const auto& [path, lines] : sure) {
-    const auto source = std::ranges::find(sources, path, &language::Source::path);
-    const bool is_code = source != sources.end();
-    files.push_back(is_code ? Replacement{path, source->text, language::edited(*source, renaming.edits)}
-                            : Replacement{std::filesystem::absolute(file), document.text(),
-                                          language::edited(document, renaming.edits)});
-  }
-  if (!options.dry_run)
-    if (const auto problem = replace_together(files)) return complain("nothing was renamed: " + *problem);
+  // All that was read: a file without the name may get it from a change that is made at the same time.
+  std::vector<Replacement> read{
+      {std::filesystem::absolute(file), document.text(), language::edited(document, renaming.edits)}};
+  for (const language::Source& source : sources)
+    read.push_back({source.path, source.text, language::edited(source, renaming.edits)});
+  if (!options.dry_run && !sure.empty())
+    if (const auto problem = replace_together(read.front().file.parent_path(), read))
+      return complain("nothing was renamed: " + *problem);
   const auto shown = [&](const std::string& path) {
     return path.empty()
                ? file.string()
@@ -73,13 +71,13 @@ int rename_command(const RenameOptions& options) {
   for (const auto& [path, lines] : unsure)
     fmt::print("{}: {} not changed: only a compiler can tell whether it is the same name\n", shown(path),
                lines_text(lines));
-  fmt::print("{} {} {} {}\n", options.name,
-             files.empty()     ? "is"
-             : options.dry_run ? "would be"
-                               : "is now",
-             options.to,
-             files.empty() ? "already"
-                           : fmt::format("in {} {}", files.size(), files.size() == 1 ? "file" : "files"));
+  fmt::print(
+      "{} {} {} {}\n", options.name,
+      sure.empty()      ? "is"
+      : options.dry_run ? "would be"
+                        : "is now",
+      options.to,
+      sure.empty() ? "already" : fmt::format("in {} {}", sure.size(), sure.size() == 1 ? "file" : "files"));
   return ok;
 }
 

@@ -100,7 +100,7 @@ int run_with_coverage(const Specification& specification, const Command& command
     throw;
   }
   fs::remove_all(folder);
-  return code == 0 ? ok : failed;
+  return code == ok || code == interrupted ? code : failed;
 }
 
 int test_command(const TestOptions& options) {
@@ -119,7 +119,8 @@ int test_command(const TestOptions& options) {
   if (!options.filter.empty()) command.push_back("--gtest_filter=" + options.filter);
   if (names_of_tests(command).empty()) return complain_of_no_tests(tests->program.string(), options.filter);
   if (options.coverage) return run_with_coverage(tests->specification, command);
-  return run(command).code == 0 ? ok : failed;
+  const int code = run(command).code;
+  return code == ok || code == interrupted ? code : failed;
 }
 
 }  // namespace

@@ -42,6 +42,39 @@ TEST_F(Rename, ChangesEveryFileAndLeadsBackToTheSameBytes) {
   }
 }
 
+TEST_F(Rename, OfTwoAtOnceOneWinsWholeAndTheOtherIsRefused) {
+  const std::string head = "tessera: 1\nsystem: s\nagents:\n  a: { control: { rate: 1 Hz, behaviours: { ";
+  for (int round = 0; round < 12; ++round) {
+    const fs::path project = folder_ / std::to_string(round);
+    const auto text_with = [&](const std::string& name) {
+      std::string all = head + name + ": {} } } }\n";
+      for (int file = 0; file < 30; ++file)
+        all += "namespace s::a::control {\nvoid " + name + "(Context&);\n}\n";
+      return all;
+    };
+    const auto text = [&] {
+      std::string all = content_of(project / "spec.yaml");
+      for (int file = 0; file < 30; ++file)
+        all += content_of(project / "src" / (std::to_string(file) + ".hpp"));
+      return all;
+    };
+    write(project / "spec.yaml", head + "go: {} } } }\n");
+    for (int file = 0; file < 30; ++file)
+      write(project / "src" / (std::to_string(file) + ".hpp"),
+            "namespace s::a::control {\nvoid go(Context&);\n}\n");
+    ASSERT_EQ(text(), text_with("go"));
+    // A round has other distances between the two, so that one reads while the other writes.
+    const project::Exit both =
+        shell("T=" TESSERA_BINARY_DIR "/tessera; cd " + std::to_string(round) +
+              "; { $T rename a.control.go left; echo left $?; } & sleep 0.00" + std::to_string(round % 10) +
+              "; { $T rename a.control.go right; echo right $?; } & wait");
+    const bool left = both.text.find("left 0\n") != std::string::npos;
+    const bool right = both.text.find("right 0\n") != std::string::npos;
+    EXPECT_NE(left, right) << both.text;
+    EXPECT_EQ(text(), text_with(left ? "left" : "right")) << both.text;
+  }
+}
+
 TEST_F(Rename, IsRefusedWithAReasonAndThenWritesNothing) {
   const std::string text =
       "tessera: 1\nsystem: s\nagents:\n  a: { control: { rate: 1 Hz, behaviours: { go: {}, halt: {} } } }\n";

@@ -7,6 +7,25 @@
 namespace tessera::cli_test {
 namespace {
 
+using Output = Command;
+
+TEST_F(Output, ThatIsLostIsAFailureAndGoesIntoNoFile) {
+  fs::copy(fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower/spec.yaml", folder_ / "spec.yaml");
+  for (const char* line : {"show", "show --counts --json -", "verify",
+                           "rename robot.control.follow pursue --dry-run", "--help", "verify --json - "})
+    for (const auto& [where, why] :
+         {std::pair{">/dev/full", "No space left on device"}, {">&-", "Bad file descriptor"}}) {
+      const project::Exit done = tessera(std::string(line) + " 2>err.txt " + where);
+      const std::string told = content_of(folder_ / "err.txt");
+      EXPECT_NE(done.code, 0) << line << where;
+      EXPECT_NE(told.find(why), std::string::npos) << line << where << "\n" << told;
+    }
+  // The file has the lowest free number, which must not be that of standard error.
+  EXPECT_EQ(tessera("show --svg net.svg --page nowhere 2>&-").code, 1);
+  EXPECT_EQ(tessera("show --svg net.svg >&- 2>&-").code, 0);
+  EXPECT_EQ(content_of(folder_ / "net.svg").rfind("<", 0), 0U);
+}
+
 struct WrongInput {
   const char* arguments;
   const char* parameters;  ///< of params.yaml; empty: there is none

@@ -1,9 +1,11 @@
 #include "project/process/process.hpp"
 
+#include <fcntl.h>
 #include <gtest/gtest.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <filesystem>
@@ -149,6 +151,32 @@ TEST_F(Starter, EndsAllThatACapturedProgramHasStartedAndSaysWhichSignalItWas) {
     start("sh -c 'touch " + ready() + "; sleep 1000; true'; true");
     tell(signal);
     EXPECT_EQ(wait(), signal);
+  }
+}
+
+TEST_F(Starter, IsNotHeldByOutputThatNobodyReadsOnceItWasAskedToStop) {
+  // The shell may be slow to start `sleep`, but its trap is set when it is ready.
+  const std::string script = "trap 'exit 42' TERM; touch " + ready() + "; while :; do sleep 0.02; done";
+  for (const bool captured : {false, true}) {
+    std::array<int, 2> ends{};
+    ASSERT_EQ(pipe(ends.data()), 0);
+    ASSERT_NE(fcntl(ends[1], F_SETFL, O_NONBLOCK), -1);
+    const std::string some(4096, '.');
+    while (write(ends[1], some.data(), some.size()) > 0) continue;
+    ASSERT_NE(fcntl(ends[1], F_SETFL, 0), -1);
+    how_ = [&](const Command& command) {
+      const int code = captured ? capture(command).code : run(command).code;
+      for (const int stream : {STDOUT_FILENO, STDERR_FILENO})
+        if (write(stream, "the end\n", 8) != 8) return 1;
+      return code;
+    };
+    start(script, [&] {
+      for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) dup2(ends[1], stream);
+    });
+    tell(SIGTERM);
+    EXPECT_EQ(wait(), 42);
+    close(ends[0]);
+    close(ends[1]);
   }
 }
 

@@ -16,6 +16,7 @@
 #include "system/stop_signals.hpp"
 #include "tessera/controller.hpp"
 #include "tessera/printable.hpp"
+#include "tessera/standard_streams.hpp"
 
 namespace tessera {
 namespace {
@@ -64,8 +65,9 @@ void complain(std::string_view what) {
     complain(error);
     return exit_failed;
   }
+  const console::Session session;  // the processes of the runs are over: a thread may begin
   // A user who asks for a summary file prints it himself.
-  if (line.summary.empty()) fmt::print(stderr, "{}", printable(schedules_text(*report)));
+  if (line.summary.empty()) console::say(printable(schedules_text(*report)));
   if (!line.summary.empty() && !write_summary(line.summary, schedules_json(*report))) {
     fmt::print(stderr, "error: cannot write '{}'\n", line.summary);
     return exit_failed;
@@ -92,6 +94,7 @@ void complain(std::string_view what) {
 }  // namespace
 
 int controller_main(const System& system, int argc, char** argv) try {
+  open_missing_streams();
   const std::variant<CommandLine, int> parsed = parse_command_line(system, argc, argv);
   if (const int* code = std::get_if<int>(&parsed)) return *code;
   const CommandLine& line = std::get<CommandLine>(parsed);

@@ -160,6 +160,7 @@ class Schedules {
   /// If the first run that reports cannot start, no run can. Later, only this seed is affected.
   void hear_refusal(unsigned number, std::uint64_t seed, std::string why, std::string& error) {
     heard_[number] = seed;
+    if (StopSignals::pending() != 0) return;  // it was asked to stop while it opened its devices
     if (report_.tried == 0)
       error = std::move(why);
     else

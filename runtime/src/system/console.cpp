@@ -1,6 +1,7 @@
 #include "system/console.hpp"
 
 #include <fmt/core.h>
+#include <poll.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -84,9 +85,13 @@ class Writer {
     wakes_.wake();
   }
 
-  /// Dropped if there is much to be written.
+  /// Dropped if there is much to be written, or if the terminal takes nothing now.
   void put_progress(std::string_view line) {
-    if (!runs_) return write_at_once(line);
+    if (!runs_) {
+      pollfd room{.fd = STDERR_FILENO, .events = POLLOUT, .revents = 0};
+      if (poll(&room, 1, 0) > 0) write_at_once(line);
+      return;
+    }
     if (ring_.size() < most_with_progress && ring_.push(line)) wakes_.wake();
   }
 

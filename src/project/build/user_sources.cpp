@@ -1,9 +1,12 @@
 #include "project/build/user_sources.hpp"
 
+#include <fcntl.h>
+#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
 #include <array>
+#include <cerrno>
 #include <stdexcept>
 #include <string_view>
 #include <system_error>
@@ -43,6 +46,24 @@ void add_code(const fs::path& folder, std::vector<fs::path>& files) {
     at.increment(problem);
   }
 }
+
+/// While it exists, no other change of the project's files is made by this class, in any process.
+class ChangeLock {
+ public:
+  /// A file system without such locks is used without.
+  explicit ChangeLock(const fs::path& project)
+      : descriptor_(open(project.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    while (descriptor_ >= 0 && flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) continue;
+  }
+  ~ChangeLock() {
+    if (descriptor_ >= 0) close(descriptor_);
+  }
+  ChangeLock(const ChangeLock&) = delete;
+  ChangeLock& operator=(const ChangeLock&) = delete;
+
+ private:
+  int descriptor_;
+};
 
 /// Why the file is not what the change was made of; nullopt: it is.
 std::optional<std::string> changed(const Replacement& one) {
@@ -114,11 +135,15 @@ std::vector<fs::path> user_sources(const fs::path& project) {
   return files;
 }
 
-std::optional<std::string> replace_together(const std::vector<Replacement>& files) {
+std::optional<std::string> replace_together(const fs::path& project, const std::vector<Replacement>& all) {
+  const ChangeLock lock(project);
+  std::vector<Replacement> files;
   std::vector<bool> fresh;  // of those that have their new text
   try {
-    for (const Replacement& one : files)
+    for (const Replacement& one : all) {
       if (std::optional<std::string> problem = changed(one)) return problem;
+      if (one.after != one.before || is_absent(one.file)) files.push_back(one);
+    }
     Prepared prepared;
     for (const Replacement& one : files) prepared.add(one);
     for (const Replacement& one : files) {

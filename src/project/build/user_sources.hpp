@@ -22,10 +22,13 @@ struct Replacement {
 };
 
 /// Replaces all of the files or none: nothing is written if one of them is a symbolic link, has another text by now, or
-/// has no room on the disk.
+/// has no room on the disk. Files with `after` like `before` are only compared: whoever names all that it has read
+/// gets no mixture with a change that another process makes at the same time. Such changes of one project wait for
+/// each other (a lock on its folder).
 ///
 /// Returns: why none was replaced, with the name of the file; nullopt: all were.
 /// Threads: any.
-[[nodiscard]] std::optional<std::string> replace_together(const std::vector<Replacement>& files);
+[[nodiscard]] std::optional<std::string> replace_together(const std::filesystem::path& project,
+                                                          const std::vector<Replacement>& files);
 
 }  // namespace tessera::project

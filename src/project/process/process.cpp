@@ -35,6 +35,27 @@ extern "C" void pass_on(int signal) {
   if (signal != SIGTSTP) kill(child, SIGCONT);
 }
 
+/// A terminal or pipe that takes no text now: what follows is dropped. Without this, it would hold a process that was
+/// asked to stop, as long as nobody reads.
+void drop_output_that_is_blocked() {
+  constexpr int patience_ms = 1000;
+  bool dropped = false;
+  for (const int stream : {STDOUT_FILENO, STDERR_FILENO}) {
+    pollfd room{.fd = stream, .events = POLLOUT, .revents = 0};
+    int ready = 0;
+    while ((ready = poll(&room, 1, patience_ms)) < 0 && errno == EINTR) continue;
+    if (ready != 0) continue;
+    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (nowhere < 0) continue;
+    dup2(nowhere, stream);
+    close(nowhere);
+    dropped = dropped || stream == STDOUT_FILENO;
+  }
+  constexpr std::string_view note =
+      "tessera: standard output took no text after the interrupt: the rest is dropped\n";
+  if (dropped) static_cast<void>(!write(STDERR_FILENO, note.data(), note.size()));
+}
+
 /// While this object exists, the signals that would end or stop this process go to the child, which decides
 /// what to do about them. They are held back until its id is known: a signal just after its start would end
 /// this process, and the child, which drives a robot, would run on alone. A signal that is handled or
@@ -222,7 +243,9 @@ Exit run(const Command& command) {
   SignalsToChild signals;
   const pid_t child = spawn(command, nullptr, /*own_group=*/false);
   signals.are_for(child);
-  return {wait_for(child), {}};
+  const int code = wait_for(child);
+  if (asked_to_stop != 0) drop_output_that_is_blocked();
+  return {code, {}};
 }
 
 Exit capture(const Command& command, const std::function<void(std::string_view)>& each_line) {
@@ -230,7 +253,12 @@ Exit capture(const Command& command, const std::function<void(std::string_view)>
   // Programs that start others (cmake) do not pass signals on: the group receives them.
   Output output(command, /*own_group=*/true);
   signals.are_for(-output.child());
-  const int code = read_to_end(output, each_line);
+  const auto show = [&](std::string_view line) {
+    if (asked_to_stop != 0) drop_output_that_is_blocked();
+    each_line(line);
+  };
+  const int code = read_to_end(output, each_line ? show : std::function<void(std::string_view)>());
+  if (asked_to_stop != 0) drop_output_that_is_blocked();
   return {code, std::move(output.text()), asked_to_stop};
 }
 

@@ -30,7 +30,8 @@ struct Interrupted : std::runtime_error {
 
 /// Runs a program to its end with this process's terminal. The signals that would end or stop this
 /// process (tessera/signals.hpp) are passed on to the program, which decides what to do about them.
-/// While it is stopped, so is this process.
+/// While it is stopped, so is this process. After a signal to stop, text for a standard stream that takes none
+/// for a second is dropped.
 ///
 /// Throws std::runtime_error if it cannot be started.
 [[nodiscard]] Exit run(const Command& command);

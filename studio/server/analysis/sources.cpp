@@ -101,12 +101,12 @@ Sources::Renamed Sources::rename(const std::string& text, const language::Gramma
   std::vector<project::Replacement> files;
   for (const language::Source& source : sources) {
     std::string changed = language::edited(source, renaming.edits);
-    if (changed == source.text) continue;
+    const bool differs = changed != source.text;
     files.push_back({project_ / source.path, source.text, std::move(changed)});
-    renamed.files.push_back(source.path);
+    if (differs) renamed.files.push_back(source.path);
   }
-  if (files.empty()) return {{}, Problem{"there is no function " + from}};
-  if (const auto problem = project::replace_together(files)) return {{}, Problem{*problem}};
+  if (renamed.files.empty()) return {{}, Problem{"there is no function " + from}};
+  if (const auto problem = project::replace_together(project_, files)) return {{}, Problem{*problem}};
   return renamed;
 }
 
@@ -122,7 +122,7 @@ std::optional<std::string> Sources::write_together(const std::vector<Written>& f
       return one.file + " has bytes that are not UTF-8, which would be lost";
     all.push_back({*path, now.text, one.text});
   }
-  return project::replace_together(all);
+  return project::replace_together(project_, all);
 }
 
 std::optional<fs::path> Sources::path_of(const std::string& file) const {

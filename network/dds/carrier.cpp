@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cassert>
+#include <span>
+#include <type_traits>
 
 #include "network/dds/middleware_log.hpp"
 #include "network/dds/received.hpp"
@@ -15,47 +17,12 @@ namespace {
 /// The limit keeps a flood of messages from holding up receive() for ever.
 constexpr int most_at_once = 1000;
 
-network::Incarnation incarnation(std::uint64_t value) { return {value}; }
-network::Number number(std::uint64_t value) { return {value}; }
-
-ReceivedData fields(const tessera_wire_Data& sample) {
-  return {.channel = sample.channel,
-          .process = sample.process,
-          .from = sample.from_incarnation,
-          .to = sample.to_incarnation,
-          .number = sample.number,
-          .stamp_ns = sample.stamp_ns,
-          .recall = sample.recall,
-          .valid = sample.valid,
-          .bytes = std::as_bytes(std::span(sample.bytes._buffer, sample.bytes._length))};
-}
-
-ReceivedState fields(const tessera_wire_State& sample) {
-  return {.channel = sample.channel,
-          .process = sample.process,
-          .from = sample.from_incarnation,
-          .peer = sample.peer_incarnation,
-          .taken = sample.taken};
-}
-
-ReceivedAlive fields(const tessera_wire_Alive& sample) {
-  return {.process = sample.process,
-          .incarnation = sample.incarnation,
-          .number = sample.number,
-          .sent_ns = sample.sent_ns,
-          .wall_ns = sample.wall_ns,
-          .echo_process = sample.echo_process,
-          .echo_incarnation = sample.echo_incarnation,
-          .echo_ns = sample.echo_ns,
-          .held_ns = sample.held_ns};
-}
-
 std::chrono::nanoseconds wall_time() {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(
       std::chrono::system_clock::now().time_since_epoch());
 }
 
-Announcement fields(const tessera_wire_Announcement& sample) {
+Announcement announcement_in(const tessera_wire_Announcement& sample) {
   return {.incarnation = sample.incarnation,
           .system = sample.system,
           .process_name = sample.process_name,
@@ -230,96 +197,75 @@ void DdsCarrier::give_sign_of_life(Clock::time_point now) {
   if (now < next_sign_of_life_) return;
   next_sign_of_life_ = now + deployment_.sign_of_life_period();
   if (endpoints_->alive_writer() == 0) return;
-  const ReceivedAlive sign = signs_.next(now.time_since_epoch(), wall_time());
-  const tessera_wire_Alive sample{.process = sign.process,
-                                  .incarnation = sign.incarnation,
-                                  .number = sign.number,
-                                  .sent_ns = sign.sent_ns,
-                                  .wall_ns = sign.wall_ns,
-                                  .echo_process = sign.echo_process,
-                                  .echo_incarnation = sign.echo_incarnation,
-                                  .echo_ns = sign.echo_ns,
-                                  .held_ns = sign.held_ns};
-  dds_write(endpoints_->alive_writer(), &sample);
+  const tessera_wire_Alive sign = signs_.next(now.time_since_epoch(), wall_time());
+  dds_write(endpoints_->alive_writer(), &sign);
 }
 
-void DdsCarrier::take_all(Listener& listener) {
-  const Clock::time_point now = Clock::now();
-  take_announcements(listener);
-  take_alive(listener, now);
-  take_states(listener, now);
-  take_data(listener, now);
-}
-
-bool DdsCarrier::take(tessera_wire_Data& sample, dds_sample_info_t& info) {
+void DdsCarrier::give_room(tessera_wire_Data& sample) {
   // The middleware cuts off a longer value, because it cannot enlarge this buffer. It forgets the buffer when
   // a writer has left and there is no value.
   sample.bytes._buffer = room_.data();
   sample.bytes._maximum = static_cast<std::uint32_t>(room_.size());
   sample.bytes._length = 0;
   sample.bytes._release = false;
-  void* pointer = &sample;
-  return dds_take(endpoints_->data(), &pointer, &info, 1, 1) == 1;
 }
 
-void DdsCarrier::take_data(Listener& listener, Clock::time_point now) {
-  tessera_wire_Data sample{};
-  dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && take(sample, info); ++taken)
-    if (info.valid_data) hear(sample, listener, now);
+void DdsCarrier::hear(const tessera_wire_Data& data, Listener& listener, Clock::time_point now) {
+  presence_.heard(data.process, data.from_incarnation, now, listener);
+  listener.heard(data.channel,
+                 network::Data{{data.from_incarnation}, {data.to_incarnation}, {data.number}, data.recall},
+                 network::Value{std::chrono::nanoseconds(data.stamp_ns), data.valid,
+                                std::as_bytes(std::span(data.bytes._buffer, data.bytes._length))});
 }
 
-void DdsCarrier::hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now) {
-  const ReceivedData data = fields(sample);
-  const Refusal refusal = check(data, deployment_);
-  if (refusal != Refusal::none) return dropped_.add([&] { return description(refusal, data, deployment_); });
-  presence_.heard(data.process, data.from, now, listener);
-  listener.heard(
-      data.channel,
-      network::Data{incarnation(data.from), incarnation(data.to), number(data.number), data.recall},
-      network::Value{std::chrono::nanoseconds(data.stamp_ns), data.valid, data.bytes});
-}
-
-void DdsCarrier::take_states(Listener& listener, Clock::time_point now) {
-  tessera_wire_State sample{};
-  void* pointer = &sample;
-  dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && dds_take(endpoints_->state(), &pointer, &info, 1, 1) == 1;
-       ++taken)
-    if (info.valid_data) hear(sample, listener, now);
-}
-
-void DdsCarrier::hear(const tessera_wire_State& sample, Listener& listener, Clock::time_point now) {
-  const ReceivedState state = fields(sample);
-  const Refusal refusal = check(state, deployment_);
-  if (refusal != Refusal::none) return dropped_.add([&] { return description(refusal, state, deployment_); });
-  presence_.heard(state.process, state.from, now, listener);
+void DdsCarrier::hear(const tessera_wire_State& state, Listener& listener, Clock::time_point now) {
+  presence_.heard(state.process, state.from_incarnation, now, listener);
   listener.heard(state.channel,
-                 network::State{incarnation(state.from), incarnation(state.peer), number(state.taken)});
+                 network::State{{state.from_incarnation}, {state.peer_incarnation}, {state.taken}});
 }
 
-void DdsCarrier::take_alive(Listener& listener, Clock::time_point now) {
-  tessera_wire_Alive sample{};
+void DdsCarrier::hear(const tessera_wire_Alive& alive, Listener& listener, Clock::time_point now) {
+  presence_.heard(alive.process, alive.incarnation, now, listener);
+  if (const auto signs = signs_.hear(alive, Clock::now().time_since_epoch(), wall_time()))
+    listener.alive(alive.process, *signs);
+}
+
+template <class Sample>
+bool DdsCarrier::is_good(const Sample& sample) {
+  const Refusal refusal = check(sample, deployment_);
+  if (refusal != Refusal::none) dropped_.add([&] { return description(refusal, sample, deployment_); });
+  return refusal == Refusal::none;
+}
+
+template <class Sample, class Hear>
+void DdsCarrier::take_from(dds_entity_t reader, const Hear& hear_one) {
+  Sample sample{};
   void* pointer = &sample;
   dds_sample_info_t info{};
-  for (int taken = 0; taken < most_at_once && dds_take(endpoints_->alive(), &pointer, &info, 1, 1) == 1;
-       ++taken) {
-    const ReceivedAlive alive = fields(sample);
-    const Refusal refusal = check(alive, deployment_);
-    if (refusal != Refusal::none)
-      dropped_.add([&] { return description(refusal, alive, deployment_); });
-    else if (info.instance_state == DDS_IST_ALIVE)
-      hear(alive, info.valid_data, listener, now);
-    else
-      presence_.left(alive.process, alive.incarnation, listener);
+  for (int taken = 0; taken < most_at_once; ++taken) {
+    if constexpr (std::is_same_v<Sample, tessera_wire_Data>) give_room(sample);
+    if (dds_take(reader, &pointer, &info, 1, 1) != 1) return;
+    hear_one(sample, info);
   }
 }
 
-void DdsCarrier::hear(const ReceivedAlive& alive, bool whole, Listener& listener, Clock::time_point now) {
-  presence_.heard(alive.process, alive.incarnation, now, listener);
-  if (!whole) return;  // the middleware reports a writer without a value
-  if (const auto signs = signs_.hear(alive, Clock::now().time_since_epoch(), wall_time()))
-    listener.alive(alive.process, *signs);
+void DdsCarrier::take_all(Listener& listener) {
+  const Clock::time_point now = Clock::now();
+  take_announcements(listener);
+  take_from<tessera_wire_Alive>(endpoints_->alive(), [&](const auto& alive, const auto& info) {
+    if (!is_good(alive)) return;
+    if (info.instance_state != DDS_IST_ALIVE)
+      presence_.left(alive.process, alive.incarnation, listener);
+    else if (info.valid_data)
+      hear(alive, listener, now);
+    else  // the middleware reports a writer without a value
+      presence_.heard(alive.process, alive.incarnation, now, listener);
+  });
+  const auto hear_valid = [&](const auto& sample, const auto& info) {
+    if (info.valid_data && is_good(sample)) hear(sample, listener, now);
+  };
+  take_from<tessera_wire_State>(endpoints_->state(), hear_valid);
+  take_from<tessera_wire_Data>(endpoints_->data(), hear_valid);
 }
 
 void DdsCarrier::take_announcements(Listener& listener) {
@@ -329,7 +275,7 @@ void DdsCarrier::take_announcements(Listener& listener) {
        taken < most_at_once && dds_take(endpoints_->announcements(), &sample, &info, 1, 1) == 1; ++taken) {
     if (info.valid_data)
       if (const auto problem =
-              announcements_.hear(fields(*static_cast<const tessera_wire_Announcement*>(sample))))
+              announcements_.hear(announcement_in(*static_cast<const tessera_wire_Announcement*>(sample))))
         listener.complaint(*problem);
     dds_return_loan(endpoints_->announcements(), &sample, 1);
     sample = nullptr;

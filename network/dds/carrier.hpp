@@ -46,15 +46,17 @@ class DdsCarrier final : public network::Carrier {
   void take_all(Listener& listener);
   void tell_of_unresolved(Listener& listener);
   void join_found(Listener& listener);
-  void take_data(Listener& listener, Clock::time_point now);
-  void take_states(Listener& listener, Clock::time_point now);
-  void take_alive(Listener& listener, Clock::time_point now);
-  /// Whether there was a message. It is valid until the next one is taken.
-  [[nodiscard]] bool take(tessera_wire_Data& sample, dds_sample_info_t& info);
   void take_announcements(Listener& listener);
-  void hear(const tessera_wire_Data& sample, Listener& listener, Clock::time_point now);
-  void hear(const tessera_wire_State& sample, Listener& listener, Clock::time_point now);
-  void hear(const ReceivedAlive& alive, bool whole, Listener& listener, Clock::time_point now);
+  /// Takes the messages of a reader. Each is valid until the next one is taken.
+  template <class Sample, class Hear>
+  void take_from(dds_entity_t reader, const Hear& hear_one);
+  void give_room(tessera_wire_Data& sample);
+  /// false: it is dropped.
+  template <class Sample>
+  [[nodiscard]] bool is_good(const Sample& sample);
+  void hear(const tessera_wire_Data& data, Listener& listener, Clock::time_point now);
+  void hear(const tessera_wire_State& state, Listener& listener, Clock::time_point now);
+  void hear(const tessera_wire_Alive& alive, Listener& listener, Clock::time_point now);
   void give_sign_of_life(Clock::time_point now);
   [[nodiscard]] Clock::time_point next_event() const;
   void count_unsent(dds_return_t result, const Channel& channel);

@@ -43,41 +43,41 @@ std::string text(const char* kind, std::uint32_t channel_number, std::uint32_t p
 
 }  // namespace
 
-Refusal check(const ReceivedData& data, const Deployment& deployment) {
+Refusal check(const tessera_wire_Data& data, const Deployment& deployment) {
   const Channel* channel = deployment.channel(data.channel);
   if (channel == nullptr) return Refusal::unknown_channel;
   if (channel->receiver != deployment.process) return Refusal::wrong_direction;
   if (channel->sender != data.process) return Refusal::wrong_process;
-  if (data.from == 0) return Refusal::no_incarnation;
+  if (data.from_incarnation == 0) return Refusal::no_incarnation;
   if (data.number == 0) return Refusal::no_number;
-  if (data.recall) return data.bytes.empty() ? Refusal::none : Refusal::recall_with_value;
-  if (data.bytes.size() > channel->longest_value_bytes) return Refusal::too_large;
+  if (data.recall) return data.bytes._length == 0 ? Refusal::none : Refusal::recall_with_value;
+  if (data.bytes._length > channel->longest_value_bytes) return Refusal::too_large;
   return data.stamp_ns < 0 ? Refusal::time_before_zero : Refusal::none;
 }
 
-Refusal check(const ReceivedState& state, const Deployment& deployment) {
+Refusal check(const tessera_wire_State& state, const Deployment& deployment) {
   const Channel* channel = deployment.channel(state.channel);
   if (channel == nullptr) return Refusal::unknown_channel;
   if (channel->sender != deployment.process) return Refusal::wrong_direction;
   if (channel->receiver != state.process) return Refusal::wrong_process;
-  if (state.from == 0) return Refusal::no_incarnation;
-  return state.peer == 0 && state.taken != 0 ? Refusal::state_of_nothing : Refusal::none;
+  if (state.from_incarnation == 0) return Refusal::no_incarnation;
+  return state.peer_incarnation == 0 && state.taken != 0 ? Refusal::state_of_nothing : Refusal::none;
 }
 
-Refusal check(const ReceivedAlive& alive, const Deployment& deployment) {
+Refusal check(const tessera_wire_Alive& alive, const Deployment& deployment) {
   if (!std::ranges::binary_search(deployment.peers, alive.process)) return Refusal::no_peer;
   return alive.incarnation == 0 ? Refusal::no_incarnation : Refusal::none;
 }
 
-std::string description(Refusal refusal, const ReceivedData& data, const Deployment& deployment) {
+std::string description(Refusal refusal, const tessera_wire_Data& data, const Deployment& deployment) {
   return text("data", data.channel, data.process, refusal, deployment);
 }
 
-std::string description(Refusal refusal, const ReceivedState& state, const Deployment& deployment) {
+std::string description(Refusal refusal, const tessera_wire_State& state, const Deployment& deployment) {
   return text("a state", state.channel, state.process, refusal, deployment);
 }
 
-std::string description(Refusal refusal, const ReceivedAlive& alive, const Deployment& /*deployment*/) {
+std::string description(Refusal refusal, const tessera_wire_Alive& alive, const Deployment& /*deployment*/) {
   return "a sign of life of process " + std::to_string(alive.process) + ": " + reason(refusal);
 }
 

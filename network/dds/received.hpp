@@ -1,35 +1,13 @@
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
-#include <span>
 #include <string>
 
 #include "network/dds/deployment.hpp"
+#include "wire.h"
 
+/// Judges messages as the middleware gives them. Any host on the network can have written them.
 namespace tessera::dds {
-
-/// The fields of a message as the middleware gives them. Any host on the network can have written them.
-struct ReceivedData {
-  std::uint32_t channel = 0, process = 0;
-  std::uint64_t from = 0, to = 0, number = 0;
-  std::int64_t stamp_ns = 0;
-  bool recall = false, valid = false;
-  std::span<const std::byte> bytes;
-};
-struct ReceivedState {
-  std::uint32_t channel = 0, process = 0;
-  std::uint64_t from = 0, peer = 0, taken = 0;
-};
-struct ReceivedAlive {
-  std::uint32_t process = 0;
-  std::uint64_t incarnation = 0;
-  std::uint64_t number = 0;
-  std::int64_t sent_ns = 0, wall_ns = 0;
-  std::uint32_t echo_process = 0;
-  std::uint64_t echo_incarnation = 0;
-  std::int64_t echo_ns = 0, held_ns = 0;
-};
 
 /// The reason why a message is dropped. No process of the deployment sends such a message.
 enum class Refusal : std::uint8_t {
@@ -46,16 +24,16 @@ enum class Refusal : std::uint8_t {
   no_peer  ///< no channel joins that process and this one
 };
 
-[[nodiscard]] Refusal check(const ReceivedData& data, const Deployment& deployment);
-[[nodiscard]] Refusal check(const ReceivedState& state, const Deployment& deployment);
-[[nodiscard]] Refusal check(const ReceivedAlive& alive, const Deployment& deployment);
+[[nodiscard]] Refusal check(const tessera_wire_Data& data, const Deployment& deployment);
+[[nodiscard]] Refusal check(const tessera_wire_State& state, const Deployment& deployment);
+[[nodiscard]] Refusal check(const tessera_wire_Alive& alive, const Deployment& deployment);
 
 /// "data of channel a.x->b.y from process 7: the channel does not begin or end there"
-[[nodiscard]] std::string description(Refusal refusal, const ReceivedData& data,
+[[nodiscard]] std::string description(Refusal refusal, const tessera_wire_Data& data,
                                       const Deployment& deployment);
-[[nodiscard]] std::string description(Refusal refusal, const ReceivedState& state,
+[[nodiscard]] std::string description(Refusal refusal, const tessera_wire_State& state,
                                       const Deployment& deployment);
-[[nodiscard]] std::string description(Refusal refusal, const ReceivedAlive& alive,
+[[nodiscard]] std::string description(Refusal refusal, const tessera_wire_Alive& alive,
                                       const Deployment& deployment);
 
 }  // namespace tessera::dds

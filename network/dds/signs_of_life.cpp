@@ -17,12 +17,13 @@ SignsOfLife::SignsOfLife(const Deployment& deployment)
   for (const ProcessNumber peer : deployment.peers) peers_.push_back({.process = peer});
 }
 
-ReceivedAlive SignsOfLife::next(Duration steady, Duration wall) {
-  ReceivedAlive sign{.process = process_,
-                     .incarnation = incarnation_,
-                     .number = ++number_,
-                     .sent_ns = steady.count(),
-                     .wall_ns = wall.count()};
+tessera_wire_Alive SignsOfLife::next(Duration steady, Duration wall) {
+  tessera_wire_Alive sign{};
+  sign.process = process_;
+  sign.incarnation = incarnation_;
+  sign.number = ++number_;
+  sign.sent_ns = steady.count();
+  sign.wall_ns = wall.count();
   for (std::size_t tried = 0; tried < peers_.size(); ++tried) {
     const Peer& peer = peers_[turn_++ % peers_.size()];
     if (peer.incarnation == 0) continue;
@@ -35,7 +36,7 @@ ReceivedAlive SignsOfLife::next(Duration steady, Duration wall) {
   return sign;
 }
 
-std::optional<network::SignsOfLife> SignsOfLife::hear(const ReceivedAlive& sign, Duration steady,
+std::optional<network::SignsOfLife> SignsOfLife::hear(const tessera_wire_Alive& sign, Duration steady,
                                                       Duration wall) {
   const auto found = std::ranges::lower_bound(peers_, sign.process, {}, &Peer::process);
   if (found == peers_.end() || found->process != sign.process) return std::nullopt;
@@ -69,7 +70,8 @@ void SignsOfLife::take_number(Peer& peer, std::uint64_t number) const {
   }
 }
 
-void SignsOfLife::take_echo(Peer& peer, const ReceivedAlive& sign, Duration steady, Duration wall) const {
+void SignsOfLife::take_echo(Peer& peer, const tessera_wire_Alive& sign, Duration steady,
+                            Duration wall) const {
   if (sign.echo_process != process_ || sign.echo_incarnation != incarnation_) return;
   const auto possible = [](std::int64_t time) { return time >= 0 && time < latest_ns; };
   if (!possible(sign.echo_ns) || !possible(sign.held_ns) || !possible(sign.wall_ns)) return;

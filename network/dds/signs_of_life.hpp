@@ -8,13 +8,13 @@
 #include "network/carrier.hpp"
 #include "network/clock_offset.hpp"
 #include "network/dds/deployment.hpp"
-#include "network/dds/received.hpp"
+#include "wire.h"
 
 namespace tessera::dds {
 
 /// Measures the links to other processes by their signs of life: how many are lost, and how far the clocks
 /// differ. Each sign carries its number and its times, and echoes the newest sign of one peer; the peers take
-/// turns. It knows no middleware and no clock.
+/// turns. It calls neither the middleware nor a clock.
 ///
 /// Threads: one at a time. After the construction, no member allocates.
 class SignsOfLife {
@@ -23,9 +23,9 @@ class SignsOfLife {
   explicit SignsOfLife(const Deployment& deployment);
 
   /// The next sign of this process. steady, wall: its two clocks now.
-  [[nodiscard]] ReceivedAlive next(Duration steady, Duration wall);
+  [[nodiscard]] tessera_wire_Alive next(Duration steady, Duration wall);
   /// Takes and checks a sign of a peer. nullopt: its incarnation is older than one that was heard.
-  [[nodiscard]] std::optional<network::SignsOfLife> hear(const ReceivedAlive& sign, Duration steady,
+  [[nodiscard]] std::optional<network::SignsOfLife> hear(const tessera_wire_Alive& sign, Duration steady,
                                                          Duration wall);
 
  private:
@@ -39,7 +39,7 @@ class SignsOfLife {
     network::ClockOffsetEstimate clock{};
   };
   void take_number(Peer& peer, std::uint64_t number) const;
-  void take_echo(Peer& peer, const ReceivedAlive& sign, Duration steady, Duration wall) const;
+  void take_echo(Peer& peer, const tessera_wire_Alive& sign, Duration steady, Duration wall) const;
 
   ProcessNumber process_;
   std::uint64_t incarnation_;

@@ -1,8 +1,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <array>
-
 #include "network/dds/announcements.hpp"
 #include "network/dds/dropped.hpp"
 #include "network/dds/presence.hpp"
@@ -26,20 +24,18 @@ dds::Deployment deployment(network::ProcessNumber process = Crossing::office,
 }
 
 TEST(Received, DataIsCheckedInEveryField) {
-  const std::array<std::byte, Crossing::small + 1> bytes{};
   const dds::Deployment cart = deployment(Crossing::cart);
-  const dds::ReceivedData good{.channel = Crossing::goal,
-                               .process = Crossing::office,
-                               .from = 10,
-                               .to = 0,
-                               .number = 1,
-                               .stamp_ns = 5,
-                               .recall = false,
-                               .valid = true,
-                               .bytes = std::span(bytes).first(Crossing::small)};
+  tessera_wire_Data good{};
+  good.channel = Crossing::goal;
+  good.process = Crossing::office;
+  good.from_incarnation = 10;
+  good.number = 1;
+  good.stamp_ns = 5;
+  good.valid = true;
+  good.bytes._length = Crossing::small;
   EXPECT_EQ(dds::check(good, cart), Refusal::none);
   const auto with = [&](auto change) {
-    dds::ReceivedData data = good;
+    tessera_wire_Data data = good;
     change(data);
     return dds::check(data, cart);
   };
@@ -48,9 +44,9 @@ TEST(Received, DataIsCheckedInEveryField) {
   EXPECT_EQ(with([](auto& data) { data.channel = Crossing::position; }), Refusal::wrong_direction);
   EXPECT_EQ(with([](auto& data) { data.process = Crossing::other_cart; }), Refusal::wrong_process);
   EXPECT_EQ(with([](auto& data) { data.process = 4'000'000'000U; }), Refusal::wrong_process);
-  EXPECT_EQ(with([](auto& data) { data.from = 0; }), Refusal::no_incarnation);
+  EXPECT_EQ(with([](auto& data) { data.from_incarnation = 0; }), Refusal::no_incarnation);
   EXPECT_EQ(with([](auto& data) { data.number = 0; }), Refusal::no_number);
-  EXPECT_EQ(with([&](auto& data) { data.bytes = bytes; }), Refusal::too_large);
+  EXPECT_EQ(with([](auto& data) { data.bytes._length = Crossing::small + 1; }), Refusal::too_large);
   EXPECT_EQ(with([](auto& data) { data.stamp_ns = -1; }), Refusal::time_before_zero);
   EXPECT_EQ(with([](auto& data) { data.recall = true; }), Refusal::recall_with_value);
   EXPECT_EQ(
@@ -60,26 +56,32 @@ TEST(Received, DataIsCheckedInEveryField) {
 
 TEST(Received, StatesAndSignsOfLifeAreChecked) {
   const dds::Deployment office = deployment();
-  const dds::ReceivedState good{
-      .channel = Crossing::goal, .process = Crossing::cart, .from = 20, .peer = 10, .taken = 3};
+  const tessera_wire_State good{.channel = Crossing::goal,
+                                .process = Crossing::cart,
+                                .from_incarnation = 20,
+                                .peer_incarnation = 10,
+                                .taken = 3};
   EXPECT_EQ(dds::check(good, office), Refusal::none);
   const auto with = [&](auto change) {
-    dds::ReceivedState state = good;
+    tessera_wire_State state = good;
     change(state);
     return dds::check(state, office);
   };
   EXPECT_EQ(with([](auto& state) { state.channel = 99; }), Refusal::unknown_channel);
   EXPECT_EQ(with([](auto& state) { state.channel = Crossing::position; }), Refusal::wrong_direction);
   EXPECT_EQ(with([](auto& state) { state.process = Crossing::other_cart; }), Refusal::wrong_process);
-  EXPECT_EQ(with([](auto& state) { state.from = 0; }), Refusal::no_incarnation);
-  EXPECT_EQ(with([](auto& state) { state.peer = 0; }), Refusal::state_of_nothing);
-  EXPECT_EQ(dds::check(dds::ReceivedAlive{.process = Crossing::cart, .incarnation = 1}, office),
-            Refusal::none);
-  EXPECT_EQ(dds::check(dds::ReceivedAlive{.process = Crossing::cart, .incarnation = 0}, office),
-            Refusal::no_incarnation);
-  EXPECT_EQ(dds::check(dds::ReceivedAlive{.process = Crossing::office, .incarnation = 1}, office),
-            Refusal::no_peer);
-  EXPECT_EQ(dds::check(dds::ReceivedAlive{.process = 99, .incarnation = 1}, office), Refusal::no_peer);
+  EXPECT_EQ(with([](auto& state) { state.from_incarnation = 0; }), Refusal::no_incarnation);
+  EXPECT_EQ(with([](auto& state) { state.peer_incarnation = 0; }), Refusal::state_of_nothing);
+  const auto alive = [&](std::uint32_t process, std::uint64_t incarnation) {
+    tessera_wire_Alive sign{};
+    sign.process = process;
+    sign.incarnation = incarnation;
+    return dds::check(sign, office);
+  };
+  EXPECT_EQ(alive(Crossing::cart, 1), Refusal::none);
+  EXPECT_EQ(alive(Crossing::cart, 0), Refusal::no_incarnation);
+  EXPECT_EQ(alive(Crossing::office, 1), Refusal::no_peer);
+  EXPECT_EQ(alive(99, 1), Refusal::no_peer);
 }
 
 TEST(Presence, SilenceARestartAndAFarewellAreToldOf) {

@@ -72,7 +72,7 @@ TEST(SignsOfLife, AnEchoGivesTheClockOfTheOtherWithinTheTimeOnTheWay) {
 
 TEST(SignsOfLife, LostOnesAreCountedAmongTheNewest64AndLateOnesAreNot) {
   Two two;
-  std::vector<dds::ReceivedAlive> signs;
+  std::vector<tessera_wire_Alive> signs;
   for (int count = 0; count < 100; ++count) signs.push_back(two.cart.next(1s, 1s));
   const auto hear = [&](std::size_t number) { return *two.office.hear(signs.at(number), 2s, 2s); };
   EXPECT_EQ(hear(4).lost, 0U) << "what came before the first was sent to nobody";
@@ -104,9 +104,10 @@ TEST(SignsOfLife, TimesThatMakeNoSenseGiveNoClock) {
                                                           {1, 1, INT64_MAX},
                                                           {4'000'000'000, 0, 1}}) {
     Two two;
-    const dds::ReceivedAlive sign{.process = Crossing::cart,
+    const tessera_wire_Alive sign{.process = Crossing::cart,
                                   .incarnation = 20,
                                   .number = UINT64_MAX,
+                                  .sent_ns = 0,
                                   .wall_ns = wall_ns,
                                   .echo_process = Crossing::office,
                                   .echo_incarnation = 10,

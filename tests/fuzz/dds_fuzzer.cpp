@@ -80,37 +80,40 @@ struct Station {
         announcements(its_deployment) {}
 
   void hear_data(Bytes& bytes) {
-    dds::ReceivedData data;
+    tessera_wire_Data data{};
     data.channel = bytes.take_index();
     data.process = bytes.take_index();
-    data.from = bytes.take<std::uint64_t>();
-    data.to = bytes.take<std::uint64_t>();
+    data.from_incarnation = bytes.take<std::uint64_t>();
+    data.to_incarnation = bytes.take<std::uint64_t>();
     data.number = bytes.take<std::uint64_t>();
     data.stamp_ns = bytes.take<std::int64_t>();
     data.recall = bytes.take<std::uint8_t>() % 2 == 1;
-    data.bytes = bytes.take_some();
+    const std::span<const std::byte> value = bytes.take_some();
+    data.bytes._length = static_cast<std::uint32_t>(value.size());
     const dds::Refusal refusal = dds::check(data, deployment);
     if (refusal != dds::Refusal::none) return drop(refusal, data);
     const dds::Channel& channel = deployment.channels.at(data.channel);
     require(channel.receiver == deployment.process && channel.sender == data.process);
-    require(data.from != 0 && data.number != 0 && data.bytes.size() <= channel.longest_value_bytes);
-    presence.heard(data.process, data.from, now, reader);
+    require(data.from_incarnation != 0 && data.number != 0 &&
+            data.bytes._length <= channel.longest_value_bytes);
+    presence.heard(data.process, data.from_incarnation, now, reader);
   }
   void hear_state(Bytes& bytes) {
-    dds::ReceivedState state;
+    tessera_wire_State state{};
     state.channel = bytes.take_index();
     state.process = bytes.take_index();
-    state.from = bytes.take<std::uint64_t>();
-    state.peer = bytes.take<std::uint64_t>();
+    state.from_incarnation = bytes.take<std::uint64_t>();
+    state.peer_incarnation = bytes.take<std::uint64_t>();
     state.taken = bytes.take<std::uint64_t>();
     const dds::Refusal refusal = dds::check(state, deployment);
     if (refusal != dds::Refusal::none) return drop(refusal, state);
     const dds::Channel& channel = deployment.channels.at(state.channel);
-    require(channel.sender == deployment.process && channel.receiver == state.process && state.from != 0);
-    presence.heard(state.process, state.from, now, reader);
+    require(channel.sender == deployment.process && channel.receiver == state.process &&
+            state.from_incarnation != 0);
+    presence.heard(state.process, state.from_incarnation, now, reader);
   }
   void hear_alive(Bytes& bytes, bool leaves) {
-    dds::ReceivedAlive alive;
+    tessera_wire_Alive alive{};
     alive.process = bytes.take_index();
     alive.incarnation = bytes.take<std::uint64_t>();
     const dds::Refusal refusal = dds::check(alive, deployment);

@@ -1,11 +1,9 @@
 #include "ros2/dds/client.hpp"
 
-#include <cstdio>
 #include <thread>
 #include <utility>
 
 #include "ros2/codec/request_header.hpp"
-#include "ros2/dds/prepared.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -18,20 +16,9 @@ constexpr std::size_t most_results = 16;
 
 }  // namespace
 
-void ServiceClient::use_timeout(Duration timeout) {
-  const std::lock_guard lock(mutex_);
-  if (timeout > Duration::zero()) timeout_ = timeout;
-}
-
-void ServiceClient::open() {
-  const std::lock_guard lock(mutex_);
-  if (!ends_) ends_.emplace(setup_);
-  ++users_;
-}
-
 void ServiceClient::close() {
   const std::lock_guard lock(mutex_);
-  if (users_ == 0 || --users_ > 0 || !ends_) return;
+  if (!is_last_to_close()) return;
   const auto until = Clock::now() + longest_goodbye;
   for (progress(); pending_ && !pending_->sent && Clock::now() < until; progress())
     std::this_thread::sleep_for(between_looks);
@@ -147,12 +134,6 @@ void ServiceClient::finish(CallOutcome outcome, std::vector<std::byte> reply) {
     warn(lost_, "a reply was dropped: the receptor is not read");
   }
   pending_.reset();
-}
-
-void ServiceClient::warn(std::uint64_t& count, const char* text) const {
-  if (!is_told(++count)) return;
-  std::fprintf(stderr, "warning: %s: service %s: %s (%llu until now)\n", setup_.endpoint.path.c_str(),
-               setup_.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
 }
 
 }  // namespace tessera::ros2

@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <optional>
 #include <vector>
 
@@ -24,14 +23,10 @@ enum class CallOutcome : std::uint8_t {
 /// call. A call is sent once, because a server may execute a repeated request twice.
 ///
 /// Threads: any.
-class ServiceClient {
+class ServiceClient : public SharedService {
  public:
-  explicit ServiceClient(const ServiceSetup& setup) : setup_(setup) {}
-  /// Zero keeps the present timeout.
-  void use_timeout(Duration timeout);
+  explicit ServiceClient(const ServiceSetup& setup) : SharedService(setup, std::chrono::seconds(2)) {}
 
-  /// Opens the service; for the second driver of it, it is open already. Throws std::runtime_error.
-  void open();
   /// The close of the last driver waits up to half a second until the server has received the last request.
   void close();
   /// Whether a server is found within this time.
@@ -65,13 +60,7 @@ class ServiceClient {
   void take_replies();
   void try_to_send();
   void finish(CallOutcome outcome, std::vector<std::byte> reply = {});
-  void warn(std::uint64_t& count, const char* text) const;
 
-  const ServiceSetup setup_;
-  std::mutex mutex_;
-  Duration timeout_ = std::chrono::seconds(2);
-  std::optional<ServiceEnds> ends_;
-  int users_ = 0;
   bool keeps_results_ = false, refused_ = false;
   std::uint64_t last_ = 0;
   std::int64_t sequence_ = 0;

@@ -1,9 +1,6 @@
 #include "ros2/dds/server.hpp"
 
-#include <cstdio>
 #include <utility>
-
-#include "ros2/dds/prepared.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -14,20 +11,9 @@ constexpr std::size_t most_waiting = 64;
 
 }  // namespace
 
-void ServiceServer::use_timeout(Duration timeout) {
-  const std::lock_guard lock(mutex_);
-  if (timeout > Duration::zero()) timeout_ = timeout;
-}
-
-void ServiceServer::open() {
-  const std::lock_guard lock(mutex_);
-  if (!ends_) ends_.emplace(setup_);
-  ++users_;
-}
-
 void ServiceServer::close() {
   const std::lock_guard lock(mutex_);
-  if (users_ == 0 || --users_ > 0 || !ends_) return;
+  if (!is_last_to_close()) return;
   progress();
   static_cast<void>(ends_->await_receipt(longest_goodbye));
   current_.reset();
@@ -115,12 +101,6 @@ void ServiceServer::send_reply() {
     warn(unheard_, "a reply was dropped: its client has gone");
   current_.reset();
   reply_.clear();
-}
-
-void ServiceServer::warn(std::uint64_t& count, const char* text) const {
-  if (!is_told(++count)) return;
-  std::fprintf(stderr, "warning: %s: service %s: %s (%llu until now)\n", setup_.endpoint.path.c_str(),
-               setup_.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
 }
 
 }  // namespace tessera::ros2

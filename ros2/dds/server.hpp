@@ -3,7 +3,6 @@
 #include <chrono>
 #include <cstdint>
 #include <deque>
-#include <mutex>
 #include <optional>
 #include <string>
 #include <vector>
@@ -17,14 +16,10 @@ namespace tessera::ros2 {
 /// a newer request never overwrites an older one in a buffer.
 ///
 /// Threads: any.
-class ServiceServer {
+class ServiceServer : public SharedService {
  public:
-  explicit ServiceServer(const ServiceSetup& setup) : setup_(setup) {}
-  /// Zero keeps the present timeout.
-  void use_timeout(Duration timeout);
+  explicit ServiceServer(const ServiceSetup& setup) : SharedService(setup, std::chrono::seconds(10)) {}
 
-  /// Opens the service; for the second driver of it, it is open already. Throws std::runtime_error.
-  void open();
   /// The close of the last driver waits up to half a second until the client has received the last reply.
   void close();
 
@@ -52,13 +47,7 @@ class ServiceServer {
   void take_requests();
   void progress();
   void send_reply();
-  void warn(std::uint64_t& count, const char* text) const;
 
-  const ServiceSetup setup_;
-  std::mutex mutex_;
-  Duration timeout_ = std::chrono::seconds(10);
-  std::optional<ServiceEnds> ends_;
-  int users_ = 0;
   bool refused_ = false;
   std::deque<Waiting> waiting_;
   std::optional<Waiting> current_;

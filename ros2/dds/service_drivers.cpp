@@ -6,6 +6,7 @@
 #include <chrono>
 #include <cstdio>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 
 #include "ros2/codec/written_mapping.hpp"
@@ -23,27 +24,35 @@ ServiceSetup setup_of(const Prepared& prepared, const Ros2Binding& binding) {
   return {prepared.endpoint, binding.type, binding.role == "client", binding.timeout};
 }
 
-void await_server(ServiceClient& client, const Prepared& prepared) {
-  if (prepared.wait > Duration::zero() && !client.await_server(prepared.wait))
-    throw std::runtime_error("there is no server of " + prepared.endpoint.topic);
-}
-
-class ReplyReceptor final : public RealReceptor {
+/// A driver of a client or server, which it may share with another driver.
+template <class Driver, class Service>
+class ServiceDriver : public Driver {
  public:
-  ReplyReceptor(Prepared prepared, const Ros2Binding& binding)
-      : prepared_(std::move(prepared)), client_(shared_service<ServiceClient>(setup_of(prepared_, binding))) {
-    client_->keep_results();
-  }
+  ServiceDriver(Prepared prepared, const Ros2Binding& binding)
+      : prepared_(std::move(prepared)), service_(shared_service<Service>(setup_of(prepared_, binding))) {}
 
   [[nodiscard]] bool open() override {
-    client_->open();
-    await_server(*client_, prepared_);
+    service_->open();
+    if constexpr (std::is_same_v<Service, ServiceClient>)
+      if (prepared_.wait > Duration::zero() && !service_->await_server(prepared_.wait))
+        throw std::runtime_error("there is no server of " + prepared_.endpoint.topic);
     return true;
   }
-  void close() override { client_->close(); }
+  void close() override { service_->close(); }
+
+ protected:
+  Prepared prepared_;
+  std::shared_ptr<Service> service_;
+};
+
+class ReplyReceptor final : public ServiceDriver<RealReceptor, ServiceClient> {
+ public:
+  ReplyReceptor(Prepared prepared, const Ros2Binding& binding) : ServiceDriver(std::move(prepared), binding) {
+    service_->keep_results();
+  }
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
-    while (auto result = client_->take_result()) {
+    while (auto result = service_->take_result()) {
       if (result->outcome == CallOutcome::answered && !is_read(*result)) {
         result->outcome = CallOutcome::unreadable;
         if (is_told(++unreadable_))
@@ -70,8 +79,6 @@ class ReplyReceptor final : public RealReceptor {
     return prepared_.translator.decode(result.reply, value_, own_of(result)) == Translator::Outcome::good;
   }
 
-  Prepared prepared_;
-  std::shared_ptr<ServiceClient> client_;
   std::vector<std::byte> value_;
   std::uint64_t unreadable_ = 0;
 };
@@ -97,28 +104,21 @@ class OutgoingMessage {
   std::vector<std::byte> message_;
 };
 
-class RequestEffector final : public RealEffector {
+class RequestEffector final : public ServiceDriver<RealEffector, ServiceClient> {
  public:
   RequestEffector(Prepared prepared, const Ros2Binding& binding)
-      : prepared_(std::move(prepared)),
-        client_(shared_service<ServiceClient>(setup_of(prepared_, binding))),
-        outgoing_(prepared_),
-        maker_(getpid()) {}
+      : ServiceDriver(std::move(prepared), binding), outgoing_(prepared_), maker_(getpid()) {}
 
   [[nodiscard]] bool open() override {
-    if (is_guardian()) return true;  // most safe commands make no call
-    client_->open();
-    await_server(*client_, prepared_);
-    return true;
+    return is_guardian() || ServiceDriver::open();  // most safe commands of a guardian make no call
   }
-  void close() override { client_->close(); }
 
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
     if (!outgoing_.make(prepared_, value)) return false;
-    if (!is_guardian()) return client_->call(outgoing_.call(), outgoing_.message());
+    if (!is_guardian()) return service_->call(outgoing_.call(), outgoing_.message());
     if (outgoing_.call() == 0) return true;
-    client_->open();
-    return client_->call_and_wait(outgoing_.call(), outgoing_.message(), guardian_calls_within);
+    service_->open();
+    return service_->call_and_wait(outgoing_.call(), outgoing_.message(), guardian_calls_within);
   }
 
  private:
@@ -126,60 +126,38 @@ class RequestEffector final : public RealEffector {
   /// reports "taken" only for a call that was answered.
   [[nodiscard]] bool is_guardian() const { return getpid() != maker_; }
 
-  Prepared prepared_;
-  std::shared_ptr<ServiceClient> client_;
   OutgoingMessage outgoing_;
   pid_t maker_;
 };
 
-class RequestReceptor final : public RealReceptor {
+class RequestReceptor final : public ServiceDriver<RealReceptor, ServiceServer> {
  public:
-  RequestReceptor(Prepared prepared, const Ros2Binding& binding)
-      : prepared_(std::move(prepared)),
-        server_(shared_service<ServiceServer>(setup_of(prepared_, binding))) {}
-
-  [[nodiscard]] bool open() override {
-    server_->open();
-    return true;
-  }
-  void close() override { server_->close(); }
+  using ServiceDriver::ServiceDriver;
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
-    while (const auto request = server_->next_request()) {
+    while (const auto request = service_->next_request()) {
       const std::array own{request->number};
       if (prepared_.translator.decode(request->message, value_, own) == Translator::Outcome::good)
         return prepared_.encoding->take(value.data(), value_);
-      server_->drop(request->number);
+      service_->drop(request->number);
     }
     return false;
   }
 
  private:
-  Prepared prepared_;
-  std::shared_ptr<ServiceServer> server_;
   std::vector<std::byte> value_;
 };
 
-class ReplyEffector final : public RealEffector {
+class ReplyEffector final : public ServiceDriver<RealEffector, ServiceServer> {
  public:
   ReplyEffector(Prepared prepared, const Ros2Binding& binding)
-      : prepared_(std::move(prepared)),
-        server_(shared_service<ServiceServer>(setup_of(prepared_, binding))),
-        outgoing_(prepared_) {}
-
-  [[nodiscard]] bool open() override {
-    server_->open();
-    return true;
-  }
-  void close() override { server_->close(); }
+      : ServiceDriver(std::move(prepared), binding), outgoing_(prepared_) {}
 
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
-    return outgoing_.make(prepared_, value) && server_->reply(outgoing_.call(), outgoing_.message());
+    return outgoing_.make(prepared_, value) && service_->reply(outgoing_.call(), outgoing_.message());
   }
 
  private:
-  Prepared prepared_;
-  std::shared_ptr<ServiceServer> server_;
   OutgoingMessage outgoing_;
 };
 

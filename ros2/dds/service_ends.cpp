@@ -1,7 +1,9 @@
 #include "ros2/dds/service_ends.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
+#include "ros2/dds/prepared.hpp"
 #include "ros2/naming/names.hpp"
 
 namespace tessera::ros2 {
@@ -84,6 +86,23 @@ bool ServiceEnds::hears(const std::string& client) const {
   return std::ranges::any_of(writer_->others(), [&](const Endpoint::Other& one) {
     return value_of(one.user_data, client_key) == client;
   });
+}
+
+void SharedService::use_timeout(Duration timeout) {
+  const std::lock_guard lock(mutex_);
+  if (timeout > Duration::zero()) timeout_ = timeout;
+}
+
+void SharedService::open() {
+  const std::lock_guard lock(mutex_);
+  if (!ends_) ends_.emplace(setup_);
+  ++users_;
+}
+
+void SharedService::warn(std::uint64_t& count, const char* text) const {
+  if (!is_told(++count)) return;
+  std::fprintf(stderr, "warning: %s: service %s: %s (%llu until now)\n", setup_.endpoint.path.c_str(),
+               setup_.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
 }
 
 }  // namespace tessera::ros2

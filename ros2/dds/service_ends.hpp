@@ -70,6 +70,32 @@ class ServiceEnds {
   std::optional<Endpoint> writer_, reader_;
 };
 
+/// What a client and a server have in common: the drivers of a service share one.
+///
+/// Threads: any.
+class SharedService {
+ public:
+  /// Zero keeps the present timeout.
+  void use_timeout(Duration timeout);
+  /// Opens the service; for the second driver of it, it is open already. Throws std::runtime_error.
+  void open();
+
+ protected:
+  SharedService(const ServiceSetup& setup, Duration timeout) : timeout_(timeout), setup_(setup) {}
+  /// Whether the driver that closes the service is the last one. Precondition: the mutex is locked.
+  [[nodiscard]] bool is_last_to_close() { return users_ > 0 && --users_ == 0 && ends_; }
+  /// Prints a warning the first times.
+  void warn(std::uint64_t& count, const char* text) const;
+
+  std::mutex mutex_;
+  Duration timeout_;
+  std::optional<ServiceEnds> ends_;
+
+ private:
+  const ServiceSetup setup_;
+  int users_ = 0;
+};
+
 /// The object that the drivers of that service and role share in an agent of this process.
 template <class Service>
 [[nodiscard]] std::shared_ptr<Service> shared_service(const ServiceSetup& setup) {

@@ -19,26 +19,10 @@
 namespace tessera::sim {
 namespace {
 
-class MujocoWorld final : public World {
+class MujocoWorld final : public WorldOfDevices<DeviceContext> {
  public:
-  explicit MujocoWorld(DeviceContext context) : context_(std::move(context)) {}
+  using WorldOfDevices::WorldOfDevices;
 
-  [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
-                                                       std::string& error) override {
-    return device_or_error([&] { return make_receptor(context_, request); }, request, error);
-  }
-  [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request,
-                                                       std::string& error) override {
-    return device_or_error([&] { return make_effector(context_, request); }, request, error);
-  }
-  [[nodiscard]] std::optional<DriverProblem> problem_with(const DriverRequest& request,
-                                                          bool effector) override {
-    DriverProblem problem;
-    const bool made =
-        effector ? device_or_problem([&] { return make_effector(context_, request); }, problem) != nullptr
-                 : device_or_problem([&] { return make_receptor(context_, request); }, problem) != nullptr;
-    return made ? std::nullopt : std::optional(std::move(problem));
-  }
   [[nodiscard]] std::shared_ptr<WorldState> state(const std::string& agent) override {
     return view_of_world(context_.simulation, agent);
   }
@@ -60,9 +44,6 @@ class MujocoWorld final : public World {
     if (problem) error = problem->text;
     return !problem;
   }
-
- private:
-  DeviceContext context_;  // devices may outlive the world
 };
 
 std::optional<Problem> put_robot_at_start(Physics& physics, const WorldOptions& options) {
@@ -119,12 +100,8 @@ extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World
 /// Lists the contents of a MuJoCo world; throws nothing. See tessera::ListWorld.
 extern "C" __attribute__((visibility("default"))) bool tessera_list_world_4(
     const tessera::WorldOptions& options, std::string& json, std::string& error) {
-  auto listed = tessera::sim::without_exceptions([&] { return tessera::sim::list(options); });
-  if (listed)
-    json = std::move(*listed);
-  else
-    error = listed.problem();
-  return static_cast<bool>(listed);
+  return tessera::sim::text_or_false(
+      tessera::sim::without_exceptions([&] { return tessera::sim::list(options); }), json, error);
 }
 
 /// Opens a MuJoCo world for drawing; throws nothing. See tessera::OpenPainter.

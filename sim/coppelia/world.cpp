@@ -17,27 +17,10 @@ namespace {
 constexpr const char* no_checks = "worlds of CoppeliaSim have no checks and measures";
 
 /// A scene of CoppeliaSim. Without a scene, its devices are only judged.
-class CoppeliaWorld final : public World {
+class CoppeliaWorld final : public sim::WorldOfDevices<DeviceContext> {
  public:
-  explicit CoppeliaWorld(DeviceContext context) : context_(std::move(context)) {}
+  using WorldOfDevices::WorldOfDevices;
 
-  [[nodiscard]] std::unique_ptr<RealReceptor> receptor(const DriverRequest& request,
-                                                       std::string& error) override {
-    return sim::device_or_error([&] { return make_receptor(context_, request); }, request, error);
-  }
-  [[nodiscard]] std::unique_ptr<RealEffector> effector(const DriverRequest& request,
-                                                       std::string& error) override {
-    return sim::device_or_error([&] { return make_effector(context_, request); }, request, error);
-  }
-  [[nodiscard]] std::optional<DriverProblem> problem_with(const DriverRequest& request,
-                                                          bool effector) override {
-    DriverProblem problem;
-    const bool made =
-        effector
-            ? sim::device_or_problem([&] { return make_effector(context_, request); }, problem) != nullptr
-            : sim::device_or_problem([&] { return make_receptor(context_, request); }, problem) != nullptr;
-    return made ? std::nullopt : std::optional(std::move(problem));
-  }
   [[nodiscard]] std::shared_ptr<WorldState> state(const std::string& agent) override {
     return context_.scene == nullptr ? nullptr : view_of(context_.scene, agent);
   }
@@ -52,9 +35,6 @@ class CoppeliaWorld final : public World {
     if (problem) error = problem->text;
     return !problem;
   }
-
- private:
-  DeviceContext context_;  // devices may outlive the world
 };
 
 Result<std::unique_ptr<World>> open(const WorldOptions& options) {
@@ -89,10 +69,6 @@ extern "C" __attribute__((visibility("default"))) std::unique_ptr<tessera::World
 /// Lists the contents of a CoppeliaSim scene; throws nothing. See tessera::ListWorld.
 extern "C" __attribute__((visibility("default"))) bool tessera_list_world_4(
     const tessera::WorldOptions& options, std::string& json, std::string& error) {
-  auto listed = tessera::sim::without_exceptions([&] { return tessera::coppelia::list(options); });
-  if (listed)
-    json = std::move(*listed);
-  else
-    error = listed.problem();
-  return static_cast<bool>(listed);
+  return tessera::sim::text_or_false(
+      tessera::sim::without_exceptions([&] { return tessera::coppelia::list(options); }), json, error);
 }

@@ -46,6 +46,12 @@ json names_of(const std::map<std::string, fs::path>& assets) {
   return names;
 }
 
+/// The text, if there is such a thing.
+void answer_found(httplib::Response& response, std::optional<std::string> text, const char* what) {
+  if (!text) return answer_error(response, 404, fmt::format("there is no such {}", what));
+  answer(response, std::move(*text));
+}
+
 /// The number at the end of an address.
 std::uint64_t number_in(const httplib::Request& request) {
   const std::string digits = request.matches[1];
@@ -71,37 +77,33 @@ void Api::serve_on(HttpServer& server) {
 }
 
 void Api::serve_files(HttpServer& server) {
-  server.Get("/api/project", [this](const Request&, Response& response) { get_project(response); });
+  server.Get("/api/project", by(&Api::get_project));
   server.Post("/api/language",
               [this](const Request& request, Response& response) { language_.handle(request, response); });
   server.Get("/api/recordings",
              [this](const Request&, Response& response) { answer(response, parts_.recordings.list()); });
-  server.Get("/api/recordings/([^/]+)",
-             [this](const Request& request, Response& response) { get_recording(request, response); });
-  server.Get("/api/views", [this](const Request&, Response& response) { get_views(response); });
-  server.Get("/api/recordings/([^/]+)/arrays",
-             [this](const Request& request, Response& response) { get_arrays(request, response); });
-  server.Get("/api/recordings/([^/]+)/coverage",
-             [this](const Request& request, Response& response) { get_coverage(request, response); });
-  server.Get("/api/recordings/([^/]+)/poses",
-             [this](const Request& request, Response& response) { get_poses(request, response); });
-  server.Get("/api/scenes/([0-9a-f]{16})\\.glb",
-             [this](const Request& request, Response& response) { get_scene(request, response); });
-  server.Get("/api/tracks/([^/]+)",
-             [this](const Request& request, Response& response) { get_track(request, response); });
+  server.Get("/api/recordings/([^/]+)", by(&Recordings::content));
+  server.Get("/api/views", by(&Api::get_views));
+  server.Get("/api/recordings/([^/]+)/arrays", by(&Recordings::arrays));
+  server.Get("/api/recordings/([^/]+)/coverage", [this](const Request& request, Response& response) {
+    answer_found(response, parts_.recordings.coverage(request.matches[1]), "recording");
+  });
+  server.Get("/api/recordings/([^/]+)/poses", by(&Recordings::poses));
+  server.Get("/api/scenes/([0-9a-f]{16})\\.glb", by(&Api::get_scene));
+  server.Get("/api/tracks/([^/]+)", by(&Api::get_track));
 }
 
 void Api::serve_work(HttpServer& server) {
-  server.Post("/api/verify",
-              [this](const Request& request, Response& response) { start_verify(request, response); });
-  server.Get("/api/verify/(\\d+)",
-             [this](const Request& request, Response& response) { get_verify(request, response); });
-  server.Delete("/api/verify/(\\d+)",
-                [this](const Request& request, Response& response) { stop_verify(request, response); });
-  server.Post("/api/waits",
-              [this](const Request& request, Response& response) { get_waits(request, response); });
-  server.Post("/api/runs",
-              [this](const Request& request, Response& response) { start_run(request, response); });
+  server.Post("/api/verify", by(&Api::start_verify));
+  server.Get("/api/verify/(\\d+)", [this](const Request& request, Response& response) {
+    answer_found(response, parts_.jobs.state(number_in(request)), "job");
+  });
+  server.Delete("/api/verify/(\\d+)", [this](const Request& request, Response& response) {
+    if (!parts_.jobs.stop(number_in(request))) return answer_error(response, 404, "there is no such job");
+    answer(response, "{}");
+  });
+  server.Post("/api/waits", by(&Api::get_waits));
+  server.Post("/api/runs", by(&Api::start_run));
   server.Get("/api/runs",
              [this](const Request&, Response& response) { answer(response, text_of(parts_.runs.list())); });
   server.Get("/api/controllers", [](const Request&, Response& response) {
@@ -109,15 +111,35 @@ void Api::serve_work(HttpServer& server) {
       return answer_error(response, 409, "it is unknown whether a controller is running: " + wrong->text);
     answer(response, text_of(json(listening_sockets())));
   });
-  server.Get("/api/runs/(\\d+)",
-             [this](const Request& request, Response& response) { get_run(request, response); });
-  server.Get("/api/runs/(\\d+)/coverage",
-             [this](const Request& request, Response& response) { get_run_coverage(request, response); });
-  server.Post("/api/runs/(\\d+)/control",
-              [this](const Request& request, Response& response) { control_run(request, response); });
+  server.Get("/api/runs/(\\d+)", with_run([](Run& run, const Request&, Response& response) {
+               answer(response, text_of(run.info(/*all=*/true)));
+             }));
+  server.Get("/api/runs/(\\d+)/coverage", with_run([](Run& run, const Request&, Response& response) {
+               answer(response, text_of(run.coverage()));
+             }));
+  server.Post("/api/runs/(\\d+)/control", with_run(control_run));
 }
 
-void Api::get_project(Response& response) {
+httplib::Server::Handler Api::by(Method method) {
+  return [this, method](const Request& request, Response& response) { (this->*method)(request, response); };
+}
+
+httplib::Server::Handler Api::by(PartOfRecording part) {
+  return [this, part](const Request& request, Response& response) {
+    if (const std::optional<Recordings::Span> span = span_of(request, response))
+      answer_found(response, (parts_.recordings.*part)(request.matches[1], *span), "recording");
+  };
+}
+
+httplib::Server::Handler Api::with_run(std::function<void(Run&, const Request&, Response&)> use) {
+  return [this, use = std::move(use)](const Request& request, Response& response) {
+    const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
+    if (run == nullptr) return answer_error(response, 404, "there is no such run");
+    use(*run, request, response);
+  };
+}
+
+void Api::get_project(const Request& /*request*/, Response& response) {
   const fs::path folder = parts_.file.folder();
   json worlds = json::array();
   const json tracks = names_of(assets_named(options_.share / "tracks", folder, ".png"));
@@ -164,12 +186,6 @@ void Api::start_verify(const Request& request, Response& response) {
   answer(response, text_of(json{{"job", std::to_string(started.job)}}), 202);
 }
 
-void Api::get_verify(const Request& request, Response& response) {
-  std::optional<std::string> state = parts_.jobs.state(number_in(request));
-  if (!state) return answer_error(response, 404, "there is no such job");
-  answer(response, std::move(*state));
-}
-
 void Api::get_waits(const Request& request, Response& response) {
   RequestBody body(request, response);
   const std::string text = body.text("text");
@@ -178,11 +194,6 @@ void Api::get_waits(const Request& request, Response& response) {
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
   if (!analysis->net) return answer_error(response, 422, "a specification with errors has no net");
   answer(response, text_of(json{{"at_end", project::at_end_json(waits_in(*analysis->net, marked))}}));
-}
-
-void Api::stop_verify(const Request& request, Response& response) {
-  if (!parts_.jobs.stop(number_in(request))) return answer_error(response, 404, "there is no such job");
-  answer(response, "{}");
 }
 
 std::optional<RunRequest> Api::run_request(const Request& request, Response& response) const {
@@ -243,12 +254,6 @@ void Api::start_run(const Request& request, Response& response) {
   answer(response, text_of(json{{"run", started.run}}), 202);
 }
 
-void Api::get_run(const Request& request, Response& response) {
-  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
-  if (run == nullptr) return answer_error(response, 404, "there is no such run");
-  answer(response, text_of(run->info(/*all=*/true)));
-}
-
 /// nullopt: the request is refused.
 std::optional<Recordings::Span> Api::span_of(const Request& request, Response& response) {
   Recordings::Span span;
@@ -263,49 +268,13 @@ std::optional<Recordings::Span> Api::span_of(const Request& request, Response& r
   return span;
 }
 
-void Api::get_recording(const Request& request, Response& response) {
-  const std::optional<Recordings::Span> span = span_of(request, response);
-  if (!span) return;
-  std::optional<std::string> content = parts_.recordings.content(request.matches[1], *span);
-  if (!content) return answer_error(response, 404, "there is no such recording");
-  answer(response, std::move(*content));
-}
-
-void Api::get_coverage(const Request& request, Response& response) {
-  std::optional<std::string> coverage = parts_.recordings.coverage(request.matches[1]);
-  if (!coverage) return answer_error(response, 404, "there is no such recording");
-  answer(response, std::move(*coverage));
-}
-
-void Api::get_run_coverage(const Request& request, Response& response) {
-  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
-  if (run == nullptr) return answer_error(response, 404, "there is no such run");
-  answer(response, text_of(run->coverage()));
-}
-
-void Api::get_arrays(const Request& request, Response& response) {
-  const std::optional<Recordings::Span> span = span_of(request, response);
-  if (!span) return;
-  std::optional<std::string> arrays = parts_.recordings.arrays(request.matches[1], *span);
-  if (!arrays) return answer_error(response, 404, "there is no such recording");
-  answer(response, std::move(*arrays));
-}
-
-void Api::get_views(Response& response) {
+void Api::get_views(const Request& /*request*/, Response& response) {
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(parts_.file.read().text);
   if (!analysis->model) return answer_error(response, 422, "the specification has errors");
   const Result<std::vector<project::WorldView>> views =
       project::world_views(*analysis->model, parts_.file.folder());
   if (!views) return answer_error(response, 422, "the world cannot be asked: " + views.problem());
   answer(response, text_of(json_of(*views)));
-}
-
-void Api::get_poses(const Request& request, Response& response) {
-  const std::optional<Recordings::Span> span = span_of(request, response);
-  if (!span) return;
-  std::optional<std::string> poses = parts_.recordings.poses(request.matches[1], *span);
-  if (!poses) return answer_error(response, 404, "there is no such recording");
-  answer(response, std::move(*poses));
 }
 
 /// The name of a scene is a hash of its content, so a browser need not ask again.

@@ -1,6 +1,8 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -36,23 +38,22 @@ class Api {
  private:
   using Request = httplib::Request;
   using Response = httplib::Response;
-  void get_project(Response& response);
+  using Method = void (Api::*)(const Request&, Response&);
+  using PartOfRecording = std::optional<std::string> (Recordings::*)(const std::string&,
+                                                                     Recordings::Span) const;
+  [[nodiscard]] httplib::Server::Handler by(Method method);
+  [[nodiscard]] httplib::Server::Handler by(PartOfRecording part);
+  /// Refuses a request whose run does not exist.
+  [[nodiscard]] httplib::Server::Handler with_run(std::function<void(Run&, const Request&, Response&)> use);
+  void get_project(const Request& request, Response& response);
   void get_spec(const Request& request, Response& response);
   void put_spec(const Request& request, Response& response);
   void start_verify(const Request& request, Response& response);
-  void get_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
-  void stop_verify(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
-  void get_run(const Request& request, Response& response);
-  void control_run(const Request& request, Response& response);
+  static void control_run(Run& run, const Request& request, Response& response);
   [[nodiscard]] static std::optional<Recordings::Span> span_of(const Request& request, Response& response);
-  void get_recording(const Request& request, Response& response);
-  void get_coverage(const Request& request, Response& response);
-  void get_run_coverage(const Request& request, Response& response);
-  void get_arrays(const Request& request, Response& response);
-  void get_views(Response& response);
-  void get_poses(const Request& request, Response& response);
+  void get_views(const Request& request, Response& response);
   void get_scene(const Request& request, Response& response);
   void get_track(const Request& request, Response& response);
   /// nullopt: the response says what is wrong.

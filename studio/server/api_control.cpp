@@ -3,9 +3,7 @@
 
 namespace tessera::server {
 
-void Api::control_run(const Request& request, Response& response) {
-  const std::shared_ptr<Run> run = parts_.runs.find(request.matches[1]);
-  if (run == nullptr) return answer_error(response, 404, "there is no such run");
+void Api::control_run(Run& run, const Request& request, Response& response) {
   RequestBody body(request, response);
   const RunControl wanted{.command = body.text("command"),
                           .subsystem = body.text_or("subsystem", ""),
@@ -18,7 +16,7 @@ void Api::control_run(const Request& request, Response& response) {
                           .transitions = body.indices("breakpoints", "transition"),
                           .conditions = body.indices("breakpoints", "condition")};
   if (!body.good()) return;
-  if (const std::optional<Problem> problem = run->control(wanted))
+  if (const std::optional<Problem> problem = run.control(wanted))
     return answer_error(response, 409, problem->text);
   answer(response, "{}");
 }

@@ -101,13 +101,11 @@ void Api::serve_sources(HttpServer& server) {
   server.Post("/api/edit", [this](const Request& request, Response& response) {
     language_.edit(request, response, Sources(parts_.file.folder()));
   });
-  server.Post("/api/files",
-              [this](const Request& request, Response& response) { write_files(request, response); });
+  server.Post("/api/files", by(&Api::write_files));
   server.Get("/api/examples", [this](const Request&, Response& response) {
     answer(response, text_of(examples_in(options_.share / "examples")));
   });
-  server.Post("/api/begin",
-              [this](const Request& request, Response& response) { begin_project(request, response); });
+  server.Post("/api/begin", by(&Api::begin_project));
 }
 
 void Api::write_files(const Request& request, Response& response) {

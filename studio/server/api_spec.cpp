@@ -23,10 +23,8 @@ void answer_with_analysis(const httplib::Request& request, httplib::Response& re
 }  // namespace
 
 void Api::serve_spec(HttpServer& server) {
-  server.Get("/api/spec",
-             [this](const Request& request, Response& response) { get_spec(request, response); });
-  server.Put("/api/spec",
-             [this](const Request& request, Response& response) { put_spec(request, response); });
+  server.Get("/api/spec", by(&Api::get_spec));
+  server.Put("/api/spec", by(&Api::put_spec));
   server.Post("/api/check", [this](const Request& request, Response& response) {
     RequestBody body(request, response);
     const std::string text = body.text("text");

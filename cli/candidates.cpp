@@ -33,20 +33,13 @@ std::string unquoted(const std::string& word) {
   return text;
 }
 
-struct KnownOfProject {
-  std::optional<spec::Model> model;
-  project::PartialNets nets;
-};
-
-KnownOfProject specification_of(const std::string& given) {
+project::Draft specification_of(const std::string& given) {
   diagnostics::Diagnostics text = diagnostics::load(project::spec_file(given));
-  project::Draft draft = project::draft_of(text);
-  if (!draft.is_model) return {};
-  return {std::move(draft.known), std::move(draft.nets)};
+  return project::draft_of(text);
 }
 
 std::vector<std::string> page_values(const std::string& given) {
-  const KnownOfProject known = specification_of(given);
+  const project::Draft known = specification_of(given);
   std::vector<std::string> paths;
   if (!known.nets.pages) return paths;
   const net::HierarchicalNet& net = *known.nets.pages;
@@ -57,7 +50,7 @@ std::vector<std::string> page_values(const std::string& given) {
 
 /// "v=", "robot.control.gain="
 std::vector<std::string> parameter_values(const std::string& given) {
-  const KnownOfProject known = specification_of(given);
+  const project::Draft known = specification_of(given);
   std::vector<std::string> names;
   if (!known.model) return names;
   const spec::Model& model = *known.model;
@@ -70,7 +63,7 @@ std::vector<std::string> parameter_values(const std::string& given) {
 }
 
 std::vector<std::string> property_values(const std::string& given) {
-  const KnownOfProject known = specification_of(given);
+  const project::Draft known = specification_of(given);
   std::vector<std::string> names;
   if (!known.nets.flat) return names;
   for (std::string& name : verify::default_properties_of(*known.nets.flat)) names.push_back(std::move(name));
@@ -81,7 +74,7 @@ std::vector<std::string> property_values(const std::string& given) {
 
 /// The real buffers with panels of this project; after the name of one of them, its fields: "forward=".
 std::vector<std::string> panel_values(const std::string& path) {
-  const KnownOfProject known = specification_of(".");
+  const project::Draft known = specification_of(".");
   std::set<std::string> words;
   if (!known.model) return {};
   std::vector<spec::Driver> drivers = known.model->drivers;

@@ -72,16 +72,12 @@ Model read_model(const Document& document, Diagnostics& out) {
 }  // namespace
 
 std::optional<Model> parse(diagnostics::Diagnostics& out) {
-  std::optional<Model> model = parse_what_is_known(out);
-  if (out.has_errors()) model.reset();
-  return model;
-}
-
-std::optional<Model> parse_what_is_known(diagnostics::Diagnostics& out) {
   if (out.has_errors() || !check_text(out)) return std::nullopt;
   const auto document = read_document(out);
   if (!document) return std::nullopt;
-  return read_model(*document, out);
+  std::optional<Model> model = read_model(*document, out);
+  if (out.has_errors()) model.reset();
+  return model;
 }
 
 }  // namespace tessera::spec

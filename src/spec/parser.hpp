@@ -15,9 +15,4 @@ namespace tessera::spec {
 /// Threads: pure.
 [[nodiscard]] std::optional<Model> parse(diagnostics::Diagnostics& out);
 
-/// The same for a text that may have errors, as an editor shows it: returns all parts that could be
-/// understood. In a model with errors, an index may be `none` or out of range, and parts may be missing.
-/// nullopt: the text is not YAML that this parser reads.
-[[nodiscard]] std::optional<Model> parse_what_is_known(diagnostics::Diagnostics& out);
-
 }  // namespace tessera::spec

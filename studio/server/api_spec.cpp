@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "server/analysis/structure.hpp"
 #include "server/api.hpp"
 #include "server/http/answer.hpp"
 
@@ -29,15 +28,6 @@ void Api::serve_spec(HttpServer& server) {
     RequestBody body(request, response);
     const std::string text = body.text("text");
     if (body.good()) answer_packed(request, response, {parts_.analyses.of(text)->json});
-  });
-  server.Post("/api/structure", [this](const Request& request, Response& response) {
-    RequestBody body(request, response);
-    const std::string text = body.text("text");
-    if (!body.good()) return;
-    const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
-    const std::optional<spec::Model>& known = analysis->model ? analysis->model : analysis->partial;
-    answer_packed(request, response,
-                  {std::make_shared<const std::string>(known ? text_of(structure_json(*known)) : "null")});
   });
 }
 

@@ -20,26 +20,16 @@ TEST_F(Api, ProjectNamesTheSystemItsFileAndTheWorlds) {
   EXPECT_FALSE(project.at("worlds")[0].at("tracks").empty());
 }
 
-TEST_F(Api, SpecComesWithItsNetAndStructure) {
+TEST_F(Api, SpecComesWithItsNet) {
   serve();
   const json spec_now = get("/api/spec").json();
   EXPECT_EQ(spec_now.at("text"), content_of(spec()));
   const json& analysis = spec_now.at("analysis");
   EXPECT_TRUE(analysis.at("diagnostics").empty());
   EXPECT_GT(analysis.at("net").at("shapes")[0].at("places").size(), 20U);
-  const json structure = post("/api/structure", {{"text", content_of(spec())}}).json();
-  EXPECT_EQ(structure.at("system"), "line_follower");
-  std::vector<std::string> paths;
-  for (const json& subsystem : structure.at("agents")[0].at("subsystems"))
-    paths.push_back(subsystem.at("path").get<std::string>() + " " + subsystem.at("kind").get<std::string>());
-  EXPECT_THAT(paths, testing::IsSupersetOf({"robot.control control", "robot.sensor receptor",
-                                            "robot.sensor.left real_receptor", "robot.motor effector",
-                                            "robot.motor.left real_effector"}));
-  EXPECT_EQ(structure.at("channels")[0].at("from"), "robot.sensor.line");
-  EXPECT_EQ(structure.at("channels")[0].at("to"), "robot.control.line");
 }
 
-TEST_F(Api, ABrokenFileHasItsDiagnosticsAndWhatIsKnownOfIt) {
+TEST_F(Api, ABrokenFileHasItsDiagnosticsAndNoNet) {
   std::string text = content_of(spec());
   text.replace(text.find("next: follow"), 12, "next: folow ");
   write(spec(), text);
@@ -54,8 +44,6 @@ TEST_F(Api, ABrokenFileHasItsDiagnosticsAndWhatIsKnownOfIt) {
   EXPECT_THAT(one.at("hint").get<std::string>(), HasSubstr("follow"));
   EXPECT_GT(one.at("end_column").get<int>(), one.at("column").get<int>());
   EXPECT_TRUE(analysis.at("net").is_null());
-  EXPECT_EQ(post("/api/structure", {{"text", text}}).json().at("agents")[0].at("path"), "robot");
-  EXPECT_TRUE(post("/api/structure", {{"text", "]"}}).json().is_null());
 }
 
 TEST_F(Api, MessagesOfRos2AreLookedUp) {

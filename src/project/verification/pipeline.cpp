@@ -76,14 +76,13 @@ PartialNets build_what_is_possible(const spec::Model& model, diagnostics::Diagno
 
 Draft draft_of(diagnostics::Diagnostics& text, const fs::path& project) {
   Draft draft;
-  draft.known = spec::parse_what_is_known(text);
-  draft.is_model = draft.known && !text.has_errors();
-  if (!draft.is_model) return draft;
-  note_former_routes(*draft.known, text);
+  draft.model = spec::parse(text);
+  if (!draft.model) return draft;
+  note_former_routes(*draft.model, text);
   // A mistake in a driver does not change the net.
-  if (!project.empty()) find_messages(*draft.known, project, text);
-  judge_models(*draft.known, text);
-  draft.nets = build_what_is_possible(*draft.known, text);
+  if (!project.empty()) find_messages(*draft.model, project, text);
+  judge_models(*draft.model, text);
+  draft.nets = build_what_is_possible(*draft.model, text);
   return draft;
 }
 

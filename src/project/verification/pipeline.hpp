@@ -60,8 +60,7 @@ struct PartialNets {
 
 /// A text that may be wrong, as far as the pipeline gets with it.
 struct Draft {
-  std::optional<spec::Model> known;  ///< what could be understood (spec::parse_what_is_known)
-  bool is_model = false;             ///< that is all of it: the text has no errors that reading finds
+  std::optional<spec::Model> model;  ///< nullopt: reading the text finds errors
   PartialNets nets;                  ///< of a model; those of unsound communication models too
 };
 /// text: loaded, not read. project: the folder of the specification, in which messages of ROS 2 are looked

@@ -51,7 +51,7 @@ Analysis analyse(const std::string& name, const std::string& text, const std::fi
   Analysis analysis;
   Diagnostics found(name, text);
   project::Draft draft = project::draft_of(found, project);
-  (draft.is_model ? analysis.model : analysis.partial) = std::move(draft.known);
+  analysis.model = std::move(draft.model);
   analysis.pages = std::move(draft.nets.pages);
   analysis.net = std::move(draft.nets.flat);
   if (draft.nets.properties) analysis.properties = std::move(*draft.nets.properties);

@@ -24,8 +24,6 @@ struct Analysis {
   std::optional<net::Net> net;
   std::vector<net::Property> properties;  ///< of the author; none if one of them is wrong
   std::string net_hash;
-  /// The part of the model that is known although the text has errors.
-  std::optional<spec::Model> partial;
 };
 
 /// name: of the file, for messages. project: its folder, with the messages of ROS 2; empty: it looks up none.

@@ -1,8 +1,6 @@
 // Made by scripts/protocol.mjs of share/tessera/studio.schema.json: change that, and run `npm run protocol`.
 import type { FoldedNet } from "./net/net_json";
 
-/** Null: never; true: always. */
-export type ConditionShown = { name: string; text: string; line: number }[] | true | null;
 export type VerifyAnswer = VerifyRunning | VerifyEnd;
 export type VerdictName = "holds" | "violated" | "unknown";
 /** Keys of maps, and numbers of items of lists. */
@@ -54,8 +52,6 @@ export interface Requests {
   };
   /** Saves nothing. */
   "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
-  /** The known part of a text, even with errors; null: it is not YAML. */
-  "POST /api/structure": { body: { text: string }; status: 200; answer: StructureShown | null };
   /** About a text as it is typed; saves nothing. */
   "POST /api/language": { body: LanguageQuestion; status: 200; answer: LanguageAnswer };
   "POST /api/verify": {
@@ -277,85 +273,6 @@ export interface Diagnostic {
 export interface Saved {
   revision: string;
   analysis: Analysis;
-}
-/** The known part of a text, even with errors. */
-export interface StructureShown {
-  system: string;
-  agents: AgentShown[];
-  channels: ChannelShown[];
-}
-export interface AgentShown {
-  path: string;
-  name: string;
-  template: string | null;
-  line: number;
-  subsystems: (SubsystemShown | DeviceShown)[];
-}
-export interface SubsystemShown {
-  path: string;
-  name: string;
-  kind: "control" | "receptor" | "effector";
-  line: number;
-  /** Hz. */
-  rate: number | null;
-  start: string | null;
-  behaviours: BehaviourShown[];
-  inputs: BufferShown[];
-  outputs: BufferShown[];
-  memory: BufferShown[];
-}
-export interface BehaviourShown {
-  path: string;
-  name: string;
-  line: number;
-  terminal: ConditionShown;
-  error: ConditionShown;
-  next: {
-    to: string;
-    when: string | null;
-    line: number;
-    /** It is in the text. */
-    given: boolean;
-  }[];
-  sends: string[] | null;
-  receives: string[] | null;
-  transfer: "parallel" | "sequential";
-}
-export interface BufferShown {
-  path: string;
-  name: string;
-  type: string;
-  line: number;
-}
-/** A real receptor or effector. */
-export interface DeviceShown {
-  path: string;
-  name: string;
-  kind: "real_receptor" | "real_effector";
-  line: number;
-  /** Hz. */
-  rate: number | null;
-  start: string | null;
-  behaviours: BehaviourShown[];
-  inputs: BufferShown[];
-  outputs: BufferShown[];
-  /** The path of its virtual one. */
-  of: string;
-  type: string;
-  driver: string | null;
-}
-export interface ChannelShown {
-  id: number;
-  from: string;
-  to: string;
-  send: "blocking" | "non_blocking";
-  receive: "blocking" | "blocking_once" | "non_blocking";
-  model: string | null;
-  line: number;
-  /** Seconds. */
-  send_timeout: number | null;
-  /** Seconds. */
-  receive_timeout: number | null;
 }
 export interface LanguageQuestion {
   text: string;

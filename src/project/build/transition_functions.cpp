@@ -88,61 +88,56 @@ bool TransitionFunctions::is_wanted(const ScannedFunction& function) const {
   });
 }
 
-std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions(
-    const codegen::Stub& stub) const {
+template <class Predicate>
+std::vector<TransitionFunctions::Definition> TransitionFunctions::those(
+    std::vector<ScannedFunction> SourceScan::*list, Predicate is_one) const {
   std::vector<Definition> found;
   for (const auto& [file, scan] : scans_)
-    for (const ScannedFunction& function : scan.functions)
-      if (function.name == stub.function && function.space == stub.space)
-        found.push_back(definition(file, function));
+    for (const ScannedFunction& function : scan.*list)
+      if (is_one(function))
+        found.push_back({shown(file), function.line, function.space, function.name, function.heading});
   return found;
+}
+
+std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions(
+    const codegen::Stub& stub) const {
+  return those(&SourceScan::functions, [&](const ScannedFunction& one) {
+    return one.name == stub.function && one.space == stub.space;
+  });
 }
 
 std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions_elsewhere(
     const codegen::Stub& stub) const {
-  std::vector<Definition> found;
-  for (const auto& [file, scan] : scans_)
-    for (const ScannedFunction& function : scan.functions)
-      if (function.name == stub.function && !is_wanted(function)) found.push_back(definition(file, function));
-  return found;
+  return those(&SourceScan::functions,
+               [&](const ScannedFunction& one) { return one.name == stub.function && !is_wanted(one); });
 }
 
 std::vector<std::string> TransitionFunctions::leftovers(const codegen::Stub& stub) const {
-  std::set<std::string> found;
-  for (const auto& [file, scan] : scans_)
-    for (const ScannedFunction& function : scan.functions)
-      if (function.space == stub.space && !is_wanted(function)) found.insert(function.name);
-  return {found.begin(), found.end()};
+  std::set<std::string> names;
+  for (const Definition& one : those(&SourceScan::functions, [&](const ScannedFunction& function) {
+         return function.space == stub.space && !is_wanted(function);
+       }))
+    names.insert(one.name);
+  return {names.begin(), names.end()};
 }
 
 std::vector<TransitionFunctions::Definition> TransitionFunctions::definitions_with_other_arguments(
     const codegen::Stub& stub) const {
-  std::vector<Definition> found;
-  for (const auto& [file, scan] : scans_)
-    for (const ScannedFunction& function : scan.others)
-      if (function.name == stub.function && function.space == stub.space)
-        found.push_back(definition(file, function));
-  return found;
+  return those(&SourceScan::others, [&](const ScannedFunction& one) {
+    return one.name == stub.function && one.space == stub.space;
+  });
 }
 
 std::optional<TransitionFunctions::Definition> TransitionFunctions::nearly(const codegen::Stub& stub) const {
   std::vector<Definition> candidates;
+  for (const auto list : {&SourceScan::functions, &SourceScan::others})
+    std::ranges::move(
+        those(list, [&](const ScannedFunction& one) { return one.space == stub.space && !is_wanted(one); }),
+        std::back_inserter(candidates));
   std::vector<std::string> names;
-  for (const auto& [file, scan] : scans_)
-    for (const std::vector<ScannedFunction>& all : {scan.functions, scan.others})
-      for (const ScannedFunction& function : all) {
-        if (function.space != stub.space || is_wanted(function)) continue;
-        candidates.push_back(definition(file, function));
-        names.push_back(function.name);
-      }
-  const std::string name = nearest(stub.function, names);
-  const auto found = std::ranges::find(candidates, name, &Definition::name);
+  for (const Definition& one : candidates) names.push_back(one.name);
+  const auto found = std::ranges::find(candidates, nearest(stub.function, names), &Definition::name);
   return found == candidates.end() ? std::nullopt : std::optional(*found);
-}
-
-TransitionFunctions::Definition TransitionFunctions::definition(const fs::path& file,
-                                                                const ScannedFunction& function) const {
-  return {shown(file), function.line, function.space, function.name, function.heading};
 }
 
 fs::path TransitionFunctions::file_for(const codegen::Stub& stub) const {

@@ -64,8 +64,10 @@ class TransitionFunctions {
   [[nodiscard]] std::filesystem::path shown(const std::filesystem::path& file) const;
 
   [[nodiscard]] bool is_wanted(const ScannedFunction& function) const;
-  [[nodiscard]] Definition definition(const std::filesystem::path& file,
-                                      const ScannedFunction& function) const;
+  /// Those functions of a list that `is_one` accepts.
+  template <class Predicate>
+  [[nodiscard]] std::vector<Definition> those(std::vector<ScannedFunction> SourceScan::*list,
+                                              Predicate is_one) const;
   std::filesystem::path project_;
   std::vector<codegen::Stub> wanted_;
   std::map<std::filesystem::path, SourceScan> scans_;

@@ -76,8 +76,6 @@ export class Draft {
   wrote: (files: readonly string[]) => void = () => {};
   /** The edits that are not done yet, and all that has to wait for them. */
   readonly queue = new Queue((editing) => this.store.set({ editing }));
-  /** The page is about to be closed or loaded again. Requests without an answer are broken off then. */
-  leaving = false;
   /** These edits, so that a reload does not forget them. */
   private waiting: Edit[][] = [];
   private name = "";

@@ -3,7 +3,7 @@ import { structureOf, type Structure } from "../model/structure/structure";
 import { applied, freeName, moved, pathAfter, pathNow, type At } from "../model/text/edits";
 import { merge } from "../model/text/merge";
 import type { YamlPath } from "../model/text/yaml_text";
-import { message, type Api } from "./api";
+import { ApiError, message, type Api } from "./api";
 import type { Draft } from "./draft";
 import type { Edit, EditAnswer, FileRenamed } from "../model/protocol";
 
@@ -40,6 +40,9 @@ export const keysNow =
 
 /** before: the text before the edit. moved: the present path of an element that had a path in it. */
 type Then = (before: string, moved: (at: At) => YamlPath) => void;
+
+/** Between two questions to a server that does not answer. */
+const pause_ms = 1000;
 
 /** A wish, the text that the user saw, and the number of renames that were done then. */
 interface Asked {
@@ -78,7 +81,7 @@ export class Editor {
     const forget = this.draft.keepEdits(this.editsOf(asked));
     return this.draft.queue.add(async () => {
       const done = await this.changeNow(asked, then);
-      if (done || !this.draft.leaving) forget();
+      forget();
       return done;
     });
   }
@@ -122,10 +125,22 @@ export class Editor {
   private async answerTo(text: string, asked: Asked): Promise<(EditAnswer & { done: Edit[] }) | undefined> {
     try {
       const done = this.editsOf(asked);
-      return { ...(await this.api.edit(text, done)), done };
+      return { ...(await this.ask(text, done)), done };
     } catch (error) {
       this.draft.refused(message(error));
       return undefined;
+    }
+  }
+
+  /** A server that is gone, or that has another key now, is asked again until it answers: the edit is nowhere else. */
+  private async ask(text: string, edits: Edit[]): Promise<EditAnswer> {
+    for (;;) {
+      try {
+        return await this.api.edit(text, edits);
+      } catch (error) {
+        if (!(error instanceof ApiError) || (error.status !== 0 && error.status !== 401)) throw error;
+      }
+      await new Promise((done) => setTimeout(done, pause_ms));
     }
   }
 

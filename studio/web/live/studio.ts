@@ -115,11 +115,8 @@ export class Studio {
     addEventListener("beforeunload", (event) => {
       // A field takes what is typed in it.
       (document.activeElement as HTMLElement | null)?.blur();
-      this.draft.leaving = true;
       if (this.unsaved && !this.reloading) event.preventDefault();
     });
-    // The user has stayed.
-    for (const input of ["keydown", "pointerdown"]) addEventListener(input, () => (this.draft.leaving = false), true);
     // An address that is opened in this tab changes only the part after the #.
     addEventListener("hashchange", () => (hasToken() ? this.reload() : this.follow(readLink(location.hash))));
     this.draft.store.subscribe(() => {

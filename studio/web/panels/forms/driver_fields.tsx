@@ -1,3 +1,4 @@
+import type { Now } from "../../live/editor";
 import { driverKinds, type DriverKind, type FieldShape } from "../../model/text/schema_fields";
 import { replace, set } from "../../model/text/edits";
 import { listAsTyped } from "../../model/text/list_text";
@@ -106,6 +107,8 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
       return replace(at, { [kind]: kept, ...(kind === "ros2" ? { type: "std_msgs/msg/Float64" } : {}) });
     });
   };
+  /** The kind may have been changed since the user saw it. */
+  const kindNow = (now: Now) => (driverAt(now.structure, now.at(at)).is ?? is)!.kind;
   return (
     <>
       <Choice
@@ -127,7 +130,7 @@ function DriverFields({ structure, at, where, targets }: DriverFieldsProps) {
               hint={is.description}
               choices={targets[is.kind] ?? []}
               problem={problem([...at, is.kind])}
-              onChange={(text) => text.trim() !== "" && edit(set(at, is.kind, text, "list"))}
+              onChange={(text) => text.trim() !== "" && edit((now) => set(at, kindNow(now), text, "list"))}
             />
           )}
           <ObjectFields

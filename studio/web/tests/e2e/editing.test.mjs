@@ -6,6 +6,7 @@ import { test } from "node:test";
 import {
   button,
   changes,
+  checked,
   draftText,
   drawn,
   environment,
@@ -95,12 +96,15 @@ test("a rename also changes C++, tests and params.yaml, says so before, and is o
     writeFileSync(code, `${readFileSync(code, "utf8")}// mine\n`);
     await button(page, "Undo").click();
     await until(page, async () => all()[0] === before[0], "the specification of before on disk");
+    // The other files are written after it.
+    await checked(page);
     assert.deepEqual(
       all(),
       before.map((text, at) => (at === 1 ? `${text}// mine\n` : text)),
     );
     await button(page, "Redo").click();
     await until(page, async () => count(/\bpursue\b/g)[1] > 0, "the new name again");
+    await checked(page);
     // The same lines changed by another program: nothing is taken back, and the page says why.
     writeFileSync(code, readFileSync(code, "utf8").replaceAll("void pursue(", "void pursue_it("));
     const now = all();

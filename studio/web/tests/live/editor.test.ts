@@ -1,6 +1,6 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
 import { isMap, parseDocument, type Document, type Pair, type Scalar } from "yaml";
-import type { Api } from "../../live/api";
+import { ApiError, type Api } from "../../live/api";
 import { Draft } from "../../live/draft";
 import { Editor, keysNow, named } from "../../live/editor";
 import type { Edit, PlacedText } from "../../model/protocol";
@@ -81,7 +81,7 @@ async function opened(kept?: object) {
   };
   /** So many requests were sent. */
   const sent = (count: number) => vi.waitFor(() => expect(asked.length).toBe(count));
-  return { draft, editor, answer, sent, asked, stored, onDisk: () => disk };
+  return { api, draft, editor, answer, sent, asked, stored, onDisk: () => disk };
 }
 
 beforeEach(() => void vi.unstubAllGlobals());
@@ -151,6 +151,20 @@ describe("an edit that is not done yet", () => {
     expect(again.draft.text).toMatch(/b:[^]*33 Hz[^]*start: run/);
     await again.draft.save();
     expect([...again.stored]).toEqual([]);
+  });
+  it("is done once a server that was gone, and has another key, answers", async () => {
+    const { draft, editor, answer, api } = await opened();
+    const wait = setTimeout;
+    vi.stubGlobal("setTimeout", queueMicrotask);
+    const { edit } = api;
+    const failures = [new ApiError(0, "no answer"), new ApiError(401, "another key")];
+    api.edit = (text, edits) => (failures.length > 0 ? Promise.reject(failures.shift()!) : edit(text, edits));
+    const done = editor.change(set(control, "rate", "33 Hz"));
+    expect(draft.dirty).toBe(true);
+    await vi.waitFor(() => expect(failures).toEqual([]));
+    vi.stubGlobal("setTimeout", wait);
+    await answer();
+    expect([await done, draft.text.includes("33 Hz"), draft.store.get().notice]).toEqual([true, true, ""]);
   });
   it("that is refused is no change, and those after it are done", async () => {
     const { draft, editor, answer } = await opened();

@@ -57,7 +57,7 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
 }
 
 TEST_F(Replay, ShowsWhatWasAskedFor) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 5s --record run.tsr").code, 0);
   const nlohmann::json summary = json("replay run.tsr");
   ASSERT_EQ(summary.at("subsystems").size(), 3U);
@@ -82,7 +82,7 @@ TEST_F(Replay, ShowsWhatWasAskedFor) {
 }
 
 TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
-  const fs::path project = example("01_line_follower");
+  const fs::path project = built_example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 5s --record run.tsr").code, 0);
   const project::Exit values = tessera("replay run.tsr --values=motion --last 1");
   EXPECT_NE(values.text.find("robot.control.motion = {linear: "), std::string::npos) << values.text;
@@ -118,7 +118,7 @@ TEST_F(Replay, ShowsValuesAndRunsTheCodeAgainOnThem) {
 
 /// A text of user code, which may come from a robot, or from somebody who sent the recording.
 TEST_F(Replay, ATextOfARecordingDoesNotCommandTheTerminal) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s --record run.tsr").code, 0);
   std::string recording = content_of(folder_ / "run.tsr");
   const std::string ended = "duration", hidden = "\x1b[2Jgone";
@@ -138,7 +138,7 @@ TEST_F(Replay, ATextOfARecordingDoesNotCommandTheTerminal) {
 }
 
 TEST_F(Replay, ReadsAndChecksTheSegmentsThatALimitLeaves) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   ASSERT_EQ(
       tessera("simulate 01_line_follower --for 30s --record logs/recording.tsr --record-limit 50kBx3").code,
       1)
@@ -157,7 +157,7 @@ TEST_F(Replay, ReadsAndChecksTheSegmentsThatALimitLeaves) {
 }
 
 TEST_F(Replay, WhoeverReadsARecordingWithoutItsBeginningIsToldFromWhenOnItIs) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   const std::string limited = "simulate 01_line_follower --for 60s --record run.tsr --record-limit 50kBx3";
   const nlohmann::json summary = json(limited + " --report report");
   const double from_s = summary.at("recorded_from_s").get<double>();

@@ -10,7 +10,7 @@ namespace tessera::cli_test {
 using Simulate = Command;
 
 TEST_F(Simulate, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
-  const fs::path project = example("01_line_follower");
+  const fs::path project = built_example("01_line_follower");
   const auto run = [&](const std::string& seed, const std::string& name) {
     EXPECT_EQ(tessera("simulate 01_line_follower --for 10s --seed " + seed + " --record " + name).code, 0);
     EXPECT_FALSE(fs::exists(project / ".tessera/last/path.csv"));
@@ -23,7 +23,7 @@ TEST_F(Simulate, SameSeedGivesTheSameBytesAndAnotherSeedOthers) {
 }
 
 TEST_F(Simulate, TheRobotKeepsToEveryShippedTrack) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   struct Case {
     const char* options;
     double laps;
@@ -145,7 +145,7 @@ TEST_F(Simulate, SchedulesFindTheSeedThatBreaksAnAssertionAndSayHowToMakeItAgain
 }
 
 TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   const project::Exit thrown =
       tessera("simulate 01_line_follower --for 5s --inject robot.control.follow:throw@2.5s");
   EXPECT_EQ(thrown.code, 1) << thrown.text;
@@ -175,21 +175,21 @@ TEST_F(Simulate, PlantedFaultsAreRecordedAndWrongOnesExplained) {
 }
 
 TEST_F(Simulate, RunWithoutDriversNamesTheRealBuffer) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   const project::Exit done = tessera("run 01_line_follower --for 1s");
   EXPECT_EQ(done.code, 1);
   EXPECT_NE(done.text.find("robot.sensor.left"), std::string::npos) << done.text;
 }
 
 TEST_F(Simulate, RunInTheWorldTakesRealTime) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   const nlohmann::json run = json("run 01_line_follower --world --for 2s");
   EXPECT_GE(run.at("wall_s"), 1.9);
   EXPECT_GT(run.at("firings"), 500);
 }
 
 TEST_F(Simulate, InterruptEndsARunSafelyWithItsOwnExitCode) {
-  example("01_line_follower");
+  built_example("01_line_follower");
   ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);
   // The signal comes when the run is on, however long it takes to begin. A shell lets programs that run
   // beside it ignore SIGINT.

@@ -14,7 +14,7 @@ namespace tessera::cli_test {
 class Top : public Command {
  protected:
   void SetUp() override {
-    example("01_line_follower");
+    built_example("01_line_follower");
     fs::create_directories(folder_ / "runtime");
     fs::permissions(folder_ / "runtime", fs::perms::owner_all);
     ASSERT_EQ(tessera("simulate 01_line_follower --for 1s").code, 0);

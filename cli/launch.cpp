@@ -27,7 +27,7 @@ void tell_of_panels(const spec::Model& model) {
   if (!model.simulation) return;
   std::vector<std::string> paths;
   for (const spec::Driver& driver : model.simulation->drivers)
-    if (driver.panel) paths.push_back(model.driver_path(driver));
+    if (driver.panel && driver.panel->script.empty()) paths.push_back(model.driver_path(driver));
   if (paths.empty()) return;
   constexpr std::size_t most = 3;
   const std::size_t more = paths.size() > most ? paths.size() - most : 0;

@@ -44,7 +44,7 @@ std::optional<Offered> offered_by(RunningController& controller) {
   return std::nullopt;
 }
 
-/// Of all processes together. code: `failed` if one does not answer.
+/// The offers of all processes together. code: `failed` if one does not answer.
 Offered offered_by_all(std::vector<SeenController>& processes, int& code) {
   Offered all;
   for (SeenController& one : processes) {
@@ -82,31 +82,31 @@ void print_rows(const std::vector<Row>& rows, const char* indent) {
   }
 }
 
-Row row_of(const Offered::Parameter& one, const std::string& name) {
+Row row_of(const Offered::Value& one, const std::string& name) {
   return {name, value_text(one.value, one.unit), range_text(one.minimum, one.maximum)};
 }
 
-bool are_alike(const Offered::Parameter& one, const Offered::Parameter& other) {
-  const auto facts = [](const Offered::Parameter& of) {
+bool are_alike(const Offered::Value& one, const Offered::Value& other) {
+  const auto facts = [](const Offered::Value& of) {
     return std::tie(of.value, of.unit, of.minimum, of.maximum);
   };
   return facts(one) == facts(other);
 }
 
 /// A name that means the same in several subsystems is one row: `tessera set` sets it in all of them.
-std::vector<Row> rows_of(const std::vector<Offered::Parameter>& parameters) {
-  std::map<std::string, std::vector<const Offered::Parameter*>> by_name;
-  for (const Offered::Parameter& one : parameters)
+std::vector<Row> rows_of(const std::vector<Offered::Value>& parameters) {
+  std::map<std::string, std::vector<const Offered::Value*>> by_name;
+  for (const Offered::Value& one : parameters)
     by_name[one.path.substr(one.path.rfind('.') + 1)].push_back(&one);
   std::vector<Row> rows;
   for (const auto& [name, all] : by_name) {
-    const Offered::Parameter& first = *all.front();
+    const Offered::Value& first = *all.front();
     const bool alike =
-        std::ranges::all_of(all, [&](const Offered::Parameter* one) { return are_alike(*one, first); });
+        std::ranges::all_of(all, [&](const Offered::Value* one) { return are_alike(*one, first); });
     if (all.size() > 1 && alike)
       rows.push_back(row_of(first, name));
     else
-      for (const Offered::Parameter* one : all) rows.push_back(row_of(*one, one->path));
+      for (const Offered::Value* one : all) rows.push_back(row_of(*one, one->path));
   }
   return rows;
 }
@@ -131,8 +131,8 @@ int list_panels(std::vector<SeenController>& processes, const std::string& path)
     fmt::print("{}  {}; an input counts for {:.3g} s\n", panel.path,
                panel.operated ? "an operator has it" : "neutral", panel.stale_s);
     std::vector<Row> rows;
-    for (const Offered::Control& one : panel.controls)
-      rows.push_back({one.field, value_text(one.value, one.unit), range_text(one.minimum, one.maximum)});
+    for (const Offered::Value& one : panel.controls)
+      rows.push_back({one.path, value_text(one.value, one.unit), range_text(one.minimum, one.maximum)});
     print_rows(rows, "  ");
   }
   if (code == ok && paths.empty() && path.empty()) fmt::print("there are no panels\n");

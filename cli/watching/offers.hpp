@@ -5,7 +5,7 @@
 
 #include "cli/watching/running_controller.hpp"
 
-/// What running controllers offer an operator: `tessera set` and `tessera panel` without values.
+/// The offers of running controllers to an operator: `tessera set` and `tessera panel` without values.
 namespace tessera::cli {
 
 /// Prints the parameters with their values, units and ranges. Returns the exit code: `failed` if a process does not

@@ -110,16 +110,8 @@ void members(Is<Snapshot> auto& one, auto& each) {
   each("left_out", one.left_out, by_need);
 }
 
-void members(Is<Offered::Parameter> auto& one, auto& each) {
+void members(Is<Offered::Value> auto& one, auto& each) {
   each("path", one.path);
-  each("value", one.value);
-  each("unit", one.unit, by_need);
-  each("minimum", one.minimum, by_need);
-  each("maximum", one.maximum, by_need);
-}
-
-void members(Is<Offered::Control> auto& one, auto& each) {
-  each("field", one.field);
   each("value", one.value);
   each("unit", one.unit, by_need);
   each("minimum", one.minimum, by_need);

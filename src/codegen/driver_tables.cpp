@@ -41,6 +41,15 @@ std::string controls_text(const spec::Panel& panel) {
   return text;
 }
 
+/// "3000000000 pause true; 5000000000 speed 0.5": nanoseconds, field and value, as the runtime reads it.
+std::string script_text(const spec::Panel& panel) {
+  std::string text;
+  for (const spec::PanelStep& one : panel.script)
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : "; ", one.at.count(), one.field,
+                        std::visit([](auto value) { return fmt::format("{}", value); }, one.value));
+  return text;
+}
+
 /// Writes the rows; drivers with the same options share a table of them.
 class Writer {
  public:
@@ -101,6 +110,8 @@ class Writer {
     with_controls.options["controls"] = spec::DriverOption{controls_text(*driver.panel), ""};
     with_controls.options["stale"] =
         spec::DriverOption{std::chrono::duration<double>(driver.panel->stale).count(), "s"};
+    if (!driver.panel->script.empty())
+      with_controls.options["script"] = spec::DriverOption{script_text(*driver.panel), ""};
     return fmt::format("    {{\"{}\", \"{}\", {}, {}, tessera::panel_receptor<{}>, nullptr}},\n", path,
                        "panel", place(driver), options(with_controls), value(driver));
   }

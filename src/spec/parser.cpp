@@ -6,6 +6,7 @@
 #include "spec/agents/fleets.hpp"
 #include "spec/channels/channels.hpp"
 #include "spec/channels/models.hpp"
+#include "spec/channels/waits.hpp"
 #include "spec/channels/wiring.hpp"
 #include "spec/devices/drivers.hpp"
 #include "spec/devices/simulation.hpp"
@@ -61,6 +62,7 @@ Model read_model(const Document& document, Diagnostics& out) {
   const WiringExcuses excuses = read_channels(file.find("channels"), types, groups, models, model, out);
   models.complain_about_unused(model, out);
   check_wiring(model, excuses, out);
+  check_waits(model, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);

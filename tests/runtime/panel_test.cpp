@@ -78,7 +78,7 @@ TEST_F(PanelOfTest, OffersItsControlsWithTheValuesThatCount) {
   const auto shown = [&] {
     const Offered::Panel all = panel_->offered(panel_now);
     std::string text = all.operated ? "operated" : "neutral";
-    for (const Offered::Control& one : all.controls) text += "; " + one.field + ' ' + one.value + one.unit;
+    for (const Offered::Value& one : all.controls) text += "; " + one.path + ' ' + one.value + one.unit;
     return text;
   };
   EXPECT_EQ(shown(), "neutral; forward 0m/s; gear 1; horn false; arm.lift 0m; arm.grip false");
@@ -90,6 +90,46 @@ TEST_F(PanelOfTest, OffersItsControlsWithTheValuesThatCount) {
   EXPECT_FALSE(all.controls[2].minimum) << "a bool has no range";
   panel_now += 300 * ms;
   EXPECT_EQ(shown(), "neutral; forward 0m/s; gear 1; horn false; arm.lift 0m; arm.grip false");
+}
+
+TEST(ScriptedPanel, GivesItsInputsByTheClockOfTheRunAndTakesNoOthers) {
+  const auto made_of = [](const char* script) {
+    return panel_receptor<PanelDrive>(DriverSetup(
+        "robot.console.drive",
+        {{"controls", "forward -0.5 0.5; horn; arm.lift 0 0.2"}, {"stale", 0.3, "s"}, {"script", script}}));
+  };
+  const std::unique_ptr<RealReceptor> made =
+      made_of("500000000 forward 0.25; 2000000000 horn true; 2000000000 forward -0.5; 3000000000 horn false");
+  auto& receptor = dynamic_cast<PanelReceptor&>(*made);
+  PanelDrive drive;
+  const auto read = [&] { return receptor.read({reinterpret_cast<std::byte*>(&drive), sizeof drive}); };
+  SimulatedClock clock;
+  clock.set(Time(10s));
+  EXPECT_FALSE(read()) << "without a clock the script gives nothing";
+  clock.set(Time(499ms));
+  receptor.follow(clock);
+  EXPECT_FALSE(read()) << "no input yet";
+  clock.set(Time(500ms));
+  EXPECT_TRUE(read());
+  EXPECT_EQ(drive.forward, 0.25F);
+  clock.set(Time(1999ms));
+  EXPECT_TRUE(read()) << "an input counts until the next one, also for longer than `stale`";
+  EXPECT_EQ(drive.forward, 0.25F);
+  EXPECT_FALSE(drive.horn);
+  clock.set(Time(2s));
+  EXPECT_TRUE(read());
+  EXPECT_TRUE(drive.horn);
+  EXPECT_EQ(drive.forward, -0.5F);
+  clock.set(Time(9s));
+  EXPECT_TRUE(read());
+  EXPECT_FALSE(drive.horn);
+  EXPECT_EQ(drive.forward, -0.5F);
+  EXPECT_EQ(
+      receptor.panel()->feed({"robot.console.drive", "a", {{{"forward", 0.1}}}}, 0).value_or(Problem{}).text,
+      "the script of the simulation has the panel robot.console.drive");
+  EXPECT_THROW(static_cast<void>(made_of("1 forward 7")), DriverError);
+  EXPECT_THROW(static_cast<void>(made_of("1 hron true")), DriverError);
+  EXPECT_THROW(static_cast<void>(made_of("soon")), DriverError);
 }
 
 TEST_F(PanelOfTest, GivesAnInputAndIsNeutralWhenItIsStale) {

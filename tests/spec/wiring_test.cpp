@@ -62,6 +62,53 @@ TEST(Warnings, DoNotRejectASpecification) {
   EXPECT_EQ(reading.codes(), "W311 W316 W316");
 }
 
+TEST(Warnings, AConditionThatAsksAnInputThatItsBehaviourNeverReceives) {
+  const auto codes = [](const std::string& behaviour) {
+    return Reading(
+               "tessera: 1\nsystem: demo\nagents:\n"
+               "  a: { control: { rate: 1 Hz, outputs: { x: bool }, behaviours: { run: {} } } }\n"
+               "  b: { control: { rate: 1 Hz, inputs: { y: bool }, memory: { n: bool }, behaviours: {\n"
+               "    all: { terminal: in.y, next: one },\n    one: { " +
+               behaviour + " } } } }\nchannels: [a.control.x -> b.control.y]\n")
+        .codes();
+  };
+  EXPECT_EQ(codes("receive: [], terminal: in.y.fresh, next: all"), "W371");
+  EXPECT_EQ(codes("receive: [], terminal: in.y, next: all"), "W371");
+  EXPECT_EQ(codes("receive: [], error: { late: in.y.timed_out }"), "W313 W371")
+      << "no entry asks for it, too";
+  EXPECT_EQ(codes("receive: [], terminal: true, next: [{ to: all, when: in.y.fresh }, end]"), "W371");
+  EXPECT_EQ(codes("receive: [y], terminal: in.y.fresh, next: all"), "");
+  EXPECT_EQ(codes("terminal: in.y.fresh, next: all"), "");
+  // The age goes on, and `next` may choose by the value that an earlier behaviour has received.
+  EXPECT_EQ(codes("receive: [], terminal: in.y.age > 2 s, next: all"), "");
+  EXPECT_EQ(codes("receive: [], terminal: true, next: [{ to: all, when: in.y }, end]"), "");
+  EXPECT_EQ(codes("receive: [], terminal: memory.n && in.y, next: all"), "");
+}
+
+TEST(Warnings, AStaleThatIsShorterThanTheWaitsBeforeIt) {
+  const auto codes = [](const std::string& behaviour, const std::string& timeout) {
+    return Reading(
+               "tessera: 1\nsystem: demo\nagents:\n"
+               "  dock: { control: { rate: 1 Hz, outputs: { x: bool }, behaviours: { run: {} } } }\n"
+               "  a:\n    control: { inputs: { y: bool }, outputs: { m: float64 }, behaviours: {\n"
+               "      drive: { " +
+               behaviour +
+               " }, wait: { send: [], terminal: true, next: drive } } }\n"
+               "    effectors: { base: { rate: 1 Hz, inputs: { m: float64 }, real: { w: float64 }, stale: "
+               "500 ms, "
+               "behaviours: { run: {} } } }\n"
+               "channels:\n  - { from: dock.control.x, to: a.control.y, receive: blocking" +
+               timeout + " }\n  - a.control.m -> a.base.m\n")
+        .codes();
+  };
+  EXPECT_EQ(codes("terminal: in.y, next: wait", ", timeout: 1 s"), "W372");
+  EXPECT_EQ(codes("terminal: in.y, next: wait", ", timeout: 500 ms"), "");
+  EXPECT_EQ(codes("terminal: in.y, next: wait", ""), "") << "it waits for ever, as is meant";
+  EXPECT_EQ(codes("terminal: true, next: wait", ", timeout: 1 s"), "") << "it does not repeat";
+  EXPECT_EQ(codes("send: [], terminal: in.y, next: wait", ", timeout: 1 s"), "W317")
+      << "it sends nothing there";
+}
+
 TEST(Warnings, AMistakeThatAgentsShareIsReportedOnce) {
   const Reading reading(
       "tessera: 1\nsystem: demo\ntemplates:\n  t: { control: { rate: 1 Hz, inputs: { x: bool }, behaviours: "

@@ -87,24 +87,20 @@ struct Snapshot {
   std::uint64_t left_out = 0;            ///< members of lists for which a message of the network has no room
 };
 
-/// What an operator can change, with the newest values.
+/// The values that an operator can change, as they are now.
 struct Offered {
-  /// A parameter of one subsystem.
-  struct Parameter {
-    std::string path, value, unit;           ///< "robot.control.v"; unit empty: none
+  /// A parameter of one subsystem, or a control of a panel.
+  struct Value {
+    std::string path, value, unit;           ///< "robot.control.v", or a field; unit empty: none
     std::optional<double> minimum, maximum;  ///< of each element; nullopt: none
-  };
-  struct Control {
-    std::string field, value, unit;
-    std::optional<double> minimum, maximum;  ///< nullopt: it is a bool
   };
   struct Panel {
     std::string path;  ///< of its real buffer
     double stale_s = 0;
     bool operated = false;  ///< false: it is neutral
-    std::vector<Control> controls;
+    std::vector<Value> controls;
   };
-  std::vector<Parameter> parameters;
+  std::vector<Value> parameters;
   std::vector<Panel> panels;
 };
 

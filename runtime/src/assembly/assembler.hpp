@@ -230,8 +230,10 @@ class Assembler {
   void find_devices(DeviceFinder& finder, SubsystemParts& parts) {
     SubsystemDevices devices = finder.find(parts.path, parts.bindings);
     for (const DriverInUse& driver : devices.drivers)
-      if (const auto* const panel = dynamic_cast<const PanelReceptor*>(driver.device))
+      if (auto* const panel = dynamic_cast<PanelReceptor*>(driver.device)) {
+        panel->follow(clock_);
         assembly_.panels.add(panel->panel());
+      }
     parts.receptors = std::move(devices.receptors);
     parts.effectors = std::move(devices.effectors);
     parts.drivers = std::move(devices.drivers);

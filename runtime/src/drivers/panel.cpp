@@ -117,16 +117,55 @@ std::vector<Panel::Control> controls_of(const std::string& text, const ValueLayo
   return controls;
 }
 
+/// "3000000000 pause true; 5000000000 speed 0.5": nanoseconds, field and value.
+std::vector<Panel::Step> steps_of(const std::string& text) {
+  std::vector<Panel::Step> steps;
+  for (std::string_view rest = text; !rest.empty();) {
+    const std::string_view one = rest.substr(0, rest.find("; "));
+    rest.remove_prefix(std::min(rest.size(), one.size() + 2));
+    const std::size_t first = one.find(' '), last = one.rfind(' ');
+    std::int64_t at = 0;
+    if (first == last || std::from_chars(one.data(), one.data() + first, at).ptr != one.data() + first)
+      throw DriverError("the script is not readable");
+    Panel::Step step{Time(Duration(at)), std::string(one.substr(first + 1, last - first - 1)), false};
+    const std::string_view value = one.substr(last + 1);
+    double number = 0;
+    if (std::from_chars(value.data(), value.data() + value.size(), number).ec == std::errc())
+      step.value = number;
+    else
+      step.value = value == "true";
+    steps.push_back(std::move(step));
+  }
+  return steps;
+}
+
 }  // namespace
 
 // -------------------------------------------------------------------------------------------- one panel
 
-Panel::Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale)
-    : path_(std::move(path)), controls_(std::move(controls)), stale_(stale), neutral_(size) {
+Panel::Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale,
+             std::vector<Step> script)
+    : path_(std::move(path)),
+      controls_(std::move(controls)),
+      stale_(stale),
+      script_(std::move(script)),
+      neutral_(size) {
   for (const Control& one : controls_)
     if (one.type != "bool")
       put_number(one.type, std::clamp(0.0, one.minimum, one.maximum), neutral_.data() + one.offset);
   input_.bytes = neutral_;
+  std::vector<std::byte> scratch = neutral_;
+  for (const Step& one : script_)
+    if (const std::optional<Problem> wrong = put(one.field, one.value, scratch))
+      throw DriverError("the script: " + wrong->text);
+}
+
+void Panel::play(Time now) {
+  const std::lock_guard lock(mutex_);
+  for (; played_ < script_.size() && script_[played_].at <= now; ++played_) {
+    static_cast<void>(put(script_[played_].field, script_[played_].value, input_.bytes));
+    input_.given_ns = 0;
+  }
 }
 
 std::optional<Problem> Panel::put(const std::string& field, const command::Panel::Value& value,
@@ -174,6 +213,7 @@ Offered::Panel Panel::offered(std::int64_t now_ns) const {
 }
 
 std::optional<Problem> Panel::feed(const command::Panel& input, std::int64_t now_ns) {
+  if (!script_.empty()) return Problem{fmt::format("the script of the simulation has the panel {}", path_)};
   if (input.who.size() > longest_operator) return Problem{"the name of the operator is too long"};
   std::vector<std::byte> bytes = neutral_;
   if (input.values)
@@ -208,6 +248,7 @@ PanelReceptor::PanelReceptor(std::shared_ptr<Panel> panel, const ValueEncoding* 
 }
 
 bool PanelReceptor::read(std::span<std::byte> value) {
+  if (clock_ != nullptr) panel_->play(clock_->now());
   panel_->latest(input_);
   const bool operated = panel_->counts(input_, now_());
   if (!operated && !std::exchange(operated_, false)) return false;
@@ -218,12 +259,13 @@ bool PanelReceptor::read(std::span<std::byte> value) {
 std::unique_ptr<RealReceptor> make_panel(const DriverSetup& setup, const ValueEncoding* encoding) {
   const std::string controls = setup.text("controls");
   const Duration stale = setup.duration("stale");
+  std::vector<Panel::Step> script = steps_of(setup.text_or("script", ""));
   refuse_unknown_options(setup, true);
   const auto layout = encoding == nullptr ? std::nullopt : ValueLayout::parse(encoding->type());
   if (!layout) throw DriverError("the values of the real buffer have no fixed size");
   std::size_t size = 0;
   std::vector<Panel::Control> all = controls_of(controls, *layout, size);
-  auto panel = std::make_shared<Panel>(setup.path(), std::move(all), size, stale);
+  auto panel = std::make_shared<Panel>(setup.path(), std::move(all), size, stale, std::move(script));
   return std::make_unique<PanelReceptor>(std::move(panel), encoding, monotonic_ns);
 }
 

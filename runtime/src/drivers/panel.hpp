@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "system/clock.hpp"
 #include "tessera/control_messages.hpp"
 #include "tessera/device.hpp"
 #include "tessera/result.hpp"
@@ -32,8 +33,17 @@ class Panel {
     double minimum = 0, maximum = 0;
     std::string unit{};  ///< empty: none
   };
-  /// size: of the encoded value in bytes.
-  Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale);
+  /// An input of the script of a simulated run.
+  struct Step {
+    Time at;
+    std::string field;
+    command::Panel::Value value;
+  };
+  /// size: of the encoded value in bytes. script: in the order of its times; if there is one, it is the only
+  /// operator: each of its inputs counts until the next one changes it.
+  /// Throws DriverError if an input of the script does not fit.
+  Panel(std::string path, std::vector<Control> controls, std::size_t size, Duration stale,
+        std::vector<Step> script = {});
 
   [[nodiscard]] const std::string& path() const { return path_; }
   [[nodiscard]] Duration stale() const { return stale_; }
@@ -52,8 +62,10 @@ class Panel {
   /// Copies the newest input. Never waits: while another thread feeds the panel, `input` stays as it is.
   void latest(Input& input);
   [[nodiscard]] bool counts(const Input& input, std::int64_t now_ns) const {
-    return input.given_ns && now_ns - *input.given_ns < stale_.count();
+    return input.given_ns && (!script_.empty() || now_ns - *input.given_ns < stale_.count());
   }
+  /// Gives the inputs of the script that are due. now: of the run's clock. Threads: the subsystem's.
+  void play(Time now);
 
  private:
   [[nodiscard]] std::optional<Problem> put(const std::string& field, const command::Panel::Value& value,
@@ -61,6 +73,8 @@ class Panel {
   const std::string path_;
   const std::vector<Control> controls_;
   const Duration stale_;
+  const std::vector<Step> script_;
+  std::size_t played_ = 0;  // steps of the script
   std::vector<std::byte> neutral_;
   mutable std::mutex mutex_;  // guards the members below
   Input input_;
@@ -75,12 +89,15 @@ class PanelReceptor final : public RealReceptor {
   PanelReceptor(std::shared_ptr<Panel> panel, const ValueEncoding* encoding, Now now);
 
   [[nodiscard]] const std::shared_ptr<Panel>& panel() const { return panel_; }
+  /// The clock of the script. It must live longer. Without a clock, the script gives nothing.
+  void follow(const Clock& clock) { clock_ = &clock; }
   [[nodiscard]] bool read(std::span<std::byte> value) override;
 
  private:
   std::shared_ptr<Panel> panel_;
   const ValueEncoding* encoding_;
   Now now_;
+  const Clock* clock_ = nullptr;
   Panel::Input input_;
   bool operated_ = false;  // the last value was an operator's
 };

@@ -48,7 +48,7 @@ std::optional<Problem> ParameterChanges::try_out(const std::string& path, const 
   return check_parameter(owners_, path, value, checked);
 }
 
-std::vector<Offered::Parameter> ParameterChanges::offered() const {
+std::vector<Offered::Value> ParameterChanges::offered() const {
   const std::lock_guard lock(offered_mutex_);
   return offered_;
 }

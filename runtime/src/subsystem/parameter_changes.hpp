@@ -33,7 +33,7 @@ class ParameterChanges {
   [[nodiscard]] bool knows(const std::string& path) const { return has_parameter(owners_, path); }
 
   /// All parameters, with the values that were requested last. Threads: any.
-  [[nodiscard]] std::vector<Offered::Parameter> offered() const;
+  [[nodiscard]] std::vector<Offered::Value> offered() const;
 
   /// Applies the changes that wait for a subsystem, in the order of the requests, and calls
   /// `tell("robot.control.v=0.3")` for each. Never waits: changes that are being requested at the moment
@@ -66,7 +66,7 @@ class ParameterChanges {
   std::vector<ParameterOwner> owners_;
   std::unique_ptr<Waiting[]> waiting_;  // per instance
   /// The subsystems use the values themselves, so that no other thread may read them while the system runs.
-  std::vector<Offered::Parameter> offered_;
+  std::vector<Offered::Value> offered_;
   std::vector<std::size_t> first_offered_;  // per instance, into `offered_`
   mutable std::mutex offered_mutex_;
 };

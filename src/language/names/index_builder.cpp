@@ -26,6 +26,7 @@ class IndexBuilder {
     use_in_channels();
     use_in_drivers(root_["drivers"]);
     use_in_drivers(root_["simulation"]["drivers"]);
+    for (const Entry& input : root_["simulation"]["script"].items) paths((*input.value)["set"], Place::real);
     for (const Entry& placed : root_["simulation"]["models"].entries) paths(placed.extent, Place::agent);
     use_in_deployment();
     use_in_formulas();

@@ -148,6 +148,8 @@ class Completer {
     if (size >= 2 && way[0] == "channels") return channel_value(last);
     if (size >= 2 && way[0] == "properties" && last != "name")
       return paths(PathEnd::behaviour, "[*]"), words_of_formulas(), true;
+    if (size >= 3 && way[0] == "simulation" && way[1] == "script" && last == "set")
+      return paths(PathEnd::real, "[*]"), true;
     if (size >= 3 && way[0] == "deploy" && way[1] == "processes" && last != "host" && last != "interface")
       return paths(PathEnd::agent, "[*]"), true;
     return unit_ != nullptr && value_in_unit();
@@ -296,7 +298,20 @@ class Completer {
         add_names(ends(unit, end));
         if (end == PathEnd::behaviour) add_names(unit.outputs);
       }
+      if (names.size() > 2 && end == PathEnd::real && unit.name == names[1]) fields_of_path(unit, names);
     }
+  }
+
+  /// The fields of the real buffer that a path names, or of a structure in it.
+  void fields_of_path(const UnitNames& unit, const std::vector<std::string>& names) {
+    const auto buffer = unit.real.find(names[2]);
+    if (buffer == unit.real.end()) return;
+    const NamesOf* fields = index_.fields_of(index_[buffer->second].type);
+    for (std::size_t at = 3; fields != nullptr && at < names.size(); ++at) {
+      const auto field = fields->find(names[at]);
+      fields = field == fields->end() ? nullptr : index_.fields_of(index_[field->second].type);
+    }
+    if (fields != nullptr) add_names(*fields);
   }
 
   [[nodiscard]] std::vector<std::string> chain_of_key() const {

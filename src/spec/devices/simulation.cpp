@@ -5,6 +5,7 @@
 #include "spec/devices/coppelia.hpp"
 #include "spec/devices/drivers.hpp"
 #include "spec/devices/placements.hpp"
+#include "spec/devices/script.hpp"
 #include "spec/devices/world_checks.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
@@ -76,7 +77,8 @@ std::optional<Simulation> read_simulation(const Entry* entry, const Model& model
                                           Diagnostics& out) {
   if (entry == nullptr) return std::nullopt;
   const Section section(*entry->value, entry->span, "the simulation",
-                        {"world", "coppelia", "track", "models", "drivers", "checks", "measures"}, out);
+                        {"world", "coppelia", "track", "models", "drivers", "script", "checks", "measures"},
+                        out);
   Simulation simulation;
   simulation.span = entry->span;
   simulation.world = read_file_name(section.find("world"), "the world", simulation.world_span, out);
@@ -87,6 +89,7 @@ std::optional<Simulation> read_simulation(const Entry* entry, const Model& model
   if (const Entry* track = section.find("track")) simulation.track = read_track(*track, out);
   simulation.models = read_placements(section.find("models"), model, groups, out);
   simulation.drivers = read_drivers(section.find("drivers"), Devices::simulated, model, groups, out);
+  read_script(section.find("script"), model, groups, simulation.drivers, out);
   simulation.checks = read_world_checks(section.find("checks"), out);
   simulation.measures = read_world_measures(section.find("measures"), out);
   if (section.find("world") == nullptr && !simulation.coppelia) require_world(section, simulation);

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 namespace tessera::spec {
@@ -28,10 +29,21 @@ struct PanelControl {
 /// As the specification writes it: "stick_x".
 [[nodiscard]] std::string_view name_of(PanelControl::Kind kind);
 
+/// An input of the script of a simulated run. The value stays until the script changes it.
+struct PanelStep {
+  std::chrono::nanoseconds at;  ///< from the start of the run
+  std::string field;            ///< of a control
+  std::variant<double, bool> value;
+
+  bool operator==(const PanelStep&) const = default;
+};
+
 /// The controls behind a real buffer of a receptor. Fields without a control stay zero.
 struct Panel {
   std::vector<PanelControl> controls;
   std::chrono::nanoseconds stale = std::chrono::milliseconds(500);  ///< an input counts for so long
+  std::vector<PanelStep>
+      script;  ///< simulation only, in the order of its times; empty: an operator gives inputs
 };
 
 }  // namespace tessera::spec

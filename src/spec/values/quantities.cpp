@@ -65,6 +65,14 @@ Duration nanoseconds(double value) { return Duration(static_cast<Duration::rep>(
 
 }  // namespace
 
+std::optional<Duration> read_moment(const Node& node, Span at, std::string_view what, Diagnostics& out) {
+  auto value = read(node, at, what, time_units, "ns", "3 s", out);
+  if (!value) return std::nullopt;
+  value = in_range(value, *value >= 0 && *value <= longest_time_ns, node,
+                   std::string(what) + " must lie between 0 s and 24 h", out);
+  return value ? std::optional(nanoseconds(*value)) : std::nullopt;
+}
+
 std::optional<Duration> read_duration(const Node& node, Span at, std::string_view what, Diagnostics& out) {
   auto value = read(node, at, what, time_units, "ns", "200 ms", out);
   if (!value) return std::nullopt;

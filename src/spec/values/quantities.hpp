@@ -15,6 +15,9 @@ namespace tessera::spec {
 /// Errors: E205 no number or an unknown unit; E206 zero, negative or absurd.
 [[nodiscard]] std::optional<Duration> read_duration(const Node& node, Span at, std::string_view what,
                                                     Diagnostics& out);
+/// A time from the start of a run: as a duration, but also 0 s.
+[[nodiscard]] std::optional<Duration> read_moment(const Node& node, Span at, std::string_view what,
+                                                  Diagnostics& out);
 /// The period of a rate in Hz or kHz.
 [[nodiscard]] std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out);
 /// Metres; a number without a unit counts as metres.

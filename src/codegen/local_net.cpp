@@ -52,7 +52,9 @@ class Extraction {
   LocalNet result() {
     find_ports();
     for (const PlaceId id : places_)
-      rows_.push_back({id, {std::string(local(net_[id].name)), net_[id].behaviour, operation(id)}});
+      rows_.push_back({id,
+                       {std::string(local(net_[id].name)), net_[id].behaviour,
+                        net_[id].fact.valid() ? knows(net_[id]) : operation(id), net_[id].tokens}});
     for (const TransitionId id : transitions_) latch(id, net_[id].condition);
     number_places();
     for (const TransitionId id : transitions_) add_transition(id);
@@ -101,6 +103,26 @@ class Extraction {
     }
     for (LocalNet::Port& port : local_.ports)
       if (is_input(port.buffer) && is_output(port.buffer)) port.name.insert(0, port.sends ? "snd." : "rcv.");
+  }
+
+  [[nodiscard]] std::string knows(const net::Place& place) {
+    const auto found = std::ranges::find(local_.facts, place.fact, &LocalNet::Fact::id);
+    const auto number = static_cast<std::size_t>(found - local_.facts.begin());
+    if (found == local_.facts.end()) {
+      const net::Parts::Fact& fact = net_.parts()[place.fact];
+      local_.facts.push_back({place.fact, std::string(kind_of(fact.kind)), fact.name});
+    }
+    return fmt::format("tessera::knows({}, {})", number, place.value);
+  }
+
+  static std::string_view kind_of(net::Parts::Fact::Kind kind) {
+    switch (kind) {
+      case net::Parts::Fact::Kind::received:
+        return "tessera::Fact::Kind::received";
+      case net::Parts::Fact::Kind::sent:
+        return "tessera::Fact::Kind::sent";
+    }
+    return {};
   }
 
   [[nodiscard]] bool is_input(const std::string& name) const {
@@ -213,7 +235,7 @@ class Extraction {
         condition.kind == Kind::go_on || condition.kind == Kind::terminal || condition.kind == Kind::error;
     if (!decides && condition.kind != Kind::next) return;
     for (const net::Arc& arc : net_.preset(id)) {
-      if (net_[arc.place].fused()) continue;
+      if (net_[arc.place].fused() || net_[arc.place].fact.valid()) continue;
       LocalNet::Place& place = rows_[index_of(arc.place)].place;
       place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes", place.behaviour.value);
     }
@@ -235,7 +257,12 @@ class Extraction {
 std::string identity(const LocalNet& net) {
   std::string text;
   for (const LocalNet::Port& port : net.ports) ((text += port.name) += port.sends ? '>' : '<') += '\n';
-  for (const LocalNet::Place& place : net.places) (((text += place.name) += ' ') += place.does) += '\n';
+  for (const LocalNet::Fact& fact : net.facts) ((text += fact.kind) += fact.name) += '\n';
+  for (const LocalNet::Place& place : net.places) {
+    ((text += place.name) += ' ') += place.does;
+    if (place.tokens > 0) text += " marked";
+    text += '\n';
+  }
   for (const LocalNet::Transition& transition : net.transitions) {
     ((((text += transition.name) += ' ') += transition.guard) += transition.role) += transition.in_words;
     for (const std::vector<std::string>* side : {&transition.inputs, &transition.outputs})

@@ -23,6 +23,7 @@ struct LocalNet {
     std::string name;
     net::BehaviourId behaviour{};  ///< none: it belongs to the subsystem itself
     std::string does{};            ///< C++: "tessera::calls(1)"; empty: nothing
+    std::uint32_t tokens = 0;      ///< at the start
   };
   struct Transition {
     std::string name;
@@ -32,7 +33,13 @@ struct LocalNet {
     std::string role{};                            ///< C++: "{tessera::Step::go_on, 1}"
     std::string in_words{};                        ///< "follow.snd.in, motion/empty -> follow.snd.motion.2"
   };
+  /// What the net knows, as tessera::Fact.
+  struct Fact {
+    net::FactId id;
+    std::string kind, name;  ///< C++: "tessera::Fact::Kind::received", "grant"
+  };
   std::vector<Port> ports;
+  std::vector<Fact> facts;
   std::vector<Place> places;  ///< behaviour by behaviour, in each those without operation last
   std::vector<Transition> transitions;
   std::size_t in = 0, out = 0;  ///< places

@@ -22,7 +22,12 @@ std::string list(const std::vector<std::string>& ends) {
   return fmt::format("{{{}}}", fmt::join(ends, ", "));
 }
 
-Row row(const LocalNet::Place& place) { return {place.behaviour, {string_literal(place.name), place.does}}; }
+Row row(const LocalNet::Place& place) {
+  const std::string tokens = place.tokens == 0 ? "" : std::to_string(place.tokens);
+  return {place.behaviour, {string_literal(place.name), place.does, tokens}};
+}
+
+Row row(const LocalNet::Fact& fact) { return {{}, {fact.kind, string_literal(fact.name)}}; }
 
 Row row(const LocalNet::Transition& transition) {
   return {transition.behaviour,
@@ -167,6 +172,9 @@ std::string net_tables(const Project& project, const Unit& unit, const NetVarian
     std::vector<Row> ports;
     for (const LocalNet::Port& port : net.ports) ports.push_back(row(port));
     out += table(*unit.subsystem, "constexpr tessera::Port ports" + suffix, ports);
+    std::vector<Row> facts;
+    for (const LocalNet::Fact& fact : net.facts) facts.push_back(row(fact));
+    out += table(*unit.subsystem, "constexpr tessera::Fact facts" + suffix, facts);
     std::vector<Row> places = grouped(net.places, *unit.subsystem);
     for (std::size_t place = 0; place < places.size(); ++place) places[place].comment = std::to_string(place);
     out += table(*unit.subsystem, "constexpr tessera::Place places" + suffix, places);
@@ -183,8 +191,9 @@ std::string net_definitions(const NetVariants& variants) {
     const std::string suffix = variant_suffix(variant);
     const std::string ports = variants.nets[variant].ports.empty() ? "{}" : "ports" + suffix;
     out += fmt::format(
-        "const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}, {2}, {3}}};\n",
-        suffix, ports, variants.nets[variant].in, variants.nets[variant].out);
+        "const tessera::SubsystemNet net{0}{{behaviours, {1}, places{0}, transitions{0}, {2}, {3}{4}}};\n",
+        suffix, ports, variants.nets[variant].in, variants.nets[variant].out,
+        variants.nets[variant].facts.empty() ? "" : ", facts" + suffix);
   }
   return out;
 }

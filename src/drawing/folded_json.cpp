@@ -54,7 +54,21 @@ class Folding {
   /// For each part the index of its shape; for each shape the index of its first part.
   [[nodiscard]] const std::vector<std::uint32_t>& shapes() const { return shapes_; }
   [[nodiscard]] const std::vector<std::uint32_t>& firsts() const { return firsts_; }
-  /// The fused places of each channel.
+  /// The number of the memory that a fusion set or a fused place belongs to: that of its channel. Behind the
+  /// channels, the values of each fact are written like the memory of one.
+  template <class Fused>
+  [[nodiscard]] std::uint32_t memory_of(const Fused& fused) const {
+    return fused.channel.valid() ? fused.channel.value
+                                 : static_cast<std::uint32_t>(pages_.parts.channels.size()) + fused.fact.value;
+  }
+  /// The name of a memory.
+  [[nodiscard]] std::string name_of(std::size_t memory) const {
+    const std::size_t channels = pages_.parts.channels.size();
+    if (memory < channels) return pages_.parts.channels[memory];
+    const net::Parts::Fact& fact = pages_.parts.facts[memory - channels];
+    return pages_.parts[fact.subsystem].path + "." + fact.name;
+  }
+  /// The fused places of each memory.
   [[nodiscard]] const std::vector<Range>& memories() const { return memories_; }
   /// The fused place of a set; nullopt: it has no members.
   [[nodiscard]] std::optional<std::uint32_t> place_of(net::FusionId set) const {
@@ -65,7 +79,7 @@ class Folding {
 
  private:
   void find_memories() {
-    memories_.resize(pages_.parts.channels.size());
+    memories_.resize(pages_.parts.channels.size() + pages_.parts.facts.size());
     place_of_.resize(pages_.fusions.size());
     std::vector<bool> used(pages_.fusions.size());
     for (const net::Page& page : pages_.pages)
@@ -74,7 +88,7 @@ class Folding {
     std::uint32_t place = first_of(net_.places(), static_cast<std::uint32_t>(pages_.pages.size()));
     for (std::uint32_t set = 0; set < used.size(); ++set) {
       if (!used[set]) continue;
-      Range& memory = memories_[pages_.fusions[set].channel.value];
+      Range& memory = memories_[memory_of(pages_.fusions[set])];
       if (memory.size++ == 0) memory.first = place;
       place_of_[set] = place++;
     }
@@ -103,7 +117,7 @@ class Folding {
       for (const net::Node& node : drawn.nodes) {
         if (node.operation.channel.valid()) index_in(part.channels, node.operation.channel.value);
         if (!node.fusion.valid()) continue;
-        index_in(part.channels, pages_.fusions[node.fusion.value].channel.value);
+        index_in(part.channels, memory_of(pages_.fusions[node.fusion.value]));
         index_in(part.fusions, node.fusion.value);
         part.use.push_back(index_in(part.memory, place_of_[node.fusion.value].value()));
       }
@@ -148,7 +162,7 @@ class Folding {
 
   /// The number of the channel among those of the part, and of the place within the memory of the channel.
   [[nodiscard]] std::pair<std::uint32_t, std::uint32_t> within(const Part& part, std::size_t at) const {
-    const std::uint32_t channel = net_.places()[part.memory[at]].channel.value;
+    const std::uint32_t channel = memory_of(net_.places()[part.memory[at]]);
     return {index_of(part.channels, channel), part.memory[at] - memories_[channel].first};
   }
 
@@ -286,7 +300,7 @@ std::string shape_text(const Folding& folding, const net::HierarchicalNet& pages
     shape.member("subsystems", subsystems);
     shape.member("memory", [&] {
       shape.list(part.memory, [&](std::uint32_t place) {
-        const std::uint32_t channel = net.places()[place].channel.value;
+        const std::uint32_t channel = folding.memory_of(net.places()[place]);
         const std::array<std::uint32_t, 2> where{index_of(part.channels, channel),
                                                  place - folding.memories()[channel].first};
         shape.list(where, [&](std::uint32_t number) { shape.value(number); });
@@ -313,7 +327,7 @@ std::string to_folded_json(const net::HierarchicalNet& pages, const net::Net& ne
   std::vector<std::string> memories;
   std::vector<std::uint32_t> memory_of;
   for (std::size_t channel = 0; channel < folding.memories().size(); ++channel) {
-    std::string text = memory_text(net, folding.memories()[channel], pages.parts.channels[channel]);
+    std::string text = memory_text(net, folding.memories()[channel], folding.name_of(channel));
     const auto [at, is_new] = known.try_emplace(std::move(text), static_cast<std::uint32_t>(known.size()));
     if (is_new) memories.push_back(at->first);
     memory_of.push_back(at->second);
@@ -348,10 +362,10 @@ std::string to_folded_json(const net::HierarchicalNet& pages, const net::Net& ne
     all.member("memories", [&] { all.list(memories, [&](const std::string& text) { all.raw(text); }); });
     all.member("channels", [&] {
       std::size_t index = 0;
-      all.list(pages.parts.channels, [&](const std::string& name) {
+      all.list(memory_of, [&](std::uint32_t memory) {
         all.object([&] {
-          all.member("name", std::string_view(name));
-          all.member("memory", memory_of[index++]);
+          all.member("name", std::string_view(folding.name_of(index++)));
+          all.member("memory", memory);
         });
       });
     });

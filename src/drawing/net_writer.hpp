@@ -77,7 +77,7 @@ class NetWriter : public JsonWriter {
     object([&] {
       member("name", std::string_view(set.name));
       member("tokens", set.tokens);
-      member("channel", set.channel);
+      number("channel", set.channel);
       member("span", [&] { span(set.span); });
     });
   }

@@ -59,6 +59,10 @@ class PaperLabels : public Labels {
 
   [[nodiscard]] Label fused(net::FusionId id) const override {
     const net::FusionSet& set = net_.fusions[id.value];
+    if (set.fact.valid()) {
+      const net::Parts::Fact& fact = net_.parts[set.fact];
+      return Label(fact.name + " " + fact.values[set.value]);
+    }
     Label label = buffer(set.channel, true);
     label.add(" \u2192 ").add(buffer(set.channel, false));
     return label.add(" " + set.name.substr(net_.parts[set.channel].size() + 1));

@@ -48,25 +48,83 @@ struct Ending {
   Condition go_on, terminal, error;
 };
 
-Ending ending(const spec::Behaviour& behaviour) {
-  const Truth terminal = truth(truth_of(behaviour.terminal));
-  const Truth error = truth(truth_of(behaviour.error));
-  const Truth no_error = negation(error);
-  std::string go_on_text = error == Truth::free ? "no error" : "";
-  if (terminal == Truth::free) go_on_text += go_on_text.empty() ? "not terminal" : ", not terminal";
-  std::string terminal_text = terminal == Truth::free ? "terminal: " + alternatives(behaviour.terminal) : "";
-  if (error == Truth::free) terminal_text += terminal_text.empty() ? "no error" : "; no error";
-  Condition fails = condition(Condition::Kind::error, error, "error: " + alternatives(behaviour.error));
-  if (error == Truth::never) {  // any behaviour ends by an exception, or the failure of a device
+/// What is known of the conditions of a behaviour.
+struct EndingTruths {
+  Truth terminal, error;
+  EndingTruths(const spec::Behaviour& behaviour, const spec::TruthOf& truths)
+      : terminal(truth(truth_of(behaviour.terminal, truths))),
+        error(truth(truth_of(behaviour.error, truths))) {}
+  [[nodiscard]] Truth goes_on() const { return conjunction(negation(error), negation(terminal)); }
+  [[nodiscard]] Truth ends() const { return conjunction(negation(error), terminal); }
+};
+
+/// failing: what is known if any iteration may end with a failure.
+Ending ending(const spec::Behaviour& behaviour, EndingTruths known, EndingTruths failing) {
+  std::string go_on_text = known.error == Truth::free ? "no error" : "";
+  if (known.terminal == Truth::free) go_on_text += go_on_text.empty() ? "not terminal" : ", not terminal";
+  std::string terminal_text =
+      known.terminal == Truth::free ? "terminal: " + alternatives(behaviour.terminal) : "";
+  if (known.error == Truth::free) terminal_text += terminal_text.empty() ? "no error" : "; no error";
+  Condition fails = condition(Condition::Kind::error, known.error, "error: " + alternatives(behaviour.error));
+  if (known.error == Truth::never) {  // any behaviour ends by an exception, or the failure of a device
     fails.text = "failure";
     fails.set_with_failures({Truth::free, fails.exhaustive});
+  } else {
+    fails.set_with_failures({failing.error, fails.exhaustive});
   }
-  return {
-      condition(Condition::Kind::go_on, conjunction(no_error, negation(terminal)), std::move(go_on_text)),
-      condition(Condition::Kind::terminal, conjunction(no_error, terminal), std::move(terminal_text)),
-      std::move(fails),
-  };
+  Ending all{condition(Condition::Kind::go_on, known.goes_on(), std::move(go_on_text)),
+             condition(Condition::Kind::terminal, known.ends(), std::move(terminal_text)), std::move(fails)};
+  all.go_on.set_with_failures({failing.goes_on(), all.go_on.exhaustive});
+  all.terminal.set_with_failures({failing.ends(), all.terminal.exhaustive});
+  return all;
 }
+
+KnownFacts::Expressions expressions_of_ending(const spec::Behaviour& behaviour) {
+  KnownFacts::Expressions all;
+  for (const spec::Condition* condition : {&behaviour.terminal, &behaviour.error})
+    for (const spec::Expression& expression : condition->expressions) all.push_back(&expression);
+  return all;
+}
+
+/// Draws the ends of an iteration. If its conditions ask for facts, each is drawn for the values with which it
+/// can be the end, and at least once.
+class EndingPen {
+ public:
+  EndingPen(Sheet& sheet, const KnownFacts& facts, const spec::Behaviour& behaviour, spec::BehaviourId id)
+      : sheet_(sheet), facts_(facts), assignments_(facts.assignments(expressions_of_ending(behaviour))) {
+    for (const KnownFacts::Values& values : assignments_)
+      endings_.push_back(ending(behaviour, EndingTruths(behaviour, facts.truths(id, values, false)),
+                                EndingTruths(behaviour, facts.truths(id, values, true))));
+  }
+
+  void draw(std::string_view name, Condition Ending::*which, Step role, std::uint32_t from, std::uint32_t to,
+            net::Span span) const {
+    bool drawn = false;
+    for (std::size_t number = 0; number < assignments_.size(); ++number) {
+      const bool possible = (endings_[number].*which).known(true).truth != Truth::never;
+      const bool last = number + 1 == assignments_.size();
+      if (!possible && !(last && !drawn)) continue;
+      drawn = true;
+      FactPen(sheet_, facts_)
+          .draw(std::string(name), assignments_[number], {},
+                [&](const std::string& full, const FactPen::Nodes& inputs, const FactPen::Nodes& outputs) {
+                  FactPen::Nodes takes{from}, gives{to};
+                  takes.insert(takes.end(), inputs.begin(), inputs.end());
+                  gives.insert(gives.end(), outputs.begin(), outputs.end());
+                  net::PageTransition& made =
+                      sheet_.transition(full, std::move(takes), std::move(gives), endings_[number].*which);
+                  made.role = role;
+                  made.span = span;
+                });
+    }
+  }
+
+ private:
+  Sheet& sheet_;
+  const KnownFacts& facts_;
+  std::vector<KnownFacts::Values> assignments_;
+  std::vector<Ending> endings_;  // per assignment
+};
 
 }  // namespace
 
@@ -92,7 +150,6 @@ net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId su
   const std::uint32_t late = communication(receives_first ? Direction::send : Direction::receive);
   const std::uint32_t out = sheet.output();
 
-  auto [go_on, terminal, error] = ending(behaviour);
   const auto where = [&](const spec::Condition& given) {
     return given.kind == spec::Condition::Kind::never ? behaviour.span : given.span;
   };
@@ -102,13 +159,10 @@ net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId su
       receives_first ? Step::end_receiving : Step::end_sending;
   sheet.transition(words::third_step, {step}, {late}).role =
       receives_first ? Step::begin_sending : Step::begin_receiving;
-  sheet.transition(words::go_on, {late}, {in}, std::move(go_on)).role = Step::go_on;
-  net::PageTransition& ends = sheet.transition(words::terminal, {late}, {out}, std::move(terminal));
-  ends.role = Step::terminal;
-  ends.span = where(behaviour.terminal);
-  net::PageTransition& fails = sheet.transition(words::error, {late}, {out}, std::move(error));
-  fails.role = Step::error;
-  fails.span = where(behaviour.error);
+  const EndingPen ends(sheet, draft.facts[subsystem], behaviour, id);
+  ends.draw(words::go_on, &Ending::go_on, Step::go_on, late, in, behaviour.span);
+  ends.draw(words::terminal, &Ending::terminal, Step::terminal, late, out, where(behaviour.terminal));
+  ends.draw(words::error, &Ending::error, Step::error, late, out, where(behaviour.error));
   return sheet.finish(in, out);
 }
 

@@ -52,8 +52,8 @@ std::string in_words(spec::Duration duration) {
 /// Draws the blocks of one page.
 class BlockPen {
  public:
-  BlockPen(const Draft& draft, Sheet& sheet, Direction direction)
-      : draft_(draft), sheet_(sheet), direction_(direction) {}
+  BlockPen(const Draft& draft, Sheet& sheet, net::SubsystemId subsystem, Direction direction)
+      : draft_(draft), facts_(draft.facts[subsystem]), sheet_(sheet), direction_(direction) {}
 
   /// Draws the side of the channel's model between the given input place and the output place it returns.
   std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name, PlaceRole out_role) {
@@ -74,10 +74,13 @@ class BlockPen {
       std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
       for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
       for (const std::uint32_t place : transition.gives) to.push_back(shared[place]);
-      sheet_
-          .transition(local(transition.name), std::move(from), std::move(to),
-                      transition.elapsed ? elapsed(channel, block) : net::Condition{})
-          .role = role_of(transition);
+      const auto draw = [&](const std::string& name, const Nodes& inputs, const Nodes& outputs) {
+        sheet_
+            .transition(name, joined(from, inputs), joined(to, outputs),
+                        transition.elapsed ? elapsed(channel, block) : net::Condition{})
+            .role = role_of(transition);
+      };
+      FactPen(sheet_, facts_).draw(local(transition.name), {}, outcome(side, transition, block), draw);
     }
     sheet_.in_block({});
     return nodes[ModelSide::out];
@@ -85,6 +88,23 @@ class BlockPen {
 
  private:
   using ModelSide = spec::ModelSide;
+  using Nodes = std::vector<std::uint32_t>;
+
+  static Nodes joined(Nodes nodes, const Nodes& more) {
+    nodes.insert(nodes.end(), more.begin(), more.end());
+    return nodes;
+  }
+
+  /// What the net knows after a transition that ends the block: whether a value was taken, or acknowledged in
+  /// time.
+  [[nodiscard]] KnownFacts::Values outcome(const ModelSide& side, const ModelSide::Transition& transition,
+                                           const Block& block) const {
+    const net::FactId fact = facts_.set_by(block.channel, direction_);
+    if (!fact.valid() || transition.to != ModelSide::out) return {};
+    const bool success =
+        direction_ == Direction::send ? !transition.elapsed : side.places[transition.from].slot.has_value();
+    return {{fact, success ? KnownFacts::succeeded : KnownFacts::failed}};
+  }
 
   [[nodiscard]] net::Operation operation(const ModelSide::Place& place, const Block& block) const {
     if (!place.slot) return {};
@@ -102,6 +122,7 @@ class BlockPen {
   }
 
   const Draft& draft_;
+  const KnownFacts& facts_;
   Sheet& sheet_;
   Direction direction_;
 };
@@ -156,7 +177,7 @@ net::PageId draw_communication(Draft& draft, net::PageId parent, net::SubsystemI
                                         sends ? subsystem.outputs : subsystem.inputs, direction);
   if (blocks.empty()) return draw_nothing(sheet);
   enlist(blocks, draft.net.parts, id, behaviour_id, direction);
-  BlockPen pen(draft, sheet, direction);
+  BlockPen pen(draft, sheet, id, direction);
   if (behaviour.transfer == spec::Transfer::parallel && blocks.size() > 1)
     return draw_side_by_side(sheet, pen, blocks);
   return draw_chain(sheet, pen, blocks);

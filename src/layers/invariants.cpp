@@ -29,19 +29,35 @@ class Places {
       for (const net::Node& node : page.nodes)
         places.push_back(node.page.valid() || node.fusion.valid() ? PlaceId{} : PlaceId{next.value++});
     }
-    for (; next.value < net.places().size(); ++next.value) fused_.push_back(next);
+    for (; next.value < net.places().size(); ++next.value)
+      (net[next].fused() ? fused_ : facts_).push_back(next);
   }
 
   [[nodiscard]] std::span<const PlaceId> of(net::PageId page) const { return of_page_[page.value]; }
   [[nodiscard]] PlaceId input(net::PageId page) const { return of(page)[pages_.pages[page.value].input]; }
   [[nodiscard]] PlaceId output(net::PageId page) const { return of(page)[pages_.pages[page.value].output]; }
   [[nodiscard]] const std::vector<PlaceId>& fused() const { return fused_; }
+  /// Those of the facts, which follow one another.
+  [[nodiscard]] const std::vector<PlaceId>& facts() const { return facts_; }
 
  private:
   const net::HierarchicalNet& pages_;
   std::vector<std::vector<PlaceId>> of_page_;
-  std::vector<PlaceId> fused_;
+  std::vector<PlaceId> fused_, facts_;
 };
+
+/// One of the values of each fact holds.
+std::vector<Invariant> of_facts(const net::Net& net, const Places& places) {
+  std::vector<Invariant> all;
+  net::FactId last;
+  for (const PlaceId place : places.facts()) {
+    const net::Parts::Fact& fact = net.parts()[net[place].fact];
+    if (std::exchange(last, net[place].fact) != net[place].fact)
+      all.push_back({"one value of " + fact.name + " in " + net.parts()[fact.subsystem].path, {}, 1});
+    all.back().terms.push_back({place});
+  }
+  return all;
+}
 
 /// The places of a communication page: those outside any branch, and those of each branch of
 /// a parallel transfer.
@@ -295,6 +311,7 @@ std::vector<Invariant> invariants(const spec::Model& model, const net::Hierarchi
   std::vector<Invariant> all = Subsystems(model, pages, places).result();
   for (Invariant& invariant : Channels(model, pages, net, places).result())
     all.push_back(std::move(invariant));
+  for (Invariant& invariant : of_facts(net, places)) all.push_back(std::move(invariant));
   return all;
 }
 

@@ -1,5 +1,6 @@
 #include "layers/sheet.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "layers/built_in.hpp"
@@ -29,6 +30,9 @@ Draft::Draft(const spec::Model& specification)
       net.fusions.push_back({name + "." + place.name, place.tokens, id, channel.span, role_of(place)});
     }
   }
+  facts.reserve(model.instances.size());
+  for (const spec::InstanceId instance : model.instances.ids())
+    facts.push_back(KnownFacts(model, wiring, instance, net));
 }
 
 Sheet::Sheet(Draft& draft, net::PageId parent, net::Layer layer, std::string name, net::SubsystemId subsystem,
@@ -66,6 +70,15 @@ std::uint32_t Sheet::fused(std::string_view name, net::FusionId set) {
   const std::uint32_t node = place(name, {}, draft_.net.fusions[set.value].role);
   page_.nodes[node].tokens = draft_.net.fusions[set.value].tokens;
   page_.nodes[node].fusion = set;
+  return node;
+}
+
+std::uint32_t Sheet::member(std::string_view name, net::FusionId set) {
+  const auto known = std::ranges::find(page_.nodes, set, &net::Node::fusion);
+  if (known != page_.nodes.end()) return static_cast<std::uint32_t>(known - page_.nodes.begin());
+  const net::BlockId block = std::exchange(block_, net::BlockId{});
+  const std::uint32_t node = fused(name, set);
+  block_ = block;
   return node;
 }
 

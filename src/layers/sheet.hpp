@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "layers/known_facts.hpp"
 #include "layers/wiring.hpp"
 #include "net/net.hpp"
 #include "spec/model/model.hpp"
@@ -20,6 +21,7 @@ struct Draft {
   /// The fusion sets of the shared places of its model. None if no behaviour
   /// uses the channel.
   Numbered<spec::ChannelId, std::vector<net::FusionId>> memory;
+  Numbered<net::SubsystemId, KnownFacts> facts;
 };
 
 /// One page while it is drawn. Its id exists from the start, so that pages below it can name it
@@ -35,6 +37,8 @@ class Sheet {
   std::uint32_t output();
   std::uint32_t page(net::PageId page);
   std::uint32_t fused(std::string_view name, net::FusionId set);
+  /// The member of that fusion set on this page, which is drawn when it is first asked for.
+  std::uint32_t member(std::string_view name, net::FusionId set);
 
   /// Returns the new transition, so that more of it can be set. Valid until the next one.
   net::PageTransition& transition(std::string_view name, std::vector<std::uint32_t> inputs,

@@ -54,27 +54,70 @@ Condition::After after(Possible possible) {
   return {possible(spec::Ending::terminal), possible(spec::Ending::error) || possible(spec::Ending::failure)};
 }
 
-/// The initial conditions of a behaviour's successors: of the entries of `next`, the first that
-/// holds is taken.
-Numbered<spec::NextId, Condition> initial_conditions(const spec::Behaviour& behaviour) {
-  if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always)
-    return {Condition{}};
-  Numbered<spec::NextId, Condition> conditions;
-  const spec::Endings endings(behaviour);
-  for (const spec::NextId entry : behaviour.next.ids()) {
-    const Known now = known(endings, entry, false);
-    Condition made{.kind = Condition::Kind::next,
-                   .truth = now.truth,
-                   .entry = entry.value,
-                   .text = text_of(entry, behaviour),
-                   .exhaustive = now.exhaustive};
-    made.set_with_failures(known(endings, entry, true));
-    made.follows =
-        after([&](spec::Ending ending) { return endings.taken(entry, ending) != spec::Truth::never; });
-    made.none_follows = after([&](spec::Ending ending) { return endings.none_possible(ending); });
-    conditions.push_back(std::move(made));
+/// An entry of `next`, as it is drawn for some values of the facts that its list asks for.
+struct Drawn {
+  spec::NextId entry;
+  KnownFacts::Values values;
+  Condition condition;
+};
+
+/// What is known of the list with certain values: without and with failures.
+struct Knowledge {
+  spec::Endings certain, failing;
+};
+
+Condition condition_of(spec::NextId entry, const spec::Behaviour& behaviour, const Knowledge& knowledge) {
+  const Known now = known(knowledge.certain, entry, false);
+  const spec::Endings& endings = knowledge.failing;
+  Condition made{.kind = Condition::Kind::next,
+                 .truth = now.truth,
+                 .entry = entry.value,
+                 .text = text_of(entry, behaviour),
+                 .exhaustive = now.exhaustive};
+  made.set_with_failures(known(endings, entry, true));
+  made.follows =
+      after([&](spec::Ending ending) { return endings.taken(entry, ending) != spec::Truth::never; });
+  made.none_follows = after([&](spec::Ending ending) { return endings.none_possible(ending); });
+  return made;
+}
+
+/// The expressions that decide between the entries.
+KnownFacts::Expressions expressions_of(const spec::Behaviour& behaviour) {
+  KnownFacts::Expressions all;
+  const auto add = [&](const spec::Condition& condition) {
+    for (const spec::Expression& expression : condition.expressions) all.push_back(&expression);
+  };
+  for (const spec::Next& next : behaviour.next) {
+    if (next.when.kind == spec::When::Kind::expression) all.push_back(&next.when.text);
+    if (next.when.kind == spec::When::Kind::terminal) add(behaviour.terminal);
+    if (next.when.kind == spec::When::Kind::named_error) add(behaviour.error);
   }
-  return conditions;
+  return all;
+}
+
+/// The entries of `next` with their initial conditions: the first that holds is taken. If they ask for facts, an
+/// entry is drawn for the values with which it can be taken, and the last one is also drawn where none can.
+std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourId id,
+                              const KnownFacts& facts) {
+  if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always)
+    return {{spec::NextId{0}, {}, Condition{}}};
+  const std::vector<KnownFacts::Values> assignments = facts.assignments(expressions_of(behaviour));
+  std::vector<Knowledge> knowledge;
+  for (const KnownFacts::Values& values : assignments)
+    knowledge.push_back({spec::Endings(behaviour, facts.truths(id, values, false)),
+                         spec::Endings(behaviour, facts.truths(id, values, true))});
+  std::vector<Drawn> drawn;
+  std::vector<bool> has_way(assignments.size(), false);
+  for (const spec::NextId entry : behaviour.next.ids())
+    for (std::size_t number = 0; number < assignments.size(); ++number) {
+      Condition condition = condition_of(entry, behaviour, knowledge[number]);
+      const bool possible = condition.known(true).truth != Truth::never;
+      const bool last = entry.value + 1 == behaviour.next.size();
+      if (!assignments[number].empty() && !possible && !(last && !has_way[number])) continue;
+      has_way[number] = true;
+      drawn.push_back({entry, assignments[number], std::move(condition)});
+    }
+  return drawn;
 }
 
 }  // namespace
@@ -92,15 +135,22 @@ net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id
   sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = Step::start;
   for (const spec::BehaviourId index : subsystem.behaviours.ids()) {
     const spec::Behaviour& behaviour = subsystem.behaviours[index];
-    const auto conditions = initial_conditions(behaviour);
-    for (const spec::NextId entry : behaviour.next.ids()) {
-      const spec::Next& next = behaviour.next[entry];
+    for (Drawn& entry : entries_of(behaviour, index, draft.facts[id])) {
+      const spec::Next& next = behaviour.next[entry.entry];
       const std::string name =
-          std::string(words::leave) + behaviour.name + "_" + std::to_string(entry.value + 1);
+          std::string(words::leave) + behaviour.name + "_" + std::to_string(entry.entry.value + 1);
       const std::uint32_t to = next.behaviour.valid() ? behaviours[next.behaviour] : out;
-      net::PageTransition& drawn = sheet.transition(name, {behaviours[index]}, {to}, conditions[entry]);
-      drawn.span = next.span;
-      drawn.role = Step::leave;
+      FactPen(sheet, draft.facts[id])
+          .draw(name, entry.values, {},
+                [&](const std::string& full, const FactPen::Nodes& inputs, const FactPen::Nodes& outputs) {
+                  FactPen::Nodes from{behaviours[index]}, into{to};
+                  from.insert(from.end(), inputs.begin(), inputs.end());
+                  into.insert(into.end(), outputs.begin(), outputs.end());
+                  net::PageTransition& drawn =
+                      sheet.transition(full, std::move(from), std::move(into), entry.condition);
+                  drawn.span = next.span;
+                  drawn.role = Step::leave;
+                });
     }
   }
   return sheet.finish(in, out);

@@ -8,7 +8,8 @@ namespace tessera::net {
 Counts count(const HierarchicalNet& pages, const Net& net) {
   Counts counts;
   counts.places = net.places().size();
-  counts.fused = static_cast<std::size_t>(std::ranges::count_if(net.places(), &Place::fused));
+  counts.fused = static_cast<std::size_t>(
+      std::ranges::count_if(net.places(), [](const Place& place) { return !place.page.valid(); }));
   counts.transitions = net.transitions().size();
   counts.arcs = net.arc_count();
   for (const Page& page : pages.pages) {

@@ -136,14 +136,19 @@ class Flattening {
     for (std::size_t set = 0; set < members.size(); ++set) {
       if (members[set].empty()) continue;
       const FusionSet& fusion = net_.fusions[set];
+      const SubsystemId owner = fusion.fact.valid() ? net_.parts[fusion.fact].subsystem : SubsystemId{};
       const PlaceId place = flat_.add(Place{.name = fusion.name,
                                             .tokens = fusion.tokens,
                                             .operation = operations[set],
-                                            .layer = Layer::communication,
+                                            .layer = owner.valid() ? Layer::subsystem : Layer::communication,
                                             .page = {},
+                                            .subsystem = owner,
                                             .channel = fusion.channel,
                                             .span = fusion.span,
-                                            .role = fusion.role});
+                                            .role = fusion.role,
+                                            .agent = owner.valid() ? net_.parts[owner].agent : AgentId{},
+                                            .fact = fusion.fact,
+                                            .value = fusion.value});
       for (const std::uint32_t member : members[set]) place_of_[member] = place;
     }
   }

@@ -16,5 +16,6 @@ using SubsystemId = InstanceId;       ///< into Parts::subsystems and Model::ins
 using tessera::BehaviourId;           ///< into Parts::Subsystem::behaviours and spec::Subsystem::behaviours
 using tessera::ChannelId;             ///< into Parts::channels and Model::channels
 using BlockId = Id<struct BlockTag>;  ///< into Parts::blocks
+using FactId = Id<struct FactTag>;    ///< into Parts::facts
 
 }  // namespace tessera::net

@@ -96,15 +96,28 @@ struct Parts {
     bool sends = false;
     std::string name{};  ///< of its buffer; numbered if the buffer has several channels: "motion", "motion#2"
   };
+  /// A variable of a subsystem that its net knows: one place per value, which hold one token together.
+  struct Fact {
+    enum class Kind : std::uint8_t {
+      received,  ///< whether the last receive of the input `subject` has taken a value
+      sent       ///< whether the last send of the output `subject` that may time out was acknowledged in time
+    } kind = Kind::received;
+    SubsystemId subsystem{};
+    std::uint32_t subject = 0;  ///< into the inputs or outputs of the subsystem
+    std::string name{};         ///< "grant"
+    std::vector<std::string> values{};
+  };
   std::vector<std::string> agents{};  ///< paths
   std::vector<Subsystem> subsystems{};
   std::vector<std::string> channels{};  ///< "robot.control.motion->robot.motor.velocity"
   std::vector<Block> blocks{};
+  std::vector<Fact> facts{};
 
   [[nodiscard]] const std::string& operator[](AgentId id) const { return agents[id.value]; }
   [[nodiscard]] const Subsystem& operator[](SubsystemId id) const { return subsystems[id.value]; }
   [[nodiscard]] const std::string& operator[](ChannelId id) const { return channels[id.value]; }
   [[nodiscard]] const Block& operator[](BlockId id) const { return blocks[id.value]; }
+  [[nodiscard]] const Fact& operator[](FactId id) const { return facts[id.value]; }
 
   /// "robot.control.follow"
   [[nodiscard]] std::string behaviour_path(SubsystemId subsystem, BehaviourId behaviour) const {
@@ -154,9 +167,11 @@ struct Page {
 struct FusionSet {
   std::string name{};  ///< "robot.control.motion->robot.motor.velocity.full"
   std::uint32_t tokens = 0;
-  ChannelId channel{};  ///< of the model
+  ChannelId channel{};  ///< of the model: it belongs to the memory of that channel
   Span span{};
   PlaceRole role = PlaceRole::none;
+  FactId fact{};            ///< it stands for a value of that fact, and belongs to its subsystem
+  std::uint32_t value = 0;  ///< of that fact
 };
 
 /// Pages in an order in which parents come before children; pages[0] is the multi-agent system.
@@ -186,10 +201,13 @@ struct Place {
   AgentId agent{};          ///< in the layers below the system
   BehaviourId behaviour{};  ///< in the subsystem; from the behaviour layer down
   BlockId block{};
+  FactId fact{};            ///< it stands for a value of that fact
+  std::uint32_t value = 0;  ///< of that fact
 
   [[nodiscard]] bool is(Layer of_layer, PlaceRole of_role) const {
     return layer == of_layer && role == of_role;
   }
+  /// It is part of the memory of a channel.
   [[nodiscard]] bool fused() const { return channel.valid(); }
 };
 

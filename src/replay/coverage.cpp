@@ -181,7 +181,8 @@ class Measure {
     users_.resize(net_.places().size());
     for (std::uint32_t index = 0; index < net_.transitions().size(); ++index)
       for (const net::Arc& arc : net_.preset(TransitionId{index}))
-        if (!net_[arc.place].fused()) users_[arc.place.value].push_back(index);
+        if (const net::Place& place = net_[arc.place]; !place.fused() && !place.fact.valid())
+          users_[arc.place.value].push_back(index);
   }
 
   void make_groups() {
@@ -268,7 +269,7 @@ class Measure {
   Reachable reachable_;
   std::vector<bool> marked_;  // per place, in some run
   std::vector<std::vector<std::uint32_t>>
-      users_;  // per place that is not fused: transitions that take from it
+      users_;  // per place of a subsystem or above, except facts: transitions that take from it
   std::map<Key, std::size_t> groups_;
   Group channels_{.path = "channels", .kind = Group::Kind::channels};
   Coverage coverage_;

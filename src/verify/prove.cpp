@@ -3,10 +3,13 @@
 #include <utility>
 
 #include "explore/budget.hpp"
+#include "verify/answering.hpp"
 #include "verify/communication/abstraction.hpp"
+#include "verify/communication/free_net.hpp"
 #include "verify/counterexample/fitting_endings.hpp"
 #include "verify/counterexample/tidy_run.hpp"
 #include "verify/deciders/decider.hpp"
+#include "verify/deciders/free_answers.hpp"
 #include "verify/hashes.hpp"
 #include "verify/meaning.hpp"
 #include "verify/verify.hpp"
@@ -73,64 +76,6 @@ Property of_author(const net::Property& property) {
           .author = &property};
 }
 
-constexpr const char* none_applies = "the methods that were allowed do not apply";
-
-/// The answers of the methods asked so far to one question.
-class Answering {
- public:
-  explicit Answering(Question question) : question_(std::move(question)) {
-    result_.method = "no method";
-    result_.why = none_applies;
-  }
-
-  [[nodiscard]] bool wants(const Decider& decider) const {
-    if (result_.verdict == Verdict::unknown) return true;
-    return result_.verdict == Verdict::violated && !result_.has_trace && has_runs(question_) &&
-           decider.finds_runs();
-  }
-  [[nodiscard]] bool only_run() const { return result_.verdict == Verdict::violated; }
-  [[nodiscard]] bool lacks_run() const { return only_run() && !result_.has_trace && has_runs(question_); }
-  void cut_off(std::string what) {
-    if (result_.cut_off.empty()) result_.cut_off = std::move(what);
-  }
-  [[nodiscard]] const Question& question() const { return question_; }
-  [[nodiscard]] PropertyResult result() && { return std::move(result_); }
-
-  void hear(Finding finding, const Decider& decider) {
-    result_.states += finding.states;
-    if (!finding.explanation.empty()) result_.explanation = std::move(finding.explanation);
-    const std::string method = finding.method.empty() ? decider.title() : finding.method;
-    if (only_run()) {
-      if (finding.kind == Finding::Kind::violated) show(finding);
-      return;
-    }
-    if (finding.kind == Finding::Kind::unknown) {
-      result_.why = result_.why == none_applies
-                        ? finding.why
-                        : finding.why + " (and " + result_.method + ": " + result_.why + ")";
-    } else {
-      const bool holds = finding.kind == Finding::Kind::holds;
-      result_.verdict = holds ? Verdict::holds : Verdict::violated;
-      result_.why = std::move(finding.why);
-      result_.hint = std::move(finding.hint);
-      if (!holds) show(finding);
-    }
-    result_.method = method;
-    if (finding.kind != Finding::Kind::holds) question_.subjects = std::move(finding.subjects);
-  }
-
- private:
-  void show(Finding& finding) {
-    result_.has_trace = finding.has_trace;
-    result_.trace = std::move(finding.trace);
-    result_.waits = std::move(finding.waits);
-    result_.cut_off = std::move(finding.cut_off);
-  }
-
-  Question question_;
-  PropertyResult result_;
-};
-
 /// Is the property violated by where a run ends, whatever came before?
 bool shown_by_end(const Subject& subject, const PropertyResult& result) {
   const auto author = std::ranges::find(subject.properties, result.name, &net::Property::name);
@@ -143,7 +88,12 @@ class Prover {
       : options_(options),
         start_(Clock::now()),
         budget_({.time = options.time, .stop = options.stop}),
-        facts_(subject, options.rules) {}
+        facts_(subject, options.rules),
+        free_(free_net(subject.net, subject.invariants)) {
+    if (!free_) return;
+    free_subject_.emplace(Subject{free_->net, subject.pages, free_->invariants, subject.properties});
+    free_facts_.emplace(*free_subject_, options.rules);
+  }
 
   std::vector<PropertyResult> results() {
     std::vector<Property> wanted = defaults();
@@ -178,7 +128,8 @@ class Prover {
                    : answer(question(property, kind), property.name);
       states += result.states;
       if (result.verdict != Verdict::holds) break;
-      if (kind == Question::Kind::deadlock_free) facts_.exclude_dead_ends(property.assume);
+      if (kind != Question::Kind::deadlock_free) continue;
+      facts_.exclude_dead_ends(property.assume);
     }
     result.name = property.name;
     if (property.author != nullptr) result.asks = property.author->text;
@@ -267,12 +218,48 @@ class Prover {
     return text;
   }
 
+  /// If subsystems know something, an answer about the net without that is tried first, since quick methods
+  /// apply to it; it is the answer if it carries over. A search is made on the net itself, and only if that has no
+  /// answer also on the other one.
   /// to_blame: if given, the subjects that a violation is about.
-  PropertyResult answer(Question question, const std::string& name,
+  PropertyResult answer(const Question& question, const std::string& name,
                         std::vector<std::uint32_t>* to_blame = nullptr) {
+    if (!free_facts_) return answer(question, name, facts_, Searches::all, to_blame);
+    if (std::optional<PropertyResult> quick = answer_of_free(question, name, Searches::none, to_blame))
+      return *std::move(quick);
+    PropertyResult exact = answer(question, name, facts_, Searches::all, to_blame);
+    if (exact.verdict != Verdict::unknown) return exact;
+    std::optional<PropertyResult> searched = answer_of_free(question, name, Searches::all, to_blame);
+    return searched ? *std::move(searched) : std::move(exact);
+  }
+
+  enum class Searches : std::uint8_t { none, all };
+
+  /// The answer about the net without facts; nullopt: it does not carry over.
+  std::optional<PropertyResult> answer_of_free(const Question& question, const std::string& name,
+                                               Searches searches, std::vector<std::uint32_t>* to_blame) {
+    std::vector<std::uint32_t> blamed;
+    PropertyResult result = answer(question, name, *free_facts_, searches, &blamed);
+    if (result.verdict == Verdict::unknown) return std::nullopt;
+    if (result.verdict == Verdict::holds && !carries_over(question, *free_facts_, facts_.subject().net))
+      return std::nullopt;
+    if (result.verdict == Verdict::violated && has_runs(question)) {
+      if (!result.has_trace) return std::nullopt;
+      auto run = lifted(free_facts_->under(question.assume).abstract, facts_.under(question.assume).abstract,
+                        result.trace);
+      if (!run) return std::nullopt;
+      result.trace = *std::move(run);
+    }
+    if (to_blame != nullptr) *to_blame = std::move(blamed);
+    return result;
+  }
+
+  PropertyResult answer(Question question, const std::string& name, Facts& facts, Searches searches,
+                        std::vector<std::uint32_t>* to_blame) {
     Answering answering(std::move(question));
     for (const auto& decider : portfolio()) {
-      const bool allowed = options_.method.empty() || options_.method == decider->name();
+      const bool allowed = (options_.method.empty() || options_.method == decider->name()) &&
+                           (searches == Searches::all || !decider->finds_runs());
       if (!allowed || !answering.wants(*decider)) continue;
       if (budget_.stopped() || (decider->searches() && budget_.spent())) {
         give_up(answering, *decider);
@@ -282,7 +269,7 @@ class Prover {
           answering.only_run() ? limits_for_run(name, answering.question().assume) : limits_for(name);
       const explore::Budget budget(limits);
       try {
-        if (std::optional<Finding> finding = decider->decide(answering.question(), facts_, limits))
+        if (std::optional<Finding> finding = decider->decide(answering.question(), facts, limits))
           answering.hear(std::move(*finding), *decider);
       } catch (const explore::CutOff& cut) {
         answering.hear({.why = cut.what(), .subjects = answering.question().subjects}, *decider);
@@ -350,6 +337,9 @@ class Prover {
   Clock::time_point start_;
   explore::Budget budget_;  // for all of it
   Facts facts_;
+  std::optional<FreeNet> free_;  // if some subsystem knows something
+  std::optional<Subject> free_subject_;
+  std::optional<Facts> free_facts_;
   std::size_t left_ = 1;  // properties that are not decided yet
 };
 

@@ -24,9 +24,9 @@ class RealReceptor;
 class Subsystem;
 struct DriverOption;
 
-/// The operation that a token starts when it arrives in a place. The last two are no operations of the net:
-/// they evaluate conditions when the token arrives, and store which of the conditional transitions
-/// behind the place may fire.
+/// The operation that a token starts when it arrives in a place. The last three are no operations of the net:
+/// `decide` and `route` evaluate conditions when the token arrives, and store which of the conditional transitions
+/// behind the place may fire; `know` is of a place that stands for a value of a fact.
 struct Does {
   enum class Kind : std::uint8_t {
     nothing,
@@ -36,10 +36,11 @@ struct Does {
     read,
     begin,  ///< of a subsystem that receives first: waits for the instant of its rate, and counts
     decide,
-    route
+    route,
+    know  ///< the subsystem may have a token in such places besides its own: a transition reads it
   } kind = Kind::nothing;
-  std::uint16_t subject = 0;  ///< behaviour (call, begin, decide, route) or port (write, read)
-  std::uint16_t slot = 1;     ///< of the channel's memory, from 1 (write, read)
+  std::uint16_t subject = 0;  ///< behaviour (call, begin, decide, route), port (write, read) or fact (know)
+  std::uint16_t slot = 1;     ///< of the channel's memory, from 1 (write, read); the value of the fact (know)
 };
 [[nodiscard]] constexpr Does calls(std::uint16_t behaviour) { return {Does::Kind::call, behaviour}; }
 [[nodiscard]] constexpr Does counts() { return {Does::Kind::count}; }
@@ -52,6 +53,10 @@ struct Does {
 }
 [[nodiscard]] constexpr Does decides(std::uint16_t behaviour) { return {Does::Kind::decide, behaviour}; }
 [[nodiscard]] constexpr Does routes(std::uint16_t behaviour) { return {Does::Kind::route, behaviour}; }
+
+[[nodiscard]] constexpr Does knows(std::uint16_t fact, std::uint16_t value) {
+  return {Does::Kind::know, fact, value};
+}
 
 /// Instead of the number of a behaviour or port: there is none.
 inline constexpr std::uint16_t nobody = UINT16_MAX;
@@ -72,6 +77,16 @@ inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::te
 struct Place {
   std::string_view name;
   Does does{};
+  std::uint32_t tokens = 0;  ///< at the start; only of a place that stands for a value of a fact
+};
+
+/// A variable of the subsystem that its net knows. One of the places of its values holds a token.
+struct Fact {
+  enum class Kind : std::uint8_t {
+    received,  ///< whether the last receive of the input `name` took a value: 0 it did, 1 it did not
+    sent  ///< whether the last send of the output `name` was acknowledged in time: 0 it was, 1 it was not
+  } kind;
+  std::string_view name;
 };
 
 /// The role of a transition in recordings.
@@ -126,6 +141,7 @@ struct SubsystemNet {
   std::span<const Place> places;
   std::span<const Transition> transitions;
   std::uint16_t in = 0, out = 1;  ///< the places where its token enters and leaves
+  std::span<const Fact> facts{};
 };
 
 enum class Kind : std::uint8_t { control, receptor, effector };

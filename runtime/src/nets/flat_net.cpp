@@ -96,7 +96,8 @@ class Rebuilding {
   void add_places(const Instance& instance) {
     first_place_.push_back(static_cast<std::uint32_t>(net_.places.size()));
     const std::string prefix = prefix_of(instance);
-    for (const Place& place : instance.net->places) net_.places.push_back({prefix + std::string(place.name)});
+    for (const Place& place : instance.net->places)
+      net_.places.push_back({prefix + std::string(place.name), place.tokens});
   }
 
   void add_fused_places() {

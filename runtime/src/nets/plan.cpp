@@ -28,6 +28,7 @@ class Compilation {
     check_ports();
     for (const Place& place : net_.places) add(place);
     for (const Transition& transition : net_.transitions) add(transition);
+    check_facts();
     plan_.in = checked(net_.in, net_.places.size(), "place");
     plan_.out = checked(net_.out, net_.places.size(), "place");
     if (!error_.empty()) return std::nullopt;
@@ -55,7 +56,21 @@ class Compilation {
     }
   }
 
+  /// A place of a fact has no operation that takes time, and each transition that reads it has another input.
+  void check_facts() {
+    for (const Plan::TransitionEntry& transition : plan_.transitions) {
+      const auto inputs = plan_.inputs(transition);
+      if (std::ranges::all_of(inputs, [&](std::uint32_t place) { return plan_.places[place].fact; }))
+        fail("a transition takes nothing but facts");
+    }
+  }
+
   void add(const Place& place) {
+    if (place.tokens > 0) {
+      if (place.does.kind != Does::Kind::know || place.tokens > 1)
+        fail(fmt::format("'{}' has tokens at the start", place.name));
+      plan_.known.push_back(static_cast<std::uint32_t>(plan_.places.size()));
+    }
     Plan::PlaceEntry entry{.does = place.does.kind};
     switch (place.does.kind) {
       case Does::Kind::nothing:
@@ -75,6 +90,11 @@ class Compilation {
         if (place.does.slot == 0) fail(fmt::format("'{}': slots count from 1", place.name));
         entry.slot = static_cast<std::uint16_t>(place.does.slot - 1);
         break;
+      case Does::Kind::know:
+        entry.subject = checked(place.does.subject, net_.facts.size(), "fact");
+        entry.slot = place.does.slot;
+        entry.fact = true;
+        break;
     }
     plan_.places.push_back(entry);
   }
@@ -93,6 +113,9 @@ class Compilation {
     if (entry.inputs == entry.outputs)
       fail(fmt::format("'{}' takes from no place of its subsystem", transition.name));
     if (!error_.empty()) return;
+    // A subsystem knows what it learns by a firing before it evaluates the conditions behind it.
+    std::stable_partition(plan_.arcs.begin() + entry.outputs, plan_.arcs.end(),
+                          [&](std::uint32_t place) { return plan_.places[place].fact; });
     find_latch(transition, entry);
     entry.tells_of_timeout = entry.guard.kind == Guard::Kind::elapsed;
     if (entry.taken != 0) entry.need = need(transition, entry.port, entry.taken);
@@ -130,7 +153,9 @@ class Compilation {
       if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = {plan_.arcs[arc]};
     }
     entry.decided = routed ? entry.guard.entry : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
-    if (entry.latch.valid() && entry.decided < 64)
+    const bool asks_facts = std::any_of(plan_.arcs.begin() + entry.inputs, plan_.arcs.begin() + entry.outputs,
+                                        [&](std::uint32_t place) { return plan_.places[place].fact; });
+    if (entry.latch.valid() && entry.decided < 64 && !asks_facts)
       plan_.places[entry.latch.value].ways |= std::uint64_t{1} << entry.decided;
     if (!entry.latch.valid()) fail(fmt::format("no place decides the condition of '{}'", transition.name));
   }
@@ -151,7 +176,8 @@ class Compilation {
       return plan_.transitions[t].guard.kind == Guard::Kind::elapsed;
     };
     for (std::uint32_t t = 0; t < plan_.transitions.size(); ++t)
-      for (std::uint32_t place : plan_.inputs(plan_.transitions[t])) leaving[place].push_back(t);
+      for (std::uint32_t place : plan_.inputs(plan_.transitions[t]))
+        if (!plan_.places[place].fact) leaving[place].push_back(t);
     for (std::vector<std::uint32_t>& ways : leaving) {
       const auto first_timed =
           std::stable_partition(ways.begin(), ways.end(), [&](std::uint32_t t) { return !timed(t); });

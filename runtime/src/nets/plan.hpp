@@ -23,10 +23,11 @@ struct Plan {
     Does::Kind does = Does::Kind::nothing;
     std::uint16_t subject = 0;  ///< index of the behaviour or of the port
     std::uint16_t slot = 0;     ///< slot that is written or read, from 0
-    /// of decide and route: bit i is set if a transition takes a token that says i
+    /// of decide and route: bit i is set if a transition takes a token that says i, whatever the facts are
     std::uint64_t ways = 0;
     bool timed = false;  ///< a timeout counts from the arrival of its token
-    bool idle = false;   ///< an arriving token does nothing, and the place is not `out`
+    bool fact = false;  ///< stands for a value of a fact: its token is only read, and leaves with another one
+    bool idle = false;  ///< an arriving token does nothing, and the place is not `out`
   };
   struct Condition {
     Guard::Kind kind = Guard::Kind::none;
@@ -67,6 +68,7 @@ struct Plan {
   std::vector<std::uint32_t> first_leaving;  ///< into leaving; one more than places
   std::vector<TransitionEntry> departures;   ///< as leaving, the transitions themselves
   std::uint32_t in = 0, out = 0;
+  std::vector<std::uint32_t> known;  ///< places that hold a token at the start: of facts
   bool receive_first = false;  ///< iterations begin at their own places (Does::Kind::begin), not with a call
 
   [[nodiscard]] std::span<const std::uint32_t> inputs(const TransitionEntry& t) const {

@@ -240,6 +240,9 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
     case Does::Kind::route:
       decided_[place] = operations_.route(entry.subject, at_);
       break;
+    case Does::Kind::know:
+      operations_.learn(entry.subject, entry.slot);
+      break;
   }
 }
 

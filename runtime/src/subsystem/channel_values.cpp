@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <cstring>
 #include <string_view>
+#include <utility>
 
 namespace tessera {
 namespace {
@@ -29,6 +30,12 @@ ChannelValues::ChannelValues(const SubsystemParts& parts, const RunControl& cont
     if (port.side != Side::receive) continue;
     inputs_[port.buffer].used = true;
     inputs_[port.buffer].source = port.peer;
+  }
+  for (const Fact& fact : parts_.instance->net->facts) {
+    const auto input = std::ranges::find(parts_.bindings.inputs, fact.name, &Bindings::Incoming::name);
+    const bool received = fact.kind == Fact::Kind::received && input != parts_.bindings.inputs.end();
+    outcomes_.push_back({received ? input->arrival : nullptr,
+                         static_cast<std::uint32_t>(input - parts_.bindings.inputs.begin())});
   }
   if (!parts_.effectors.empty()) find_received_inputs();
 }
@@ -66,6 +73,7 @@ void ChannelValues::read(std::uint32_t port, std::uint16_t slot, Time now) {
   const Bindings::Incoming& input = parts_.bindings.inputs[link.buffer];
   Input& state = inputs_[link.buffer];
   input.arrival->timed_out = false;
+  state.taken_fresh = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
   if (memory.sequence == 0 || memory.sequence == state.sequence) return;
   const bool newer = memory.sequence > state.newest;
@@ -81,6 +89,7 @@ void ChannelValues::read(std::uint32_t port, std::uint16_t slot, Time now) {
     assign(input.value, memory.bytes.data(), input.size, input.type);
     state.given = true;
     input.arrival->fresh = input.arrival->fresh || newer;
+    state.taken_fresh = newer;
     input.arrival->stamp = memory.stamp;
     input.arrival->age = age(memory.stamp, now);
   }
@@ -98,6 +107,21 @@ void ChannelValues::note_timeout(std::uint32_t port) {
 void ChannelValues::note_answer(std::uint32_t port) {
   const PortLink& link = parts_.ports[port];
   if (link.side == Side::send) parts_.bindings.outputs[link.buffer].departure->timed_out = false;
+}
+
+void ChannelValues::learn(std::uint16_t fact, std::uint16_t value) {
+  Outcome& outcome = outcomes_[fact];
+  if (outcome.arrival != nullptr) outcome.fresh = value == 0 && inputs_[outcome.input].taken_fresh;
+}
+
+ChannelValues::OutcomesShown::OutcomesShown(ChannelValues& values) : values_(values) {
+  for (Outcome& outcome : values_.outcomes_)
+    if (outcome.arrival != nullptr) std::swap(outcome.arrival->fresh, outcome.fresh);
+}
+
+ChannelValues::OutcomesShown::~OutcomesShown() {
+  for (Outcome& outcome : values_.outcomes_)
+    if (outcome.arrival != nullptr) std::swap(outcome.arrival->fresh, outcome.fresh);
 }
 
 void ChannelValues::await_inputs(std::uint16_t behaviour) {

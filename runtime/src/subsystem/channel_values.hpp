@@ -28,6 +28,21 @@ class ChannelValues {
   /// A blocking send of that port was acknowledged in time.
   void note_answer(std::uint32_t port);
 
+  /// The net knows that value of a fact from now on (Does::Kind::know).
+  void learn(std::uint16_t fact, std::uint16_t value);
+  /// While it lives, `fresh` of an input whose outcome the net knows says how its last receive ended, for
+  /// conditions; otherwise it says whether the value is new since the last transition function.
+  class OutcomesShown {
+   public:
+    explicit OutcomesShown(ChannelValues& values);
+    OutcomesShown(const OutcomesShown&) = delete;
+    OutcomesShown& operator=(const OutcomesShown&) = delete;
+    ~OutcomesShown();
+
+   private:
+    ChannelValues& values_;
+  };
+
   /// From now on, commands to devices need a valid value on every input that this behaviour receives.
   void await_inputs(std::uint16_t behaviour);
   /// Sets the ages of the values to those at `now`, and whether other processes are reachable.
@@ -48,10 +63,17 @@ class ChannelValues {
     std::uint64_t newest = 0;    // of all values read
     Time last_valid{};
     InstanceId source{};
-    bool given = false;    // a valid value has come
-    bool known = false;    // one that allows commands to devices
-    bool used = false;     // some behaviour receives it
-    bool awaited = false;  // a behaviour that was called receives it
+    bool given = false;        // a valid value has come
+    bool known = false;        // one that allows commands to devices
+    bool used = false;         // some behaviour receives it
+    bool awaited = false;      // a behaviour that was called receives it
+    bool taken_fresh = false;  // the last value taken was new and valid
+  };
+  /// The outcome of the last receive of an input; without arrival: of no input.
+  struct Outcome {
+    Arrival* arrival = nullptr;
+    std::uint32_t input = 0;
+    bool fresh = false;
   };
   void find_received_inputs();
 
@@ -59,6 +81,7 @@ class ChannelValues {
   const RunControl& control_;
   std::vector<const PortLink*> remote_;               // to other processes
   std::vector<Input> inputs_;                         // as Bindings::inputs
+  std::vector<Outcome> outcomes_;                     // per fact of the net
   std::vector<std::vector<std::uint32_t>> received_;  // per behaviour: inputs; only with effectors
 };
 

@@ -247,6 +247,7 @@ void Operations::refresh_ages(Time now) {
 
 Outcome Operations::decide(std::uint16_t behaviour, Time now) {
   refresh_ages(now);
+  const ChannelValues::OutcomesShown shown(channels_);
   Outcome outcome = Outcome::error;
   if (!survives(Fault::exception, behaviour,
                 "a condition: ", [&] { outcome = parts_.subsystem->decide(behaviour, failed_); }))
@@ -264,6 +265,7 @@ void Operations::accept_outcome(Outcome outcome) {
 
 int Operations::route(std::uint16_t behaviour, Time now) {
   refresh_ages(now);
+  const ChannelValues::OutcomesShown shown(channels_);
   int entry = no_entry;
   const bool known = survives(Fault::exception, behaviour, "a condition of `next`: ", [&] {
     entry = parts_.subsystem->route(behaviour, erroneous_);

@@ -54,6 +54,9 @@ class Operations final : public ContextServices {
   /// A blocking send of that port was acknowledged in time.
   void note_answer(std::uint32_t port) { channels_.note_answer(port); }
 
+  /// A token has arrived in the place of that value of a fact of the net.
+  void learn(std::uint16_t fact, std::uint16_t value) { channels_.learn(fact, value); }
+
   // Conditions. Ages are those at `now`; a condition that throws is an error.
   [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
   /// As decide, with an outcome that was decided elsewhere: no condition is evaluated.

@@ -34,7 +34,10 @@ SubsystemExecutor::SubsystemExecutor(std::uint32_t index, SubsystemParts parts,
                   std::any_of(plan_->places.begin(), plan_->places.end(), timed);
 }
 
-void SubsystemExecutor::enter() { put(plan_->in); }
+void SubsystemExecutor::enter() {
+  for (const std::uint32_t place : plan_->known) put(place);
+  put(plan_->in);
+}
 
 SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
   const RunningSubsystem running(*this);
@@ -93,7 +96,10 @@ Time SubsystemExecutor::now() {
 // -------------------------------------------------------------------------------------------- firing
 
 bool SubsystemExecutor::fire_one() {
-  if (marked_.size() == 1) return walk();
+  if (marked_.size() == 1) {
+    if (walk()) return true;
+    if (plan_->known.empty()) return false;
+  }
   for (const std::uint32_t place : marked_) {
     if (tokens_[place].phase != Phase::finished) continue;
     if (const Plan::TransitionEntry* const fired = fire_one_of(places_[place].departure); fired != nullptr) {
@@ -226,6 +232,10 @@ void SubsystemExecutor::move_tokens(const Plan::TransitionEntry& transition) {
 }
 
 void SubsystemExecutor::take(std::uint32_t place) {
+  if (places_[place].fact) {
+    tokens_[place].position = {};
+    return;
+  }
   const MarkedId hole = std::exchange(tokens_[place].position, MarkedId{});
   marked_[hole.value] = marked_.back();
   tokens_[marked_[hole.value]].position = hole;
@@ -236,8 +246,12 @@ void SubsystemExecutor::take(std::uint32_t place) {
 void SubsystemExecutor::put(std::uint32_t place) {
   Token& token = tokens_[place];
   if (token.position.valid()) return fault(place, "a place got a second token: the net is not safe");
-  token.position = {static_cast<std::uint32_t>(marked_.size())};
-  marked_.push_back(place);
+  if (places_[place].fact) {
+    token.position = {0};
+  } else {
+    token.position = {static_cast<std::uint32_t>(marked_.size())};
+    marked_.push_back(place);
+  }
   arrive(place);
 }
 
@@ -279,6 +293,9 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
     case Does::Kind::route:
       route(place);
       break;
+    case Does::Kind::know:
+      operations_.learn(entry.subject, entry.slot);
+      break;
   }
 }
 
@@ -289,9 +306,18 @@ inline void SubsystemExecutor::check_way_out(std::uint32_t place) {
   look_for_way_out(place);
 }
 
+bool SubsystemExecutor::fits_facts(const Plan::TransitionEntry& transition) const {
+  const auto inputs = plan_->inputs(transition);
+  return std::all_of(inputs.begin(), inputs.end(), [this](std::uint32_t input) {
+    return !places_[input].fact || tokens_[input].position.valid();
+  });
+}
+
 void SubsystemExecutor::look_for_way_out(std::uint32_t place) {
   const auto leaving = plan_->leaving_of(place);
-  const auto may_fire = [&](std::uint32_t index) { return condition_holds(plan_->transitions[index]); };
+  const auto may_fire = [&](std::uint32_t index) {
+    return condition_holds(plan_->transitions[index]) && fits_facts(plan_->transitions[index]);
+  };
   if (std::none_of(leaving.begin(), leaving.end(), may_fire))
     fault(place, "what was decided has no transition: the generated code does not fit its net");
 }

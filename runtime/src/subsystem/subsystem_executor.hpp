@@ -144,7 +144,7 @@ class SubsystemExecutor {
 
  private:
   enum class Phase : std::uint8_t { released_later, running, finished };
-  using MarkedId = Id<struct MarkedTag>;  // into marked_
+  using MarkedId = Id<struct MarkedTag>;  // into marked_; of facts 0
   struct Token {
     Time arrival{};  // in places from which a timeout counts
     Time due{};      // of released_later and running
@@ -174,6 +174,7 @@ class SubsystemExecutor {
   void put(std::uint32_t place);
   void arrive(std::uint32_t place);
   void check_way_out(std::uint32_t place);
+  [[nodiscard]] bool fits_facts(const Plan::TransitionEntry& transition) const;
   void look_for_way_out(std::uint32_t place);
   void arrive_at_end();
   [[nodiscard]] bool advance_operations();
@@ -222,7 +223,7 @@ class SubsystemExecutor {
                                          // waits
 
   std::vector<Token> tokens_;              // per place
-  std::vector<std::uint32_t> marked_;      // places with a token; room for all
+  std::vector<std::uint32_t> marked_;      // places with a token, without those of facts; room for all
   std::vector<std::uint16_t> wants_;       // per port: registered in its channel
   std::vector<std::uint16_t> wants_next_;  // per port: scratch of register_waits
   std::uint32_t registrations_ = 0;        // ports with wants_

@@ -86,6 +86,8 @@ std::vector<std::uint16_t> SubsystemExecutor::may_give(const std::vector<bool>& 
     there[port] = helped[port] ? UINT16_MAX : ports_[port].channel->marking();
   std::vector<bool> reached(plan_->places.size());
   for (const std::uint32_t place : marked_) reached[place] = true;
+  for (std::uint32_t place = 0; place < reached.size(); ++place)
+    if (places_[place].fact) reached[place] = true;
   for (bool more = true; more;) {
     more = false;
     for (const Plan::TransitionEntry& transition : plan_->transitions) {

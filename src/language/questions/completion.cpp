@@ -254,14 +254,14 @@ class Completer {
 
   void states_of_buffer(bool input) {
     if (input) {
-      add(Proposal::Kind::word, "fresh", "a valid value has come since the last iteration");
+      add(Proposal::Kind::word, "fresh", "a valid value has come; the proof knows it, unless no side waits");
       add(Proposal::Kind::word, "age", "time since the last valid value was sent");
       add(Proposal::Kind::word, "valid", "what came last is valid: its sender wrote it and did not fail");
       add(Proposal::Kind::word, "failed", "what came last is invalid");
     }
     add(Proposal::Kind::word, "stamp",
         input ? "when the last valid value was sent" : "when it was last sent");
-    add(Proposal::Kind::word, "timed_out", "the channel waited for too long");
+    add(Proposal::Kind::word, "timed_out", "the channel waited for too long; the proof knows it");
     add(Proposal::Kind::word, "disconnected", "the other process is not heard of");
   }
 

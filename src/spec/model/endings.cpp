@@ -1,6 +1,7 @@
 #include "spec/model/endings.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace tessera::spec {
 
@@ -10,11 +11,15 @@ Truth truth_of(const Expression& expression) {
 }
 
 Truth truth_of(const Condition& condition) {
+  return truth_of(condition, [](const Expression& expression) { return truth_of(expression); });
+}
+
+Truth truth_of(const Condition& condition, const TruthOf& known) {
   if (condition.kind == Condition::Kind::always) return Truth::always;
   if (condition.kind == Condition::Kind::never) return Truth::never;
   Truth any = Truth::never;
   for (const Expression& expression : condition.expressions) {
-    const Truth one = truth_of(expression);
+    const Truth one = known(expression);
     if (one == Truth::always) return Truth::always;
     if (one == Truth::free) any = Truth::free;
   }
@@ -27,8 +32,8 @@ namespace {
 /// excludes it for later entries.
 class HeldExpressions {
  public:
-  explicit HeldExpressions(const std::vector<Expression>& expressions) {
-    for (const Expression& expression : expressions) truths_.push_back(truth_of(expression));
+  HeldExpressions(const std::vector<Expression>& expressions, const TruthOf& known) {
+    for (const Expression& expression : expressions) truths_.push_back(known(expression));
   }
 
   Truth asked(ExpressionId expression) {
@@ -44,7 +49,7 @@ class HeldExpressions {
 };
 
 /// The truth of `when`, as far as it is known, if no earlier entry holds.
-Truth truth_alone(const When& when, Ending ending, HeldExpressions& held) {
+Truth truth_alone(const When& when, Ending ending, HeldExpressions& held, const TruthOf& known) {
   switch (when.kind) {
     case When::Kind::always:
       return Truth::always;
@@ -56,8 +61,8 @@ Truth truth_alone(const When& when, Ending ending, HeldExpressions& held) {
       return ending == Ending::terminal ? held.asked(when.expression) : Truth::never;
     case When::Kind::named_error:
       return ending == Ending::error ? held.asked(when.expression) : Truth::never;
-    case When::Kind::expression:
-      return Truth::free;
+    case When::Kind::expression:  // a constant in quotes is an expression, whose truth nobody looks at
+      return truth_of(when.text) == Truth::free ? known(when.text) : Truth::free;
   }
   return Truth::free;
 }
@@ -85,16 +90,21 @@ void complete_next(Behaviour& behaviour) {
   behaviour.next.push_back(std::move(end));
 }
 
-Endings::Endings(const Behaviour& behaviour) : behaviour_(behaviour) {
+Endings::Endings(const Behaviour& behaviour)
+    : Endings(behaviour, [](const Expression& expression) { return truth_of(expression); }) {}
+
+Endings::Endings(const Behaviour& behaviour, TruthOf known)
+    : behaviour_(behaviour), known_(std::move(known)) {
   for (const Ending ending : all_endings) try_entries(ending);
 }
 
 bool Endings::possible(Ending ending) const {
   switch (ending) {
     case Ending::terminal:
-      return truth_of(behaviour_.error) != Truth::always && truth_of(behaviour_.terminal) != Truth::never;
+      return truth_of(behaviour_.error, known_) != Truth::always &&
+             truth_of(behaviour_.terminal, known_) != Truth::never;
     case Ending::error:
-      return truth_of(behaviour_.error) != Truth::never;
+      return truth_of(behaviour_.error, known_) != Truth::never;
     case Ending::failure:
       return true;
   }
@@ -110,12 +120,13 @@ void Endings::try_entries(Ending ending) {
   auto& taken = taken_[at(ending)];
   taken.assign(behaviour_.next.size(), Truth::never);
   if (!possible(ending)) return;
-  HeldExpressions held((ending == Ending::terminal ? behaviour_.terminal : behaviour_.error).expressions);
+  HeldExpressions held((ending == Ending::terminal ? behaviour_.terminal : behaviour_.error).expressions,
+                       known_);
   Truth earlier = Truth::never;
   for (const NextId entry : behaviour_.next.ids()) {
     if (earlier == Truth::always) break;
     if (!asks(entry, ending)) continue;
-    const Truth alone = truth_alone(behaviour_.next[entry].when, ending, held);
+    const Truth alone = truth_alone(behaviour_.next[entry].when, ending, held, known_);
     taken[entry] = alone == Truth::always ? (earlier == Truth::never ? Truth::always : Truth::free) : alone;
     if (alone != Truth::never) earlier = alone;
   }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <array>
+#include <functional>
 #include <vector>
 
 #include "spec/model/model.hpp"
@@ -11,8 +12,11 @@ namespace tessera::spec {
 enum class Truth : std::uint8_t { free, always, never };
 
 [[nodiscard]] Truth truth_of(const Expression& expression);
+/// What is known of expressions: their constants, or more at a certain marking of the net (layers/known_facts.hpp).
+using TruthOf = std::function<Truth(const Expression&)>;
 /// A condition holds if one of its expressions holds.
 [[nodiscard]] Truth truth_of(const Condition& condition);
+[[nodiscard]] Truth truth_of(const Condition& condition, const TruthOf& known);
 
 /// How an iteration can end its behaviour.
 enum class Ending : std::uint8_t {
@@ -35,11 +39,12 @@ inline constexpr std::array all_endings{Ending::terminal, Ending::error, Ending:
 ///
 /// Some facts are known: constants, the kind of the ending, that one of the expressions of the condition
 /// that ended the behaviour holds, and which named conditions did not hold when earlier entries asked for
-/// them. Everything else is free, even two expressions with the same text.
+/// them. `known` may say more. Everything else is free, even two expressions with the same text.
 class Endings {
  public:
   /// Precondition: `behaviour` outlives this object.
   explicit Endings(const Behaviour& behaviour);
+  Endings(const Behaviour& behaviour, TruthOf known);
 
   /// Whether the behaviour can end in that way. It can always end by a failure.
   [[nodiscard]] bool possible(Ending ending) const;
@@ -59,6 +64,7 @@ class Endings {
   [[nodiscard]] bool asks(NextId entry, Ending ending) const;
 
   const Behaviour& behaviour_;
+  TruthOf known_;
   std::array<Numbered<NextId, Truth>, all_endings.size()> taken_;
   std::array<bool, all_endings.size()> none_{};
   std::array<bool, all_endings.size()> unrouted_{};

@@ -16,42 +16,62 @@ using net::Condition;
 using net::PlaceId;
 using net::TransitionId;
 
-/// The facts about a place that behaviours leave through initial conditions.
+/// A place that behaviours leave through initial conditions; and the places of facts that these ask for, which say
+/// with which values. The first place is that of the behaviour.
+using ExitPlaces = std::vector<PlaceId>;
+
+/// What is known about leaving through it.
 struct Exit {
   bool certain = false;  ///< one of its conditions holds
   bool entered = false;  ///< something leads to it
   Condition::After none_follows{true, true};
 };
 
-std::map<PlaceId, Exit> exits(const net::Net& net) {
-  std::map<PlaceId, Exit> found;
+/// Empty: several tokens leave.
+ExitPlaces exit_of(const net::Net& net, TransitionId id) {
+  ExitPlaces places, facts;
+  for (const Arc& arc : net.preset(id)) (net[arc.place].fact.valid() ? facts : places).push_back(arc.place);
+  if (places.size() != 1) return {};
+  std::ranges::sort(facts);
+  places.insert(places.end(), facts.begin(), facts.end());
+  return places;
+}
+
+std::map<ExitPlaces, Exit> exits(const net::Net& net) {
+  std::map<ExitPlaces, Exit> found;
+  std::vector<bool> entered(net.places().size(), false);
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
     const Condition& condition = net[id].condition;
-    if (condition.kind != Condition::Kind::next || net.preset(id).size() != 1) continue;
-    Exit& exit = found[net.preset(id).front().place];
+    if (condition.kind != Condition::Kind::next) continue;
+    const ExitPlaces places = exit_of(net, id);
+    if (places.empty()) continue;
+    Exit& exit = found[places];
     exit.none_follows = condition.none_follows;
     exit.certain = exit.certain || condition.truth == Condition::Truth::always || condition.exhaustive;
   }
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const TransitionId id{index};
     if (!possible(net, id)) continue;
-    for (const Arc& arc : net.postset(id))
-      if (const auto exit = found.find(arc.place); exit != found.end()) exit->second.entered = true;
+    for (const Arc& arc : net.postset(id)) entered[arc.place.value] = true;
   }
+  for (auto& [places, exit] : found) exit.entered = entered[places.front().value];
   return found;
 }
 
-void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
-  const net::Place from = net[exit];
+void add_outcome(net::Net& net, const ExitPlaces& exit, Condition::After none_follows) {
+  const net::Place from = net[exit.front()];
+  std::string values;  // of the facts: ".grant.missed"
+  for (std::size_t fact = 1; fact < exit.size(); ++fact)
+    values += net[exit[fact]].name.substr(net.parts()[from.subsystem].path.size());
   net::Place lost = from;
-  lost.name = from.name + ".none";
+  lost.name = from.name + ".none" + values;
   lost.role = PlaceRole::no_successor;
   lost.tokens = 0;
   lost.operation = {};
   const PlaceId to = net.add(std::move(lost));
   net::Transition none;
-  none.name = from.name + std::string(words::no_successor);
+  none.name = from.name + std::string(words::no_successor) + values;
   none.role = Step::no_successor;
   none.agent = from.agent;
   none.behaviour = from.behaviour;
@@ -61,7 +81,12 @@ void add_outcome(net::Net& net, PlaceId exit, Condition::After none_follows) {
   none.page = from.page;
   none.subsystem = from.subsystem;
   none.span = from.span;
-  net.add(std::move(none), std::vector<Arc>{{exit, 1}}, std::vector<Arc>{{to, 1}});
+  std::vector<Arc> takes{{exit.front(), 1}}, gives{{to, 1}};
+  for (std::size_t fact = 1; fact < exit.size(); ++fact) {
+    takes.push_back({exit[fact], 1});
+    gives.push_back({exit[fact], 1});
+  }
+  net.add(std::move(none), takes, gives);
 }
 
 /// The links of channels between processes, one for each direction that carries something.
@@ -165,8 +190,8 @@ bool possible(const net::Net& net, net::TransitionId id) {
 
 net::Net abstract_net(const net::Net& net, Assume assume) {
   net::Net abstract = copied(net, assume);
-  for (const auto& [place, exit] : exits(abstract))
-    if (exit.entered && !exit.certain) add_outcome(abstract, place, exit.none_follows);
+  for (const auto& [places, exit] : exits(abstract))
+    if (exit.entered && !exit.certain) add_outcome(abstract, places, exit.none_follows);
   return abstract;
 }
 

@@ -58,7 +58,7 @@ void play(const Specification& specification, const std::vector<std::string>& na
     const FlatTransition& by = net.transitions[static_cast<std::size_t>(at->second)];
     if (by.role == Role::t5 || by.role == Role::t6) by_error[by.subsystem] = by.role == Role::t6;
     if (by.role == Role::next) {
-      const Ways ways = ways_of(*net.behaviours[static_cast<std::size_t>(by.behaviour)].of, false);
+      const Ways ways = ways_of(net, by.behaviour, false, by.facts);
       const Following& following = by_error[by.subsystem] ? ways.after_error : ways.after_terminal;
       if (!following.entries[static_cast<std::size_t>(by.entry)])
         run.disagreements.push_back({"controller", name + " cannot be taken there"});

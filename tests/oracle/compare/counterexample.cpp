@@ -65,8 +65,7 @@ class Checker {
   void follow_conditions(const FlatTransition& fired) {
     if (fired.role == Role::t5 || fired.role == Role::t6) by_error_[fired.subsystem] = fired.role == Role::t6;
     if (fired.role != Role::next && fired.role != Role::none) return;
-    const auto& behaviour = net_.behaviours[static_cast<std::size_t>(fired.behaviour)];
-    const Ways ways = ways_of(*behaviour.of, shown_.exceptions);
+    const Ways ways = ways_of(net_, fired.behaviour, shown_.exceptions, fired.facts);
     const Following& following = by_error_[fired.subsystem] ? ways.after_error : ways.after_terminal;
     if (fired.role == Role::none ? !following.none
                                  : !following.entries[static_cast<std::size_t>(fired.entry)])

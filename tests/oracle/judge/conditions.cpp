@@ -1,5 +1,6 @@
 #include "conditions.hpp"
 
+#include <algorithm>
 #include <set>
 
 namespace oracle {
@@ -70,7 +71,8 @@ void follow_terminal(const std::vector<Entry>& next, const Held& held, Following
 }
 
 /// After an error only the entries that name it count; if there is none, the subsystem ends.
-void follow_error(const std::vector<Entry>& next, const Held& held, Following& following) {
+/// end: the entry by which it then does.
+void follow_error(const std::vector<Entry>& next, const Held& held, std::size_t end, Following& following) {
   for (std::size_t k = 0; k < next.size(); ++k) {
     const bool names = next[k].when == Entry::When::error ||
                        (next[k].when == Entry::When::name && held.contains(next[k].name));
@@ -78,10 +80,144 @@ void follow_error(const std::vector<Entry>& next, const Held& held, Following& f
     following.entries[k] = true;
     return;
   }
-  following.entries[first_unconditional(next)] = true;
+  following.entries[end] = true;
+}
+
+/// Conjunction, with `no` as the weakest: for three truths the smaller one of no < open < yes.
+int rank(Truth truth) { return truth == Truth::no ? 0 : truth == Truth::open ? 1 : 2; }
+
+/// The truth of formulas where facts have certain values.
+class Knowledge {
+ public:
+  Knowledge(const FlatNet& net, int behaviour, bool exceptions, const std::map<int, int>& values)
+      : net_(net),
+        behaviour_(net.behaviours[static_cast<std::size_t>(behaviour)]),
+        exceptions_(exceptions),
+        values_(values) {}
+
+  Truth of(const Asked& asked) const {
+    using Kind = Asked::Kind;
+    if (asked.kind == Kind::open) return Truth::open;
+    if (asked.kind == Kind::negation) {
+      const Truth truth = of(asked.parts[0]);
+      return truth == Truth::open ? truth : truth == Truth::yes ? Truth::no : Truth::yes;
+    }
+    if (asked.kind == Kind::both || asked.kind == Kind::either) {
+      const Truth a = of(asked.parts[0]), b = of(asked.parts[1]);
+      return (asked.kind == Kind::both) == (rank(a) < rank(b)) ? a : b;
+    }
+    for (const auto& [fact, value] : values_) {
+      const FlatNet::FactInfo& info = net_.facts[static_cast<std::size_t>(fact)];
+      if (info.buffer == asked.buffer && info.sends == (asked.kind == Kind::late_output))
+        return of(asked, info, value == 0);
+    }
+    return Truth::open;
+  }
+
+ private:
+  Truth of(const Asked& asked, const FlatNet::FactInfo& fact, bool well) const {
+    if (asked.kind == Asked::Kind::fresh) return !well ? Truth::no : exceptions_ ? Truth::open : Truth::yes;
+    if (well) return Truth::no;
+    if (fact.sends) return Truth::yes;
+    if (!fact.blocks) return Truth::no;
+    // A behaviour that does not receive it may run before anything was received.
+    const auto& received = behaviour_.received;
+    return std::find(received.begin(), received.end(), fact.channels[0]) != received.end() ? Truth::yes
+                                                                                           : Truth::open;
+  }
+
+  const FlatNet& net_;
+  const FlatNet::BehaviourInfo& behaviour_;
+  bool exceptions_;
+  const std::map<int, int>& values_;
+};
+
+void resolve(Condition& condition, const Knowledge& knowledge) {
+  if (condition.form == Condition::Form::single && condition.single == Truth::open && condition.asks(0))
+    condition.single = knowledge.of(*condition.asks(0));
+  for (std::size_t k = 0; k < condition.named.size(); ++k)
+    if (condition.named[k].second == Truth::open && condition.asks(k))
+      condition.named[k].second = knowledge.of(*condition.asks(k));
+}
+
+/// The formulas of a condition whose truth is open.
+void add_asked(const Condition& condition, std::vector<const Asked*>& all) {
+  if (condition.form == Condition::Form::single && condition.single == Truth::open && condition.asks(0))
+    all.push_back(condition.asks(0));
+  if (condition.form != Condition::Form::named) return;
+  for (std::size_t k = 0; k < condition.named.size(); ++k)
+    if (condition.named[k].second == Truth::open && condition.asks(k)) all.push_back(condition.asks(k));
+}
+
+void find_facts(const FlatNet& net, int subsystem, const Asked& asked, std::vector<int>& facts) {
+  for (std::size_t f = 0; f < net.facts.size(); ++f) {
+    const FlatNet::FactInfo& fact = net.facts[f];
+    const int number = static_cast<int>(f);
+    if (fact.subsystem == subsystem && fact.buffer == asked.buffer &&
+        fact.sends == (asked.kind == Asked::Kind::late_output) &&
+        std::find(facts.begin(), facts.end(), number) == facts.end())
+      facts.push_back(number);
+  }
+  for (const Asked& part : asked.parts) find_facts(net, subsystem, part, facts);
+}
+
+std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
+                                          const std::vector<const Asked*>& all) {
+  std::vector<int> facts;
+  for (const Asked* asked : all)
+    find_facts(net, net.behaviours[static_cast<std::size_t>(behaviour)].subsystem, *asked, facts);
+  facts.resize(std::min<std::size_t>(facts.size(), 6));  // 64 assignments at most
+  std::vector<std::map<int, int>> values(std::size_t{1} << facts.size());
+  for (std::size_t a = 0; a < values.size(); ++a)
+    for (std::size_t f = 0; f < facts.size(); ++f)
+      values[a][facts[f]] = static_cast<int>(a >> (facts.size() - 1 - f) & 1U);
+  return values;
 }
 
 }  // namespace
+
+std::vector<const Asked*> expressions_of(const Behaviour& behaviour) {
+  std::vector<const Asked*> all;
+  add_asked(behaviour.terminal, all);
+  add_asked(behaviour.error, all);
+  for (const Entry& entry : behaviour.next)
+    if (entry.when == Entry::When::expression && entry.truth == Truth::open && entry.asked)
+      all.push_back(&*entry.asked);
+  return all;
+}
+
+std::vector<std::map<int, int>> values_of_ending(const FlatNet& net, int behaviour) {
+  const Behaviour& of = *net.behaviours[static_cast<std::size_t>(behaviour)].of;
+  std::vector<const Asked*> all;
+  add_asked(of.terminal, all);
+  add_asked(of.error, all);
+  return values_of(net, behaviour, all);
+}
+
+std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour) {
+  const Behaviour& of = *net.behaviours[static_cast<std::size_t>(behaviour)].of;
+  const auto has = [](const Condition& condition, const std::string& name) {
+    return std::any_of(condition.named.begin(), condition.named.end(),
+                       [&](const auto& one) { return one.first == name; });
+  };
+  std::vector<const Asked*> all;
+  for (const Entry& entry : of.next) {
+    if (entry.when == Entry::When::expression && entry.truth == Truth::open && entry.asked)
+      all.push_back(&*entry.asked);
+    if (entry.when != Entry::When::name) continue;
+    add_asked(has(of.terminal, entry.name) ? of.terminal : of.error, all);
+  }
+  return values_of(net, behaviour, all);
+}
+
+std::string suffix(const FlatNet& net, const std::map<int, int>& values) {
+  std::string text;
+  for (const auto& [fact, value] : values) {
+    const FlatNet::FactInfo& info = net.facts[static_cast<std::size_t>(fact)];
+    text += "." + info.buffer + "." + info.values[static_cast<std::size_t>(value)];
+  }
+  return text;
+}
 
 std::vector<Entry> next_of(const Behaviour& behaviour) {
   std::vector<Entry> next = behaviour.next;
@@ -93,8 +229,16 @@ std::vector<Entry> next_of(const Behaviour& behaviour) {
   return next;
 }
 
-Ways ways_of(const Behaviour& behaviour, bool exceptions) {
-  const std::vector<Entry> next = next_of(behaviour);
+Ways ways_of(const FlatNet& net, int number, bool exceptions, const std::map<int, int>& values) {
+  const Knowledge knowledge(net, number, exceptions, values);
+  Behaviour behaviour = *net.behaviours[static_cast<std::size_t>(number)].of;
+  std::vector<Entry> next = next_of(behaviour);
+  const std::size_t end = first_unconditional(next);
+  resolve(behaviour.terminal, knowledge);
+  resolve(behaviour.error, knowledge);
+  for (Entry& entry : next)
+    if (entry.when == Entry::When::expression && entry.truth == Truth::open && entry.asked)
+      entry.truth = knowledge.of(*entry.asked);
   Ways ways;
   const bool fails = can_hold(behaviour.error), always_fails = certain(behaviour.error);
   ways.error = fails || exceptions;
@@ -105,48 +249,64 @@ Ways ways_of(const Behaviour& behaviour, bool exceptions) {
   if (ways.terminal)
     for (const Held& held : held_sets(behaviour.terminal)) follow_terminal(next, held, ways.after_terminal);
   if (fails)
-    for (const Held& held : held_sets(behaviour.error)) follow_error(next, held, ways.after_error);
-  if (exceptions) follow_error(next, {}, ways.after_error);
+    for (const Held& held : held_sets(behaviour.error)) follow_error(next, held, end, ways.after_error);
+  if (exceptions) follow_error(next, {}, end, ways.after_error);
   return ways;
+}
+
+bool can_end(const FlatNet& net, int behaviour, bool exceptions) {
+  const std::vector<std::map<int, int>> all = values_of_ending(net, behaviour);
+  return std::any_of(all.begin(), all.end(), [&](const std::map<int, int>& values) {
+    const Ways ways = ways_of(net, behaviour, exceptions, values);
+    return ways.terminal || ways.error;
+  });
 }
 
 FlatNet abstract_net(const FlatNet& flat, bool exceptions) {
   FlatNet net = flat;
-  std::vector<Ways> ways;
-  for (const auto& behaviour : net.behaviours) ways.push_back(ways_of(*behaviour.of, exceptions));
   std::vector<int> moved(net.transitions.size(), -1);
   std::vector<FlatTransition> kept;
   for (std::size_t t = 0; t < net.transitions.size(); ++t) {
     const FlatTransition& transition = net.transitions[t];
     bool possible = true;
     if (transition.role != Role::plain) {
-      const Ways& of = ways[static_cast<std::size_t>(transition.behaviour)];
+      const Ways of = ways_of(flat, transition.behaviour, exceptions, transition.facts);
       if (transition.role == Role::t4) possible = of.go_on;
       if (transition.role == Role::t5) possible = of.terminal;
       if (transition.role == Role::t6) possible = of.error;
       if (transition.role == Role::next) {
         const auto k = static_cast<std::size_t>(transition.entry);
-        possible = of.after_terminal.entries[k] || of.after_error.entries[k];
+        possible = (of.after_terminal.entries[k] || of.after_error.entries[k]) &&
+                   can_end(flat, transition.behaviour, exceptions);
       }
     }
     if (!possible) continue;
     moved[t] = static_cast<int>(kept.size());
     kept.push_back(transition);
   }
-  for (std::size_t b = 0; b < ways.size(); ++b) {
-    if (!ways[b].after_terminal.none && !ways[b].after_error.none) continue;
-    const auto& behaviour = net.behaviours[b];
-    const int none = static_cast<int>(net.places.size());
-    net.places.push_back({behaviour.path + ".out.none", false, false});
-    net.place_of[net.places.back().name] = none;
-    kept.push_back({behaviour.path + ".out none",
-                    {behaviour.out},
-                    {none},
-                    Role::none,
-                    behaviour.subsystem,
-                    static_cast<int>(b),
-                    -1});
-  }
+  for (std::size_t b = 0; b < flat.behaviours.size(); ++b)
+    for (const std::map<int, int>& values : values_of_next(flat, static_cast<int>(b))) {
+      const Ways ways = ways_of(flat, static_cast<int>(b), exceptions, values);
+      if (!ways.after_terminal.none && !ways.after_error.none) continue;
+      if (!can_end(flat, static_cast<int>(b), exceptions)) continue;
+      const auto& behaviour = net.behaviours[b];
+      const int none = static_cast<int>(net.places.size());
+      net.places.push_back({behaviour.path + ".out.none" + suffix(net, values), false, false});
+      net.place_of[net.places.back().name] = none;
+      kept.push_back({behaviour.path + ".out none" + suffix(net, values),
+                      {behaviour.out},
+                      {none},
+                      Role::none,
+                      behaviour.subsystem,
+                      static_cast<int>(b),
+                      -1,
+                      values});
+      for (const auto& [fact, value] : values) {
+        const int place = net.facts[static_cast<std::size_t>(fact)].places[static_cast<std::size_t>(value)];
+        kept.back().pre.push_back(place);
+        kept.back().post.push_back(place);
+      }
+    }
   net.transitions = kept;
   for (auto& channel : net.channels)
     for (int& read : channel.reads) read = moved[static_cast<std::size_t>(read)];

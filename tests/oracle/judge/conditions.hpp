@@ -2,6 +2,8 @@
 // which entry of `next` follows.
 #pragma once
 
+#include <map>
+#include <string>
 #include <vector>
 
 #include "flat_net.hpp"
@@ -24,8 +26,22 @@ struct Ways {
   Following after_terminal, after_error;
 };
 
-/// `exceptions`: its transition function may throw at any time.
-Ways ways_of(const Behaviour& behaviour, bool exceptions);
+/// The ways of a behaviour of the net if facts have these values; a fact without a value is not known.
+/// `exceptions`: any transition function may throw at any time. Then a value that came may be invalid, which is not
+/// fresh.
+Ways ways_of(const FlatNet& net, int behaviour, bool exceptions, const std::map<int, int>& values);
+
+/// Whether some iteration of the behaviour can end it, whatever the facts are.
+bool can_end(const FlatNet& net, int behaviour, bool exceptions);
+
+/// All formulas that the conditions of a behaviour ask.
+std::vector<const Asked*> expressions_of(const Behaviour& behaviour);
+/// All values of the facts that the list `next` of a behaviour asks for, or the conditions that end its iterations.
+/// One without values: it asks for none.
+std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour);
+std::vector<std::map<int, int>> values_of_ending(const FlatNet& net, int behaviour);
+/// ".i0.came.o1.in_time": how names end.
+std::string suffix(const FlatNet& net, const std::map<int, int>& values);
 
 /// The net that is judged: without what conditions never let happen, and with a transition where none holds.
 FlatNet abstract_net(const FlatNet& flat, bool exceptions);

@@ -4,6 +4,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "conditions.hpp"
+
 namespace oracle {
 namespace {
 
@@ -18,6 +20,7 @@ class Builder {
   FlatNet build() {
     name_subsystems();
     expand_channels();
+    find_facts();
     system_layer();
     for (std::size_t s = 0; s < net_.subsystems.size(); ++s) subsystem_layer(static_cast<int>(s));
     collect_pages();
@@ -90,7 +93,94 @@ class Builder {
     net_.channels.push_back(channel);
   }
 
+  static void collect(const Asked& asked, std::vector<Asked>& all) {
+    if (!asked.buffer.empty()) all.push_back(asked);
+    for (const Asked& part : asked.parts) collect(part, all);
+  }
+
+  /// The facts that conditions of the subsystem ask for and its net knows: those of built-in models that tell.
+  void find_facts() {
+    for (std::size_t s = 0; s < net_.subsystems.size(); ++s) {
+      std::vector<Asked> all;
+      for (const Behaviour& behaviour : net_.subsystems[s].of->behaviours)
+        for (const Asked* asked : expressions_of(behaviour)) collect(*asked, all);
+      for (const bool sends : {false, true}) {
+        const Subsystem& of = *net_.subsystems[s].of;
+        for (const std::string& buffer : sends ? of.outputs : of.inputs)
+          if (std::any_of(all.begin(), all.end(), [&](const Asked& one) {
+                return one.buffer == buffer && (one.kind == Asked::Kind::late_output) == sends;
+              }))
+            find_fact(static_cast<int>(s), buffer, sends);
+      }
+    }
+  }
+
+  void find_fact(int s, const std::string& buffer, bool sends) {
+    FlatNet::FactInfo fact;
+    fact.subsystem = s;
+    fact.buffer = buffer;
+    fact.sends = sends;
+    for (std::size_t c = 0; c < net_.channels.size(); ++c) {
+      const FlatNet::ChannelInfo& channel = net_.channels[c];
+      if ((sends ? channel.sender : channel.receiver) != s) continue;
+      if ((sends ? channel.output : channel.input) != buffer) continue;
+      const Channel& of = *channel.of;
+      if (!of.model.empty()) return;
+      if (sends ? of.send_timeout : of.send_blocking || of.receive_blocking)
+        fact.channels.push_back(static_cast<int>(c));
+      fact.blocks = of.receive_blocking;
+    }
+    if (fact.channels.empty()) return;
+    using Values = std::vector<std::string>;
+    fact.values = sends ? Values{"in_time", "timed_out"} : Values{"came", "missed"};
+    net_.facts.push_back(fact);
+  }
+
+  /// Their places, which belong to no page.
+  void fact_places() {
+    for (FlatNet::FactInfo& fact : net_.facts) {
+      const std::string path = net_.subsystems[static_cast<std::size_t>(fact.subsystem)].path;
+      for (std::size_t value = 0; value < fact.values.size(); ++value)
+        fact.places.push_back(add_place(path + "." + fact.buffer + "." + fact.values[value],
+                                        value == (fact.sends ? 0U : 1U), true));
+    }
+  }
+
+  /// Adds a transition, with the values of facts that its condition asks for.
+  void add_asking(const std::string& name, int from, int to, Role role, int entry,
+                  const std::map<int, int>& values) {
+    FlatTransition& made = add_transition(name + suffix(net_, values), {from}, {to});
+    made.role = role;
+    made.entry = entry;
+    made.facts = values;
+    for (const auto& [fact, value] : values) {
+      const int place = net_.facts[static_cast<std::size_t>(fact)].places[static_cast<std::size_t>(value)];
+      made.pre.push_back(place);
+      made.post.push_back(place);
+    }
+  }
+
+  /// A transition that ends a block: one for each value that the fact had before.
+  void add_end(int c, bool send, bool well, const std::string& name, const std::vector<int>& pre,
+               const std::vector<int>& post) {
+    for (std::size_t f = 0; f < net_.facts.size(); ++f) {
+      const FlatNet::FactInfo& fact = net_.facts[f];
+      if (fact.sends != send ||
+          std::find(fact.channels.begin(), fact.channels.end(), c) == fact.channels.end())
+        continue;
+      for (int before = 0; before < 2; ++before) {
+        FlatTransition& made =
+            add_transition(name + suffix(net_, {{static_cast<int>(f), before}}), pre, post);
+        made.pre.push_back(fact.places[static_cast<std::size_t>(before)]);
+        made.post.push_back(fact.places[well ? 0 : 1]);
+      }
+      return;
+    }
+    add_transition(name, pre, post);
+  }
+
   void system_layer() {
+    fact_places();
     const int in = add_place("in", true), out = add_place("out");
     net_.system_out = out;
     add_page("", in, out);
@@ -132,6 +222,7 @@ class Builder {
       in_of[of.name] = in;
       subsystem.behaviours.push_back(static_cast<int>(net_.behaviours.size()));
       net_.behaviours.push_back({path, s, &of, in, out});
+      net_.behaviours.back().received = channels_of(net_.behaviours.back(), false);
       add_page(path, in, out);
     }
     const std::string& start =
@@ -145,20 +236,25 @@ class Builder {
       behaviour_ = b;
       const FlatNet::BehaviourInfo& info = net_.behaviours[static_cast<std::size_t>(b)];
       const std::vector<Entry> next = next_of(*info.of);
-      for (std::size_t k = 0; k < next.size(); ++k) {
-        FlatTransition& t =
-            add_transition(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), {info.out},
-                           {in_of.at(next[k].to)});
-        t.role = Role::next;
-        t.entry = static_cast<int>(k);
-        counts.transitions += 1;
-      }
-      behaviour_layer(info);
+      const std::vector<std::map<int, int>> all = values_of_next(net_, b);
+      std::set<std::size_t> has_way;
+      for (std::size_t k = 0; k < next.size(); ++k)
+        for (std::size_t a = 0; a < all.size(); ++a) {
+          const Ways ways = ways_of(net_, b, true, all[a]);
+          const bool possible = ways.after_terminal.entries[k] || ways.after_error.entries[k];
+          const bool needed = all[a].empty() || (k + 1 == next.size() && !has_way.contains(a));
+          if (!possible && !needed) continue;
+          has_way.insert(a);
+          add_asking(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), info.out,
+                     in_of.at(next[k].to), Role::next, static_cast<int>(k), all[a]);
+          counts.transitions += 1;
+        }
+      behaviour_layer(info, b);
     }
     behaviour_ = subsystem_ = -1;
   }
 
-  void behaviour_layer(const FlatNet::BehaviourInfo info) {
+  void behaviour_layer(const FlatNet::BehaviourInfo info, int b) {
     const std::string& path = info.path;
     const int two = add_place(path + ".2");
     const int snd_in = add_place(path + ".snd.in"), snd_out = add_place(path + ".snd.out");
@@ -168,12 +264,24 @@ class Builder {
     add_transition(path + ".t1", {info.in}, {snd_in});
     add_transition(path + ".t2", {snd_out}, {two});
     add_transition(path + ".t3", {two}, {rcv_in});
-    add_transition(path + ".t4", {rcv_out}, {info.in}).role = Role::t4;
-    add_transition(path + ".t5", {rcv_out}, {info.out}).role = Role::t5;
-    add_transition(path + ".t6", {rcv_out}, {info.out}).role = Role::t6;
     FlatNet::Counts& counts = net_.layers["behaviour"];
     counts.places += 3;
-    counts.transitions += 6;
+    counts.transitions += 3;
+    const std::vector<std::map<int, int>> all = values_of_ending(net_, b);
+    for (const Role role : {Role::t4, Role::t5, Role::t6}) {
+      bool drawn = false;
+      for (std::size_t a = 0; a < all.size(); ++a) {
+        const Ways ways = ways_of(net_, b, true, all[a]);
+        const bool possible = role == Role::t4 ? ways.go_on : role == Role::t5 ? ways.terminal : ways.error;
+        if (!possible && (drawn || a + 1 < all.size())) continue;
+        drawn = true;
+        add_asking(path + (role == Role::t4   ? ".t4"
+                           : role == Role::t5 ? ".t5"
+                                              : ".t6"),
+                   rcv_out, role == Role::t4 ? info.in : info.out, role, -1, all[a]);
+        counts.transitions += 1;
+      }
+    }
     counts.pages += 2;
     communication(info, true, path + ".snd", snd_in, snd_out);
     communication(info, false, path + ".rcv", rcv_in, rcv_out);
@@ -286,13 +394,14 @@ class Builder {
       add_transition(prefix + ".t1", {in, memory}, {two});
       add_transition(prefix + ".t2", {two}, {out, memory});
     } else if (send) {
-      send_block(channel, prefix, in, two, out);
+      send_block(c, channel, prefix, in, two, out);
     } else {
-      receive_block(channel, prefix, in, two, out);
+      receive_block(c, channel, prefix, in, two, out);
     }
   }
 
-  void send_block(const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two, int out) {
+  void send_block(int c, const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two,
+                  int out) {
     const int empty = channel.shared.at("empty"), full = channel.shared.at("full");
     add_transition(prefix + ".t1", {in, empty}, {two});
     if (!channel.of->send_blocking) {
@@ -302,19 +411,19 @@ class Builder {
     }
     const int wait = add_place(prefix + ".wait");
     add_transition(prefix + ".t2", {two}, {wait, full});
-    add_transition(prefix + ".t3", {wait, channel.shared.at("ack")}, {out});
-    if (channel.of->send_timeout) add_transition(prefix + ".timeout", {wait, full}, {out, empty});
+    add_end(c, true, true, prefix + ".t3", {wait, channel.shared.at("ack")}, {out});
+    if (channel.of->send_timeout) add_end(c, true, false, prefix + ".timeout", {wait, full}, {out, empty});
   }
 
-  void receive_block(const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two,
+  void receive_block(int c, const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two,
                      int out) {
     const int empty = channel.shared.at("empty"), full = channel.shared.at("full");
     add_transition(prefix + ".t1", {in, full}, {two});
     std::vector<int> after{out, empty};
     if (channel.of->send_blocking) after.push_back(channel.shared.at("ack"));
-    add_transition(prefix + ".t2", {two}, after);
-    if (!channel.of->receive_blocking) add_transition(prefix + ".skip", {in, empty}, {out, empty});
-    if (channel.of->receive_timeout) add_transition(prefix + ".timeout", {in, empty}, {out, empty});
+    add_end(c, false, true, prefix + ".t2", {two}, after);
+    if (!channel.of->receive_blocking) add_end(c, false, false, prefix + ".skip", {in, empty}, {out, empty});
+    if (channel.of->receive_timeout) add_end(c, false, false, prefix + ".timeout", {in, empty}, {out, empty});
   }
 
   void model_block(FlatNet::ChannelInfo& channel, const ModelSide& side, bool send, const std::string& prefix,

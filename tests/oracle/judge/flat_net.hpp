@@ -19,7 +19,8 @@ struct FlatTransition {
   Role role = Role::plain;
   int subsystem = -1;  // -1: of the two upper layers
   int behaviour = -1;
-  int entry = -1;  // of `next`
+  int entry = -1;              // of `next`
+  std::map<int, int> facts{};  // values of facts that its condition was evaluated with
 };
 
 struct FlatNet {
@@ -38,7 +39,8 @@ struct FlatNet {
     int subsystem = -1;
     const Behaviour* of = nullptr;
     int in = -1, out = -1;
-    bool waits = false;  // it uses a channel whose side of it blocks
+    bool waits = false;           // it uses a channel whose side of it blocks
+    std::vector<int> received{};  // channels
   };
   struct SubsystemInfo {
     std::string path;
@@ -56,6 +58,16 @@ struct FlatNet {
     std::vector<int> reads;                            // transitions that begin to read
     bool received = false;                             // some behaviour has its receiving block
   };
+  /// What the net of a subsystem knows about the last communication of a buffer: one place per value.
+  struct FactInfo {
+    int subsystem = -1;
+    std::string buffer;
+    bool sends = false;
+    bool blocks = false;        // a receive; otherwise it skips
+    std::vector<int> channels;  // whose blocks set it
+    std::vector<int> places;    // well, ill: came, missed; in_time, timed_out
+    std::vector<std::string> values;
+  };
   struct Counts {
     int places = 0, transitions = 0, pages = 0;
     friend bool operator==(const Counts&, const Counts&) = default;
@@ -67,6 +79,7 @@ struct FlatNet {
   std::vector<BehaviourInfo> behaviours;
   std::vector<SubsystemInfo> subsystems;
   std::vector<ChannelInfo> channels;
+  std::vector<FactInfo> facts;
   std::map<std::string, int> place_of;
   std::map<std::string, Counts> layers;  // system, agent, subsystem, behaviour, communication
   int system_out = -1;

@@ -63,7 +63,7 @@ class Formulas {
     }
     std::vector<std::string> channel_states, inner;
     for (const auto& place : net_.places) {
-      if (place.fused)
+      if (place.fused && place.name.find("->") != std::string::npos)
         channel_states.push_back(place.name);
       else if (place.name.ends_with(".2") || place.name.ends_with(".wait") || place.name.ends_with(".work"))
         inner.push_back(place.name);

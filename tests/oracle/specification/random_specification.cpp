@@ -26,7 +26,7 @@ namespace {
 
 class Generator {
  public:
-  explicit Generator(std::uint64_t seed) : random_(seed) {}
+  explicit Generator(std::uint64_t seed) : random_(seed), asks_(~seed) {}
 
   Specification make() {
     if (random_.percent(15)) specification_.models = random_models(random_);
@@ -36,6 +36,7 @@ class Generator {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
     time();
+    if (asks_.percent(60)) ask();
     if (random_.percent(60)) specification_.properties = random_properties(random_, specification_);
     return std::move(specification_);
   }
@@ -248,7 +249,56 @@ class Generator {
             !net.subsystems[static_cast<std::size_t>(behaviour.subsystem)].of->rate;
   }
 
-  RandomNumbers random_;
+  /// Lets some open expressions ask how the communication ended, and more sides wait with a timeout. It has
+  /// random numbers of its own.
+  void ask() {
+    for (Channel& channel : specification_.channels) {
+      if (!channel.model.empty()) continue;
+      channel.send_timeout = channel.send_timeout || (channel.send_blocking && asks_.percent(40));
+      channel.receive_timeout = channel.receive_timeout || (channel.receive_blocking && asks_.percent(50));
+    }
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems)
+        for (Behaviour& behaviour : subsystem.behaviours) {
+          for (Condition* condition : {&behaviour.terminal, &behaviour.error}) {
+            if (condition->form == Condition::Form::absent) continue;
+            condition->asked.resize(std::max<std::size_t>(condition->named.size(), 1));
+            for (std::optional<Asked>& asked : condition->asked) asked = some_question(subsystem);
+          }
+          for (Entry& entry : behaviour.next)
+            if (entry.when == Entry::When::expression) entry.asked = some_question(subsystem);
+        }
+  }
+
+  std::optional<Asked> some_question(const Subsystem& subsystem) {
+    if (!asks_.percent(65)) return std::nullopt;
+    std::vector<Asked> questions;
+    for (const std::string& input : subsystem.inputs) {
+      questions.push_back({Asked::Kind::fresh, input});
+      questions.push_back({Asked::Kind::late_input, input});
+    }
+    for (const std::string& output : subsystem.outputs)
+      questions.push_back({Asked::Kind::late_output, output});
+    return questions.empty() ? std::nullopt : std::optional(formula(questions, 2));
+  }
+
+  /// Each question is used once.
+  Asked formula(std::vector<Asked>& questions, int depth) {
+    const int kind = asks_.below(100);
+    if (depth > 0 && kind < 15) return {Asked::Kind::negation, "", {formula(questions, depth - 1)}};
+    if (depth > 0 && kind < 55) {
+      Asked first = formula(questions, depth - 1);
+      Asked second = formula(questions, depth - 1);
+      return {kind < 35 ? Asked::Kind::both : Asked::Kind::either, "", {std::move(first), std::move(second)}};
+    }
+    if (questions.empty() || kind > 92) return {};
+    const int at = asks_.below(static_cast<int>(questions.size()));
+    Asked question = questions[static_cast<std::size_t>(at)];
+    questions.erase(questions.begin() + at);
+    return question;
+  }
+
+  RandomNumbers random_, asks_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

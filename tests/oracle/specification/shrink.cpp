@@ -160,7 +160,7 @@ void simplify_behaviours(const Specification& from, Candidates& into) {
     });
     behaviour_candidate(from, into, [&](Behaviour& b) {
       if ((b.*which).form != Condition::Form::named) return false;
-      b.*which = {Condition::Form::single, (b.*which).named[0].second, {}};
+      b.*which = {Condition::Form::single, (b.*which).named[0].second, {}, (b.*which).asked};
       return true;
     });
   }

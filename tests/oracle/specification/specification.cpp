@@ -24,15 +24,29 @@ class Expressions {
     ++number_;
     return "memory.dice / " + std::to_string(number_ * 7 + 1) + " % 3 == " + std::to_string(number_ % 3);
   }
+  std::string next(Truth truth, const Asked* asked) {
+    return truth == Truth::open && asked != nullptr ? formula(*asked) : next(truth);
+  }
+  std::string formula(const Asked& asked) {
+    using Kind = Asked::Kind;
+    if (asked.kind == Kind::open) return next(Truth::open);
+    if (asked.kind == Kind::fresh) return "in." + asked.buffer + ".fresh";
+    if (asked.kind == Kind::late_input) return "in." + asked.buffer + ".timed_out";
+    if (asked.kind == Kind::late_output) return "out." + asked.buffer + ".timed_out";
+    if (asked.kind == Kind::negation) return "not (" + formula(asked.parts[0]) + ")";
+    const std::string first = "(" + formula(asked.parts[0]) + ")";
+    return first + (asked.kind == Kind::both ? " && (" : " || (") + formula(asked.parts[1]) + ")";
+  }
 
  private:
   int number_ = 0;
 };
 
 std::string condition(const Condition& of, Expressions& expressions) {
-  if (of.form == Condition::Form::single) return expressions.next(of.single);
+  if (of.form == Condition::Form::single) return expressions.next(of.single, of.asks(0));
   std::vector<std::string> parts;
-  for (const auto& [name, truth] : of.named) parts.push_back(name + ": " + expressions.next(truth));
+  for (const auto& [name, truth] : of.named)
+    parts.push_back(name + ": " + expressions.next(truth, of.asks(parts.size())));
   return map(parts);
 }
 
@@ -40,7 +54,7 @@ std::string entry(const Entry& of, Expressions& expressions) {
   if (of.when == Entry::When::always) return of.to;
   std::string when = of.name;
   if (of.when == Entry::When::error) when = "error";
-  if (of.when == Entry::When::expression) when = expressions.next(of.truth);
+  if (of.when == Entry::When::expression) when = expressions.next(of.truth, of.asked ? &*of.asked : nullptr);
   return "{ to: " + of.to + ", when: " + when + " }";
 }
 

@@ -11,12 +11,26 @@ namespace oracle {
 /// The static facts about an expression.
 enum class Truth { no, yes, open };
 
+/// An expression that asks how the last communication of a buffer ended, or a formula of such questions. An open
+/// part is an expression that asks for something else.
+struct Asked {
+  enum class Kind { open, fresh, late_input, late_output, negation, both, either };
+  Kind kind = Kind::open;
+  std::string buffer{};        // of fresh, late_input, late_output
+  std::vector<Asked> parts{};  // of negation, both, either
+};
+
 /// `terminal` or `error`: absent, a constant, an expression, or a map of named ones.
 struct Condition {
   enum class Form { absent, single, named };
   Form form = Form::absent;
   Truth single = Truth::open;
   std::vector<std::pair<std::string, Truth>> named;
+  std::vector<std::optional<Asked>> asked{};  // per expression; what is absent asks nothing
+
+  const Asked* asks(std::size_t expression) const {
+    return expression < asked.size() && asked[expression] ? &*asked[expression] : nullptr;
+  }
 };
 
 /// An entry of `next`.
@@ -26,6 +40,7 @@ struct Entry {
   When when = When::always;
   std::string name;           // of a terminal or error expression
   Truth truth = Truth::open;  // of the expression
+  std::optional<Asked> asked{};
 };
 
 struct Behaviour {

@@ -17,6 +17,7 @@ enum class PlaceRole : std::uint8_t {
   output,        ///< of its page
   waiting,       ///< of a block: until the value is acknowledged
   no_successor,  ///< a behaviour was left and no initial condition held: see verify::abstract_net
+  fact,          ///< a value of something that the net of the subsystem knows: net::Parts::Fact
   // The memory of a channel, of the form that the built-in models have:
   lock,          ///< both sides are non-blocking: neither uses the memory now
   empty,         ///< no value
@@ -34,9 +35,9 @@ enum class PlaceRole : std::uint8_t {
 
 /// "sent_memory": the name of the enumerator, as in generated tables.
 [[nodiscard]] constexpr std::string_view name_of(PlaceRole role) {
-  constexpr std::array<std::string_view, 16> names{
-      "none", "input", "output", "waiting",     "no_successor",    "lock", "empty",    "full", "acknowledged",
-      "idle", "sent",  "more",   "sent_memory", "received_memory", "link", "link_back"};
+  constexpr std::array<std::string_view, 17> names{
+      "none",         "input", "output", "waiting", "no_successor", "fact",            "lock", "empty",    "full",
+      "acknowledged", "idle",  "sent",   "more",    "sent_memory",  "received_memory", "link", "link_back"};
   static_assert(names.size() == static_cast<std::size_t>(PlaceRole::link_back) + 1);
   return names[static_cast<std::size_t>(role)];
 }

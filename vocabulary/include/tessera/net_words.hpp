@@ -73,6 +73,12 @@ inline constexpr std::string_view replace =
 inline constexpr std::string_view deliver_older = TESSERA_WORD_PREFIX "older";
 inline constexpr std::string_view lose_older = TESSERA_WORD_PREFIX "lost";
 
+// Words of the places of what a subsystem knows; they follow the name of its buffer.
+inline constexpr std::string_view came = TESSERA_WORD_PREFIX "came";      ///< the last receive took a value
+inline constexpr std::string_view missed = TESSERA_WORD_PREFIX "missed";  ///< it did not, or there was none
+inline constexpr std::string_view in_time = TESSERA_WORD_PREFIX "in_time";  ///< acknowledged, or nothing sent
+inline constexpr std::string_view timed_out = TESSERA_WORD_PREFIX "timed_out";
+
 /// Follows the name of a behaviour's output, if none of its initial conditions holds: a transition of the net
 /// that is judged (verify/communication/abstraction.hpp), and of scenarios.
 inline constexpr std::string_view no_successor = TESSERA_WORD_PREFIX " none";

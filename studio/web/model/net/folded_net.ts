@@ -237,7 +237,6 @@ export class FoldedElements {
   }
 
   private fusedPlace(name: string): number | undefined {
-    if (!name.includes("->")) return undefined;
     this.known.channels ??= byName(this.net.channels);
     for (let cut = name.lastIndexOf("."); cut > 0; cut = name.lastIndexOf(".", cut - 1)) {
       const channel = this.known.channels.get(name.slice(0, cut));

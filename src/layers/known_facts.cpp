@@ -1,0 +1,246 @@
+#include "layers/known_facts.hpp"
+
+#include <algorithm>
+
+#include "layers/built_in.hpp"
+#include "layers/sheet.hpp"
+#include "tessera/net_words.hpp"
+
+namespace tessera::layers {
+namespace {
+
+using spec::Token;
+using FactKind = net::Parts::Fact::Kind;
+
+/// Calls `visit` with every expression of the conditions of a subsystem.
+template <class Visit>
+void each_expression(const spec::Subsystem& subsystem, Visit visit) {
+  for (const spec::Behaviour& behaviour : subsystem.behaviours) {
+    for (const spec::Condition* condition : {&behaviour.terminal, &behaviour.error})
+      for (const spec::Expression& expression : condition->expressions) visit(expression);
+    for (const spec::Next& next : behaviour.next)
+      if (next.when.kind == spec::When::Kind::expression) visit(next.when.text);
+  }
+}
+
+/// Most expressions ask for no fact; they are not cut into tokens.
+bool may_ask(const spec::Expression& expression) {
+  return expression.text.find("fresh") != std::string::npos ||
+         expression.text.find("timed_out") != std::string::npos;
+}
+
+/// Visits the parts of an expression.
+template <class Visit>
+void each_part(const spec::Expression& expression, Visit visit) {
+  if (!may_ask(expression)) return;
+  static_cast<void>(spec::truth_of(expression.text, [&](std::span<const Token> part) {
+    visit(part);
+    return spec::Truth::free;
+  }));
+}
+
+/// "grant" for "in.grant.fresh", if it is of that form.
+std::string_view buffer_in(std::span<const Token> part, std::string_view owner, std::string_view status) {
+  const bool fits = part.size() == 5 && part[0].is(owner) && part[1].is(".") && part[3].is(".") &&
+                    part[4].is(status) && part[2].kind == Token::Kind::name;
+  return fits ? part[2].text : std::string_view{};
+}
+
+std::uint32_t number_of(const Numbered<spec::BufferId, spec::Field>& buffers, std::string_view name) {
+  return static_cast<std::uint32_t>(std::ranges::find(buffers, name, &spec::Field::name) - buffers.begin());
+}
+
+/// The inputs and outputs whose outcome a part asks for.
+struct Buffers {
+  std::string_view fresh, late_input, late_output;
+  explicit Buffers(std::span<const Token> part)
+      : fresh(buffer_in(part, "in", "fresh")),
+        late_input(buffer_in(part, "in", "timed_out")),
+        late_output(buffer_in(part, "out", "timed_out")) {}
+};
+
+}  // namespace
+
+KnownFacts::KnownFacts(const spec::Model& model, const Wiring& wiring, net::SubsystemId subsystem,
+                       net::HierarchicalNet& net)
+    : model_(model),
+      id_(subsystem),
+      subsystem_(model.subsystem(subsystem)),
+      net_(net),
+      first_{static_cast<std::uint32_t>(net.parts.facts.size())} {
+  const Asked wanted = asked();
+  find(wiring, Direction::receive, wanted.inputs);
+  find(wiring, Direction::send, wanted.outputs);
+}
+
+KnownFacts::Asked KnownFacts::asked() const {
+  Asked found{std::vector<bool>(subsystem_.inputs.size() + 1),
+              std::vector<bool>(subsystem_.outputs.size() + 1)};
+  each_expression(subsystem_, [&](const spec::Expression& expression) {
+    each_part(expression, [&](std::span<const Token> part) {
+      const Buffers asks(part);
+      for (const std::string_view input : {asks.fresh, asks.late_input})
+        if (!input.empty()) found.inputs[number_of(subsystem_.inputs, input)] = true;
+      if (!asks.late_output.empty()) found.outputs[number_of(subsystem_.outputs, asks.late_output)] = true;
+    });
+  });
+  return found;
+}
+
+/// Whether the net tells how that side of the channel ends.
+bool KnownFacts::is_known(const spec::Channel& channel, Direction direction) const {
+  if (channel.model.valid()) return false;
+  if (direction == Direction::send) return channel.send == spec::Mode::blocking && channel.send_timeout;
+  if (channel.receive == spec::Mode::blocking_once) return false;
+  return channel.send != spec::Mode::non_blocking || channel.receive != spec::Mode::non_blocking;
+}
+
+void KnownFacts::find(const Wiring& wiring, Direction direction, const std::vector<bool>& asked) {
+  const bool sends = direction == Direction::send;
+  const auto& buffers = sends ? subsystem_.outputs : subsystem_.inputs;
+  for (std::uint32_t number = 0; number < buffers.size(); ++number) {
+    if (!asked[number]) continue;
+    Fact fact{.kind = sends ? FactKind::sent : FactKind::received, .subject = number};
+    bool own_model = false;
+    for (const spec::ChannelId channel : model_.channels.ids()) {
+      const spec::ChannelEnd& end = end_of(model_.channels[channel], direction);
+      if (end.instance != id_ || end.buffer.value != number) continue;
+      own_model = own_model || model_.channels[channel].model.valid();
+      if (is_known(model_.channels[channel], direction)) fact.channels.push_back(channel);
+    }
+    if (own_model || fact.channels.empty()) continue;
+    for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
+      const std::vector<spec::ChannelId> used = wiring.used(id_, behaviour, direction);
+      fact.set_in.push_back(std::ranges::find(used, fact.channels.front()) != used.end());
+    }
+    const net::Span span = model_.channels[fact.channels.front()].span;
+    using Names = std::vector<std::string>;
+    add(std::move(fact), buffers[spec::BufferId{number}].name,
+        sends ? Names{std::string(words::in_time), std::string(words::timed_out)}
+              : Names{std::string(words::came), std::string(words::missed)},
+        span);
+  }
+}
+
+void KnownFacts::add(Fact fact, const std::string& name, std::vector<std::string> values, net::Span span) {
+  fact.first = {static_cast<std::uint32_t>(net_.fusions.size())};
+  const net::FactId id{static_cast<std::uint32_t>(net_.parts.facts.size())};
+  // At the start nothing is fresh, and nothing has timed out.
+  const std::uint32_t initial = fact.kind == FactKind::sent ? succeeded : failed;
+  for (std::uint32_t value = 0; value < values.size(); ++value)
+    net_.fusions.push_back({.name = net_.parts[id_].path + "." + name + "." + values[value],
+                            .tokens = value == initial ? 1U : 0U,
+                            .span = span,
+                            .role = PlaceRole::fact,
+                            .fact = id,
+                            .value = value});
+  net_.parts.facts.push_back({fact.kind, id_, fact.subject, name, std::move(values)});
+  facts_.push_back(std::move(fact));
+}
+
+std::string KnownFacts::name_of(net::FactId fact, std::uint32_t value) const {
+  return net_.parts[fact].name + "." + net_.parts[fact].values[value];
+}
+
+net::FactId KnownFacts::set_by(net::ChannelId channel, Direction direction) const {
+  const FactKind kind = direction == Direction::send ? FactKind::sent : FactKind::received;
+  for (std::uint32_t number = 0; number < facts_.size(); ++number)
+    if (facts_[number].kind == kind &&
+        std::ranges::find(facts_[number].channels, channel) != facts_[number].channels.end())
+      return {first_.value + number};
+  return {};
+}
+
+KnownFacts::Question KnownFacts::question_of(std::span<const Token> part) const {
+  const Buffers asks(part);
+  const auto find = [&](FactKind kind, std::uint32_t subject) {
+    for (std::uint32_t number = 0; number < facts_.size(); ++number)
+      if (facts_[number].kind == kind && facts_[number].subject == subject)
+        return net::FactId{first_.value + number};
+    return net::FactId{};
+  };
+  for (const std::string_view input : {asks.fresh, asks.late_input})
+    if (!input.empty())
+      return {find(FactKind::received, number_of(subsystem_.inputs, input)), !asks.fresh.empty()};
+  if (!asks.late_output.empty())
+    return {find(FactKind::sent, number_of(subsystem_.outputs, asks.late_output)), false};
+  return {};
+}
+
+std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expressions) const {
+  std::vector<Values> all{{}};
+  if (facts_.empty()) return all;
+  std::vector<net::FactId> asked;
+  for (const spec::Expression* expression : expressions)
+    each_part(*expression, [&](std::span<const Token> part) {
+      const net::FactId fact = question_of(part).fact;
+      if (fact.valid() && std::ranges::find(asked, fact) == asked.end()) asked.push_back(fact);
+    });
+  std::size_t count = 1, kept = 0;
+  while (kept < asked.size() && count * value_count(asked[kept]) <= most_assignments)
+    count *= value_count(asked[kept++]);
+  asked.resize(kept);
+  std::ranges::sort(asked);
+  for (const net::FactId fact : asked) {
+    std::vector<Values> more;
+    for (const Values& before : all)
+      for (std::uint32_t value = 0; value < value_count(fact); ++value)
+        more.emplace_back(before).emplace_back(fact, value);
+    all = std::move(more);
+  }
+  return all;
+}
+
+spec::Truth KnownFacts::answer(const Question& question, spec::BehaviourId behaviour, const Values& values,
+                               bool failures) const {
+  const auto known = std::ranges::find(values, question.fact, &Values::value_type::first);
+  if (!question.fact.valid() || known == values.end()) return spec::Truth::free;
+  const Fact& fact = of(question.fact);
+  const bool success = known->second == succeeded;
+  if (question.fresh)
+    return !success ? spec::Truth::never : failures ? spec::Truth::free : spec::Truth::always;
+  if (success) return spec::Truth::never;
+  if (fact.kind == FactKind::sent) return spec::Truth::always;
+  // Nothing has been received yet, or the receive ended without a value.
+  if (model_.channels[fact.channels.front()].receive == spec::Mode::non_blocking) return spec::Truth::never;
+  return fact.set_in[behaviour.value] ? spec::Truth::always : spec::Truth::free;
+}
+
+spec::TruthOf KnownFacts::truths(spec::BehaviourId behaviour, const Values& values, bool failures) const {
+  return [this, behaviour, values, failures](const spec::Expression& expression) {
+    const spec::Truth constant = spec::truth_of(expression);
+    if (constant != spec::Truth::free || values.empty() || !may_ask(expression)) return constant;
+    return spec::truth_of(expression.text, [&](std::span<const Token> part) {
+      return answer(question_of(part), behaviour, values, failures);
+    });
+  };
+}
+
+void FactPen::draw(const std::string& name, const KnownFacts::Values& reads, const KnownFacts::Values& sets,
+                   const Draw& draw) const {
+  std::vector<KnownFacts::Values> befores{reads};
+  for (const auto& [fact, given] : sets) {
+    if (std::ranges::find(reads, fact, &KnownFacts::Values::value_type::first) != reads.end()) continue;
+    std::vector<KnownFacts::Values> more;
+    for (const KnownFacts::Values& before : befores)
+      for (std::uint32_t value = 0; value < facts_.value_count(fact); ++value)
+        more.emplace_back(before).emplace_back(fact, value);
+    befores = std::move(more);
+  }
+  const auto node = [&](net::FactId fact, std::uint32_t value) {
+    return sheet_.member(facts_.name_of(fact, value), facts_.place_of(fact, value));
+  };
+  for (const KnownFacts::Values& before : befores) {
+    std::string full = name;
+    Nodes inputs, outputs;
+    for (const auto& [fact, value] : before) {
+      full += "." + facts_.name_of(fact, value);
+      const auto set = std::ranges::find(sets, fact, &KnownFacts::Values::value_type::first);
+      inputs.push_back(node(fact, value));
+      outputs.push_back(node(fact, set != sets.end() ? set->second : value));
+    }
+    draw(full, inputs, outputs);
+  }
+}
+
+}  // namespace tessera::layers

@@ -58,8 +58,9 @@ class Folding {
   /// channels, the values of each fact are written like the memory of one.
   template <class Fused>
   [[nodiscard]] std::uint32_t memory_of(const Fused& fused) const {
-    return fused.channel.valid() ? fused.channel.value
-                                 : static_cast<std::uint32_t>(pages_.parts.channels.size()) + fused.fact.value;
+    return fused.channel.valid()
+               ? fused.channel.value
+               : static_cast<std::uint32_t>(pages_.parts.channels.size()) + fused.fact.value;
   }
   /// The name of a memory.
   [[nodiscard]] std::string name_of(std::size_t memory) const {

@@ -36,8 +36,10 @@ enum class PlaceRole : std::uint8_t {
 /// "sent_memory": the name of the enumerator, as in generated tables.
 [[nodiscard]] constexpr std::string_view name_of(PlaceRole role) {
   constexpr std::array<std::string_view, 17> names{
-      "none",         "input", "output", "waiting", "no_successor", "fact",            "lock", "empty",    "full",
-      "acknowledged", "idle",  "sent",   "more",    "sent_memory",  "received_memory", "link", "link_back"};
+      "none", "input",    "output", "waiting",     "no_successor",
+      "fact", "lock",     "empty",  "full",        "acknowledged",
+      "idle", "sent",     "more",   "sent_memory", "received_memory",
+      "link", "link_back"};
   static_assert(names.size() == static_cast<std::size_t>(PlaceRole::link_back) + 1);
   return names[static_cast<std::size_t>(role)];
 }

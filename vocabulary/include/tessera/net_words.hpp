@@ -74,8 +74,8 @@ inline constexpr std::string_view deliver_older = TESSERA_WORD_PREFIX "older";
 inline constexpr std::string_view lose_older = TESSERA_WORD_PREFIX "lost";
 
 // Words of the places of what a subsystem knows; they follow the name of its buffer.
-inline constexpr std::string_view came = TESSERA_WORD_PREFIX "came";      ///< the last receive took a value
-inline constexpr std::string_view missed = TESSERA_WORD_PREFIX "missed";  ///< it did not, or there was none
+inline constexpr std::string_view came = TESSERA_WORD_PREFIX "came";        ///< the last receive took a value
+inline constexpr std::string_view missed = TESSERA_WORD_PREFIX "missed";    ///< it did not, or there was none
 inline constexpr std::string_view in_time = TESSERA_WORD_PREFIX "in_time";  ///< acknowledged, or nothing sent
 inline constexpr std::string_view timed_out = TESSERA_WORD_PREFIX "timed_out";
 

@@ -8,6 +8,7 @@
 
 #include "codegen/cpp_text.hpp"
 #include "codegen/emit.hpp"
+#include "codegen/kept_memory.hpp"
 #include "spec/conditions/tokens.hpp"
 #include "spec/model/endings.hpp"
 
@@ -15,7 +16,24 @@ namespace tessera::codegen {
 namespace {
 
 bool conditional(const spec::Behaviour& behaviour) {
-  return behaviour.next.size() > 1 || behaviour.next.front().when.kind != spec::When::Kind::always;
+  const spec::Next& first = behaviour.next.front();
+  return behaviour.next.size() > 1 || first.when.kind != spec::When::Kind::always || first.may_be_blocked;
+}
+
+/// "memory.n < 4 && memory.m > 0": the changes of the entry are possible. Empty: they always are.
+std::string allowed_text(const spec::Subsystem& subsystem, const spec::Next& entry) {
+  std::string text;
+  const auto add = [&text](const std::string& one) { text += (text.empty() ? "" : " && ") + one; };
+  for (std::uint32_t number = 0; entry.may_be_blocked && number < subsystem.memory.size(); ++number) {
+    const spec::Field& cell = subsystem.memory[number];
+    if (!cell.few || !cell.few->counts) continue;
+    const auto counts = spec::allowed(*cell.few, number, entry.sets);
+    if (counts && counts->first > 0)
+      add(fmt::format("memory.{} >= {}", cell.name, cell.few->names[counts->first]));
+    if (counts && counts->last + 1 < cell.few->names.size())
+      add(fmt::format("memory.{} <= {}", cell.name, cell.few->names[counts->last]));
+  }
+  return text;
 }
 
 bool decided(const spec::Behaviour& behaviour) {
@@ -184,6 +202,8 @@ std::string Conditions::route_case(spec::BehaviourId behaviour) const {
     if (!taken(entry, spec::Ending::error) && !taken(entry, spec::Ending::failure)) continue;
     if (what.next[entry].when.kind == spec::When::Kind::named_error)
       routes.push_back({when_text(behaviour, entry), entry});
+    else if (const std::string allowed = allowed_text(subsystem_, what.next[entry]); !allowed.empty())
+      routes.push_back({fmt::format("if (failed && {}) ", allowed), entry});
     else if (!last)
       last = entry;
   }
@@ -210,8 +230,16 @@ std::string Conditions::route_text(spec::BehaviourId behaviour, std::vector<Rout
   return fmt::format("      case Behaviour::{}:\n{}", what.name, declarations(lines, 8));
 }
 
-/// The question that the entry asks: "if (held_.tessera_work_error_lost) ", or nothing if it has no condition.
+/// "if (held_.tessera_work_error_lost) ", or nothing if the entry has no condition.
 std::string Conditions::when_text(spec::BehaviourId behaviour, spec::NextId entry) const {
+  std::string asked = question(behaviour, entry);
+  const std::string allowed = allowed_text(subsystem_, subsystem_.behaviours[behaviour].next[entry]);
+  if (!allowed.empty()) asked = asked.empty() ? allowed : fmt::format("{} && {}", allowed, asked);
+  return asked.empty() ? asked : fmt::format("if ({}) ", asked);
+}
+
+/// The question that the entry asks.
+std::string Conditions::question(spec::BehaviourId behaviour, spec::NextId entry) const {
   const spec::When& when = subsystem_.behaviours[behaviour].next[entry].when;
   const Asked& asked = asked_[behaviour];
   switch (when.kind) {
@@ -220,11 +248,11 @@ std::string Conditions::when_text(spec::BehaviourId behaviour, spec::NextId entr
     case spec::When::Kind::error:  // asked by route_case
       return {};
     case spec::When::Kind::terminal:
-      return fmt::format("if (held_.{}) ", functions_[asked.terminal[when.expression]].name);
+      return fmt::format("held_.{}", functions_[asked.terminal[when.expression]].name);
     case spec::When::Kind::named_error:
-      return fmt::format("if (held_.{}) ", functions_[asked.error[when.expression]].name);
+      return fmt::format("held_.{}", functions_[asked.error[when.expression]].name);
     case spec::When::Kind::expression:
-      return fmt::format("if (conditions_.{}()) ", functions_[asked.next[entry]].name);
+      return fmt::format("conditions_.{}()", functions_[asked.next[entry]].name);
   }
   return {};
 }
@@ -276,7 +304,7 @@ struct tessera_Conditions {{
   const Outputs& out;
   const Memory& memory;
   const Parameters& parameters;
-{}{}
+{}{}{}
 {}}};
 
 }}  // namespace {}
@@ -284,8 +312,19 @@ struct tessera_Conditions {{
                                      project_.banner(), include_block(headers), subsystem_.name,
                                      unit_namespace(project_.model, unit_),
                                      times ? "  const tessera::Duration& elapsed;\n" : "",
-                                     index ? "  const std::uint32_t& index;\n" : "", functions,
+                                     index ? "  const std::uint32_t& index;\n" : "", values(), functions,
                                      unit_namespace(project_.model, unit_))};
+}
+
+std::string Conditions::values() const {
+  std::set<std::string> named;
+  for (const Function& function : functions_)
+    for (const spec::Reference& one : references(*function.expression))
+      if (one.kind == spec::Reference::Kind::value) named.insert(one.path.substr(one.path.rfind('.') + 1));
+  std::string out;
+  for (const std::string& value : named)
+    out += "  static constexpr " + value_constant(project_.model, subsystem_, value) + "\n";
+  return out.empty() ? out : "\n" + out;
 }
 
 void Conditions::add_marked(const Function& function, std::string& out) const {

@@ -50,6 +50,8 @@ class Conditions {
   void add_listed(const Function& function, File& file) const;
   /// Whether some condition names such a thing.
   [[nodiscard]] bool name(spec::Reference::Kind kind) const;
+  /// Constants for the values of memory that conditions name.
+  [[nodiscard]] std::string values() const;
   std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);
   Numbered<spec::ExpressionId, std::size_t> add_all(const spec::Behaviour& behaviour,
                                                     const spec::Condition& condition, std::string_view kind);
@@ -62,6 +64,7 @@ class Conditions {
     spec::NextId entry;
   };
   [[nodiscard]] std::string route_text(spec::BehaviourId behaviour, std::vector<Route> routes) const;
+  [[nodiscard]] std::string question(spec::BehaviourId behaviour, spec::NextId entry) const;
   [[nodiscard]] std::string when_text(spec::BehaviourId behaviour, spec::NextId entry) const;
 
   const Project& project_;

@@ -121,6 +121,8 @@ class Extraction {
         return "tessera::Fact::Kind::received";
       case net::Parts::Fact::Kind::sent:
         return "tessera::Fact::Kind::sent";
+      case net::Parts::Fact::Kind::memory:
+        return "tessera::Fact::Kind::memory";
     }
     return {};
   }

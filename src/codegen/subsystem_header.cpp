@@ -6,6 +6,7 @@
 #include "codegen/cpp_text.hpp"
 #include "codegen/driver_tables.hpp"
 #include "codegen/emit.hpp"
+#include "codegen/kept_memory.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -26,9 +27,11 @@ class Header {
                                                              &subsystem_.memory, &subsystem_.real})
       for (const spec::Field& field : *fields) {
         hidden_.insert(field.name);
-        add_headers(field.type, headers_);
+        if (!field.few) add_headers(field.type, headers_);
       }
     for (const spec::Parameter* parameter : parameters_) add_headers(parameter->type, headers_);
+    for (const spec::Field& field : subsystem_.memory)
+      if (field.few) headers_.insert({"<array>", "<cstdint>", "<string_view>", "<tessera/kept.hpp>"});
   }
 
   std::string data() {
@@ -114,10 +117,16 @@ struct Context : tessera::Context {{
   [[nodiscard]] std::string memory() const {
     std::vector<Declaration> members;
     for (const spec::Field& field : subsystem_.memory)
-      members.push_back({fmt::format("{} {}{{{}}};", type_name(project_.model, field.type, hidden_),
-                                     field.name, field.initial),
-                         comment_text(field.type.unit)});
-    return structure("Memory", members);
+      if (!field.few)
+        members.push_back({fmt::format("{} {}{{{}}};", type_name(project_.model, field.type, hidden_),
+                                       field.name, field.initial),
+                           comment_text(field.type.unit)});
+      else
+        members.push_back({fmt::format("{} {};", kept_type(project_.model, subsystem_, field), field.name),
+                           "the net changes it"});
+    const std::string text = structure("Memory", members),
+                      kept = kept_enumerations(project_.model, subsystem_);
+    return kept.empty() ? text : "struct Memory {\n" + kept + text.substr(text.find('\n') + 1);
   }
 
   [[nodiscard]] std::string parameters() const {

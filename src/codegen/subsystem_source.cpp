@@ -101,7 +101,8 @@ std::string bind(const Project& project, const Unit& unit) {
   for (const spec::Field& field : subsystem.outputs)
     lines.push_back(fmt::format("bindings.output(\"{0}\", out.{0});", field.name));
   for (const spec::Field& field : subsystem.memory)
-    lines.push_back(fmt::format("bindings.remember(\"{0}\", memory.{0});", field.name));
+    lines.push_back(
+        fmt::format("bindings.{1}(\"{0}\", memory.{0});", field.name, field.few ? "keep" : "remember"));
   for (const spec::Parameter* parameter : parameters) lines.push_back(bind_parameter(*parameter));
   return member_function(lines.empty() ? "void bind(tessera::Bindings&) override"
                                        : "void bind(tessera::Bindings& bindings) override",

@@ -25,7 +25,8 @@ void each_expression(const spec::Subsystem& subsystem, Visit visit) {
 
 /// Most expressions ask for no fact; they are not cut into tokens.
 bool may_ask(const spec::Expression& expression) {
-  return expression.text.find("fresh") != std::string::npos ||
+  return expression.text.find("memory") != std::string::npos ||
+         expression.text.find("fresh") != std::string::npos ||
          expression.text.find("timed_out") != std::string::npos;
 }
 
@@ -71,6 +72,7 @@ KnownFacts::KnownFacts(const spec::Model& model, const Wiring& wiring, net::Subs
   const Asked wanted = asked();
   find(wiring, Direction::receive, wanted.inputs);
   find(wiring, Direction::send, wanted.outputs);
+  find_memory();
 }
 
 KnownFacts::Asked KnownFacts::asked() const {
@@ -125,8 +127,8 @@ void KnownFacts::find(const Wiring& wiring, Direction direction, const std::vect
 void KnownFacts::add(Fact fact, const std::string& name, std::vector<std::string> values, net::Span span) {
   fact.first = {static_cast<std::uint32_t>(net_.fusions.size())};
   const net::FactId id{static_cast<std::uint32_t>(net_.parts.facts.size())};
-  // At the start nothing is fresh, and nothing has timed out.
-  const std::uint32_t initial = fact.kind == FactKind::sent ? succeeded : failed;
+  // At the start nothing is fresh, nothing has timed out, and memory has its first value.
+  const std::uint32_t initial = fact.kind == FactKind::received ? failed : succeeded;
   for (std::uint32_t value = 0; value < values.size(); ++value)
     net_.fusions.push_back({.name = net_.parts[id_].path + "." + name + "." + values[value],
                             .tokens = value == initial ? 1U : 0U,
@@ -153,21 +155,16 @@ net::FactId KnownFacts::set_by(net::ChannelId channel, Direction direction) cons
 
 KnownFacts::Question KnownFacts::question_of(std::span<const Token> part) const {
   const Buffers asks(part);
-  const auto find = [&](FactKind kind, std::uint32_t subject) {
-    for (std::uint32_t number = 0; number < facts_.size(); ++number)
-      if (facts_[number].kind == kind && facts_[number].subject == subject)
-        return net::FactId{first_.value + number};
-    return net::FactId{};
-  };
   for (const std::string_view input : {asks.fresh, asks.late_input})
     if (!input.empty())
-      return {find(FactKind::received, number_of(subsystem_.inputs, input)), !asks.fresh.empty()};
+      return {fact_of(FactKind::received, number_of(subsystem_.inputs, input)), !asks.fresh.empty()};
   if (!asks.late_output.empty())
-    return {find(FactKind::sent, number_of(subsystem_.outputs, asks.late_output)), false};
-  return {};
+    return {fact_of(FactKind::sent, number_of(subsystem_.outputs, asks.late_output)), false};
+  return memory_in(part);
 }
 
-std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expressions) const {
+std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expressions,
+                                                        const std::vector<const spec::Next*>& counted) const {
   std::vector<Values> all{{}};
   if (facts_.empty()) return all;
   std::vector<net::FactId> asked;
@@ -176,6 +173,11 @@ std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expre
       const net::FactId fact = question_of(part).fact;
       if (fact.valid() && std::ranges::find(asked, fact) == asked.end()) asked.push_back(fact);
     });
+  for (const spec::Next* entry : counted)
+    for (const spec::Change& change : entry->sets) {
+      const net::FactId fact = fact_of(FactKind::memory, change.cell);
+      if (change.step != 0 && std::ranges::find(asked, fact) == asked.end()) asked.push_back(fact);
+    }
   std::size_t count = 1, kept = 0;
   while (kept < asked.size() && count * value_count(asked[kept]) <= most_assignments)
     count *= value_count(asked[kept++]);
@@ -196,6 +198,8 @@ spec::Truth KnownFacts::answer(const Question& question, spec::BehaviourId behav
   const auto known = std::ranges::find(values, question.fact, &Values::value_type::first);
   if (!question.fact.valid() || known == values.end()) return spec::Truth::free;
   const Fact& fact = of(question.fact);
+  if (fact.kind == FactKind::memory)
+    return question.holds[known->second] ? spec::Truth::always : spec::Truth::never;
   const bool success = known->second == succeeded;
   if (question.fresh)
     return !success ? spec::Truth::never : failures ? spec::Truth::free : spec::Truth::always;

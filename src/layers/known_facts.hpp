@@ -26,6 +26,8 @@ class Sheet;
 ///   nor one that waits for the first value only. Values: came, missed.
 /// * `out.y.timed_out`: some channel of the output sends with a timeout, and all of them have built-in models.
 ///   Values: in_time, timed_out.
+/// A memory cell with few values is a fact, asked or not. Conditions ask it by comparisons with constants; an entry
+/// of `next` whose change of a counter is not always possible asks that counter, too.
 /// Everything else that a condition asks stays a free choice.
 class KnownFacts {
  public:
@@ -40,13 +42,31 @@ class KnownFacts {
   using Expressions = std::vector<const spec::Expression*>;
   /// All values of the facts that they ask for: one empty assignment if there are none. If there were more than
   /// `most_assignments`, the facts that are asked for last stay free choices.
-  [[nodiscard]] std::vector<Values> assignments(const Expressions& expressions) const;
-  static constexpr std::size_t most_assignments = 64;
+  /// counted: entries of `next` among them, whose changes of counters are evaluated with the conditions.
+  [[nodiscard]] std::vector<Values> assignments(const Expressions& expressions,
+                                                const std::vector<const spec::Next*>& counted = {}) const;
+  static constexpr std::size_t most_assignments = 4096;
 
   /// The truths of the conditions of a behaviour, if facts have these values.
   /// failures: any iteration, also of others, may end with a failure; then the value that came may be invalid, and
   /// thus not be fresh.
   [[nodiscard]] spec::TruthOf truths(spec::BehaviourId behaviour, const Values& values, bool failures) const;
+
+  /// Whether the changes of an entry are possible.
+  [[nodiscard]] spec::Truth allows(const spec::Next& entry, const Values& values) const;
+
+  /// Memory before and after changes.
+  struct Changed {
+    Values before, after;
+  };
+  /// All ways in which the cells that are changed can be before, if these values are known. Without a change, and
+  /// also if it is not possible with these values: once, unchanged.
+  [[nodiscard]] std::vector<Changed> changed(const std::vector<spec::Change>& changes,
+                                             const Values& known) const;
+  /// The same at the start of the subsystem: every cell has its first value.
+  [[nodiscard]] Changed changed_at_start(const std::vector<spec::Change>& changes) const;
+  /// The memory cells, one after the other.
+  [[nodiscard]] std::vector<net::FactId> memory() const;
 
   /// The fact that a receive or a send over that channel sets, and how: invalid if it sets none.
   [[nodiscard]] net::FactId set_by(net::ChannelId channel, Direction direction) const;
@@ -74,7 +94,8 @@ class KnownFacts {
   /// A part of a condition that asks for a fact.
   struct Question {
     net::FactId fact{};
-    bool fresh = false;  ///< otherwise whether it has timed out
+    bool fresh = false;         ///< otherwise whether it has timed out
+    std::vector<bool> holds{};  ///< of memory: per value, whether the part is true
   };
 
   /// The buffers that conditions ask for, by their numbers.
@@ -83,6 +104,10 @@ class KnownFacts {
   };
   [[nodiscard]] Asked asked() const;
   [[nodiscard]] bool is_known(const spec::Channel& channel, Direction direction) const;
+  void find_memory();
+  [[nodiscard]] net::FactId fact_of(net::Parts::Fact::Kind kind, std::uint32_t subject) const;
+  [[nodiscard]] Question memory_in(std::span<const spec::Token> part) const;
+  [[nodiscard]] bool apply(const std::vector<spec::Change>& changes, Values& values) const;
   void find(const Wiring& wiring, Direction direction, const std::vector<bool>& asked);
   void add(Fact fact, const std::string& name, std::vector<std::string> values, net::Span span);
   [[nodiscard]] const Fact& of(net::FactId fact) const { return facts_[fact.value - first_.value]; }

@@ -73,6 +73,12 @@ NetPaths::NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, 
 
 Found NetPaths::find(const spec::Statement& token, Diagnostics& out) const {
   if (token.to) return of_channel(token.path, *token.to, out);
+  if (const PageId owner = owner_of_memory(token); owner.valid()) return of_memory(owner, token, out);
+  if (token.compared) {
+    out.error("E114", token.compared->at, "only a memory cell is compared",
+              "for example dock.control.memory.lent_to == nobody; a path alone says that a token is there");
+    return std::nullopt;
+  }
   const auto agent = agents_.find(token.path.agent);
   if (agent != agents_.end()) return in_page(agent->second, token.path, 0, out);
   if (const auto place = places_.find(token.path.agent); place != places_.end()) return marked(place->second);

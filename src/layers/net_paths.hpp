@@ -16,7 +16,8 @@ class NetPaths {
  public:
   NetPaths(const spec::Model& model, const net::HierarchicalNet& pages, const net::Net& net);
 
-  /// The places of a path, or of a path with `to`: a statement of kind token.
+  /// The places of a path, of a path with `to`, or of the values that fit a comparison: a statement of kind
+  /// token.
   ///
   /// Errors: those of properties().
   [[nodiscard]] std::optional<net::Statement> find(const spec::Statement& token,
@@ -29,11 +30,15 @@ class NetPaths {
                                                       std::size_t part, diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> of_buffer(net::SubsystemId subsystem, const spec::NetPath& path,
                                                         diagnostics::Diagnostics& out) const;
+  [[nodiscard]] std::optional<net::Statement> of_memory(net::PageId page, const spec::Statement& token,
+                                                        diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> of_channel(const spec::NetPath& from, const spec::NetPath& to,
                                                          diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> state(const std::string& channel, const spec::PathPart& part,
                                                     diagnostics::Diagnostics& out) const;
   [[nodiscard]] net::Statement whole_page(net::PageId page) const;
+  /// The page of the subsystem whose memory the path names; none: it names something else.
+  [[nodiscard]] net::PageId owner_of_memory(const spec::Statement& token) const;
   [[nodiscard]] std::optional<net::PlaceId> own_place(net::PageId page, const std::string& local) const;
   void complain(net::PageId page, const spec::PathPart& part, diagnostics::Diagnostics& out) const;
 

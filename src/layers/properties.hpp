@@ -15,7 +15,8 @@ namespace tessera::layers {
 ///
 /// pages, net: build(model), and the flat net of it.
 /// Errors: E101 names that the net does not have; E112 a path that ends too early, or a buffer of several
-/// channels. One per property and fleet.
+/// channels, memory that is not compared; E114 a comparison of something else; E261 to E265 a comparison with no
+/// value of the memory cell. One per property and fleet.
 [[nodiscard]] std::optional<std::vector<net::Property>> properties(const spec::Model& model,
                                                                    const net::HierarchicalNet& pages,
                                                                    const net::Net& net,

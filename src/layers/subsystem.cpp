@@ -99,13 +99,19 @@ KnownFacts::Expressions expressions_of(const spec::Behaviour& behaviour) {
 /// entry is drawn for the values with which it can be taken, and the last one is also drawn where none can.
 std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourId id,
                               const KnownFacts& facts) {
-  if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always)
+  if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always &&
+      !behaviour.next.front().may_be_blocked)
     return {{spec::NextId{0}, {}, Condition{}}};
-  const std::vector<KnownFacts::Values> assignments = facts.assignments(expressions_of(behaviour));
+  std::vector<const spec::Next*> counted;
+  for (const spec::Next& next : behaviour.next)
+    if (next.may_be_blocked) counted.push_back(&next);
+  const std::vector<KnownFacts::Values> assignments = facts.assignments(expressions_of(behaviour), counted);
   std::vector<Knowledge> knowledge;
-  for (const KnownFacts::Values& values : assignments)
-    knowledge.push_back({spec::Endings(behaviour, facts.truths(id, values, false)),
-                         spec::Endings(behaviour, facts.truths(id, values, true))});
+  for (const KnownFacts::Values& values : assignments) {
+    const auto allows = [&facts, values](const spec::Next& entry) { return facts.allows(entry, values); };
+    knowledge.push_back({spec::Endings(behaviour, facts.truths(id, values, false), allows),
+                         spec::Endings(behaviour, facts.truths(id, values, true), allows)});
+  }
   std::vector<Drawn> drawn;
   std::vector<bool> has_way(assignments.size(), false);
   for (const spec::NextId entry : behaviour.next.ids())
@@ -132,25 +138,37 @@ net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id
     behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), id, behaviour)));
   const std::uint32_t out = sheet.output();
 
-  sheet.transition(words::start, {in}, {behaviours[subsystem.start]}).role = Step::start;
+  const KnownFacts& facts = draft.facts[id];
+  const auto nodes_of = [&](std::uint32_t node, const KnownFacts::Values& values) {
+    FactPen::Nodes nodes{node};
+    for (const auto& [fact, value] : values)
+      nodes.push_back(sheet.member(facts.name_of(fact, value), facts.place_of(fact, value)));
+    return nodes;
+  };
+  for (const net::FactId cell : facts.memory())
+    for (std::uint32_t value = 0; value < facts.value_count(cell); ++value)
+      static_cast<void>(sheet.member(facts.name_of(cell, value), facts.place_of(cell, value)));
+
+  const KnownFacts::Changed begun = facts.changed_at_start(subsystem.behaviours[subsystem.start].sets);
+  sheet
+      .transition(words::start, nodes_of(in, begun.before),
+                  nodes_of(behaviours[subsystem.start], begun.after))
+      .role = Step::start;
   for (const spec::BehaviourId index : subsystem.behaviours.ids()) {
     const spec::Behaviour& behaviour = subsystem.behaviours[index];
-    for (Drawn& entry : entries_of(behaviour, index, draft.facts[id])) {
+    for (const Drawn& entry : entries_of(behaviour, index, facts)) {
       const spec::Next& next = behaviour.next[entry.entry];
       const std::string name =
           std::string(words::leave) + behaviour.name + "_" + std::to_string(entry.entry.value + 1);
       const std::uint32_t to = next.behaviour.valid() ? behaviours[next.behaviour] : out;
-      FactPen(sheet, draft.facts[id])
-          .draw(name, entry.values, {},
-                [&](const std::string& full, const FactPen::Nodes& inputs, const FactPen::Nodes& outputs) {
-                  FactPen::Nodes from{behaviours[index]}, into{to};
-                  from.insert(from.end(), inputs.begin(), inputs.end());
-                  into.insert(into.end(), outputs.begin(), outputs.end());
-                  net::PageTransition& drawn =
-                      sheet.transition(full, std::move(from), std::move(into), entry.condition);
-                  drawn.span = next.span;
-                  drawn.role = Step::leave;
-                });
+      for (const KnownFacts::Changed& changed : facts.changed(next.sets, entry.values)) {
+        std::string full = name;
+        for (const auto& [fact, value] : changed.before) full += "." + facts.name_of(fact, value);
+        net::PageTransition& drawn = sheet.transition(full, nodes_of(behaviours[index], changed.before),
+                                                      nodes_of(to, changed.after), entry.condition);
+        drawn.span = next.span;
+        drawn.role = Step::leave;
+      }
     }
   }
   return sheet.finish(in, out);

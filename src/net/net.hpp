@@ -100,11 +100,12 @@ struct Parts {
   struct Fact {
     enum class Kind : std::uint8_t {
       received,  ///< whether the last receive of the input `subject` has taken a value
-      sent       ///< whether the last send of the output `subject` that may time out was acknowledged in time
+      sent,      ///< whether the last send of the output `subject` that may time out was acknowledged in time
+      memory     ///< the memory cell `subject`; its values are those of the specification
     } kind = Kind::received;
     SubsystemId subsystem{};
-    std::uint32_t subject = 0;  ///< into the inputs or outputs of the subsystem
-    std::string name{};         ///< "grant"
+    std::uint32_t subject = 0;  ///< into the inputs, the outputs or the memory of the subsystem
+    std::string name{};         ///< "grant", "memory.lent_to"
     std::vector<std::string> values{};
   };
   std::vector<std::string> agents{};  ///< paths

@@ -238,6 +238,8 @@ class Prover {
   /// The answer about the net without facts; nullopt: it does not carry over.
   std::optional<PropertyResult> answer_of_free(const Question& question, const std::string& name,
                                                Searches searches, std::vector<std::uint32_t>* to_blame) {
+    if (question.property != nullptr && asks_facts(facts_.subject().net, *question.property))
+      return std::nullopt;
     std::vector<std::uint32_t> blamed;
     PropertyResult result = answer(question, name, *free_facts_, searches, &blamed);
     if (result.verdict == Verdict::unknown) return std::nullopt;

@@ -4,9 +4,11 @@
 
 #include <cstdint>
 #include <stdexcept>
+#include <string>
 #include <string_view>
 #include <utility>
 
+#include "tessera/kept.hpp"
 #include "tessera/time.hpp"
 
 namespace tessera {
@@ -90,3 +92,30 @@ class Context {
 };
 
 }  // namespace tessera
+
+/// A value of memory that the net keeps, in a line of the log: its name, or its count. It takes no format.
+namespace tessera::detail {
+struct KeptFormatter {
+  constexpr auto parse(fmt::format_parse_context& context) { return context.begin(); }
+  template <class FormatContext>
+  static auto put(std::string_view text, FormatContext& context) {
+    auto out = context.out();
+    for (const char letter : text) *out++ = letter;
+    return out;
+  }
+};
+}  // namespace tessera::detail
+template <class Value>
+struct fmt::formatter<tessera::Kept<Value>> : tessera::detail::KeptFormatter {
+  template <class FormatContext>
+  auto format(const tessera::Kept<Value>& kept, FormatContext& context) const {
+    return put(kept.view(), context);
+  }
+};
+template <int Least, int Most>
+struct fmt::formatter<tessera::Counter<Least, Most>> : tessera::detail::KeptFormatter {
+  template <class FormatContext>
+  auto format(const tessera::Counter<Least, Most>& counter, FormatContext& context) const {
+    return put(std::to_string(int{counter}), context);
+  }
+};

@@ -8,6 +8,7 @@
 #include <memory>
 #include <new>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -16,6 +17,7 @@
 
 #include "tessera/buffer.hpp"
 #include "tessera/context.hpp"
+#include "tessera/kept.hpp"
 #include "tessera/scalar.hpp"
 #include "tessera/value_encoding.hpp"
 #include "tessera/write_trace.hpp"
@@ -179,11 +181,19 @@ struct Bindings {
     const void* value;
     const ValueEncoding* encoding;  ///< nullptr: cannot be shown
   };
+  /// A field of the memory that the net changes.
+  struct KeptCell {
+    std::string_view name;
+    void* value;
+    /// position: among the values in the order of the specification.
+    void (*set)(void* value, std::uint32_t position);
+  };
   std::vector<Incoming> inputs, real_inputs;
   std::vector<Outgoing> outputs;
   std::vector<RealOutgoing> real_outputs;
   std::vector<RealLimit> limits;
   std::vector<Remembered> memory;
+  std::vector<KeptCell> kept;
   std::vector<Parameter> parameters;
   Real real;
 
@@ -251,6 +261,16 @@ struct Bindings {
   void remember(std::string_view name, const T& value) {
     memory.push_back({name, &value, value_encoding_of<T>()});
   }
+  /// A Kept or a Counter.
+  template <class T>
+  void keep(std::string_view name, T& cell) {
+    if constexpr (std::is_convertible_v<const T&, int>)
+      memory.push_back({name, &cell.value_, value_encoding_of<int>()});
+    else
+      memory.push_back({name, &cell, encoding_of_name<T>()});
+    kept.push_back(
+        {name, &cell, [](void* value, std::uint32_t position) { static_cast<T*>(value)->set(position); }});
+  }
   template <class T>
   void parameter(std::string_view name, T& value) {
     parameter(name, value, Accepted{});
@@ -275,6 +295,15 @@ struct Bindings {
   template <class T>
   static Incoming incoming(std::string_view name, Input<T>& buffer) {
     return {name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>(), value_encoding_of<T>()};
+  }
+  /// Only written: nobody reads the memory of a recording back.
+  template <class T>
+  static const ValueEncoding* encoding_of_name() {
+    static constexpr ValueEncoding encoding{
+        [] { return encoding::type_text<T>(); }, encoding::most<T>(),
+        [](const void* value, ValueSink& to) { encoding::put(*static_cast<const T*>(value), to); },
+        [](void*, std::span<const std::byte>) { return false; }};
+    return &encoding;
   }
   template <class T>
   static Outgoing outgoing(std::string_view name, Output<T>& buffer) {

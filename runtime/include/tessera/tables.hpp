@@ -84,7 +84,8 @@ struct Place {
 struct Fact {
   enum class Kind : std::uint8_t {
     received,  ///< whether the last receive of the input `name` took a value: 0 it did, 1 it did not
-    sent  ///< whether the last send of the output `name` was acknowledged in time: 0 it was, 1 it was not
+    sent,   ///< whether the last send of the output `name` was acknowledged in time: 0 it was, 1 it was not
+    memory  ///< the value of a memory cell, which the net changes: among its values in their order
   } kind;
   std::string_view name;
 };

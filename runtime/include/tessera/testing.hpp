@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <map>
 #include <memory>
 #include <optional>
@@ -81,6 +82,7 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
 
   SubsystemUnderTest() : Owner(Unit::maker()), SubsystemData<Context>(*static_cast<Owner&>(*this)) {
     this->context.period = Unit::period;
+    start_memory();
   }
 
   /// Makes a value arrive in an input: it is valid and fresh until the next iteration.
@@ -134,6 +136,7 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     if (outcome != Outcome::go_on) {
       const int entry = subsystem().route(index_of(behaviour), failed || outcome == Outcome::error);
       next = entry < 0 ? std::string() : follows(behaviour, static_cast<std::uint16_t>(entry));
+      if (entry >= 0) change_memory(behaviour, static_cast<std::uint16_t>(entry));
     }
     Bindings bindings;
     subsystem().bind(bindings);
@@ -142,6 +145,46 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     ++this->context.iteration;
     this->context.now += this->context.period;
     return next;
+  }
+
+  /// The value that a place of the table stands for, of a memory cell of the net; nullopt: of none.
+  [[nodiscard]] static std::optional<Does> kept_by(ArcEnd end) {
+    if (end.is_shared()) return std::nullopt;
+    const Does does = Unit::net().places[end.place()].does;
+    const bool is_memory =
+        does.kind == Does::Kind::know && Unit::net().facts[does.subject].kind == Fact::Kind::memory;
+    return is_memory ? std::optional(does) : std::nullopt;
+  }
+  /// The memory that the net keeps, after a transition with these ends has fired.
+  void give_memory(std::initializer_list<ArcEnd> outputs) {
+    Bindings bindings;
+    subsystem().bind(bindings);
+    for (const ArcEnd end : outputs) {
+      const std::optional<Does> given = kept_by(end);
+      if (!given) continue;
+      kept_[given->subject] = given->slot;
+      const std::string_view name = Unit::net().facts[given->subject].name;
+      for (const Bindings::KeptCell& cell : bindings.kept)
+        if (name.substr(name.find('.') + 1) == cell.name) cell.set(cell.value, given->slot);
+    }
+  }
+  [[nodiscard]] bool has_memory(std::initializer_list<ArcEnd> inputs) const {
+    for (const ArcEnd end : inputs)
+      if (const std::optional<Does> taken = kept_by(end); taken && kept_[taken->subject] != taken->slot)
+        return false;
+    return true;
+  }
+  void change_memory(std::string_view behaviour, std::uint16_t entry) {
+    for (const Transition& transition : Unit::net().transitions) {
+      if (transition.role.step != Step::leave || transition.role.behaviour != index_of(behaviour)) continue;
+      const bool taken =
+          transition.guard.kind != Guard::Kind::next ? entry == 0 : transition.guard.entry == entry;
+      if (taken && has_memory(transition.inputs)) return give_memory(transition.outputs);
+    }
+  }
+  void start_memory() {
+    for (const Transition& transition : Unit::net().transitions)
+      if (transition.role.step == Step::start) give_memory(transition.outputs);
   }
 
   /// The behaviour that starts after that entry of `next`, according to the net.
@@ -159,6 +202,8 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     if (does.kind != Does::Kind::call && does.kind != Does::Kind::begin) return "end";
     return std::string(Unit::net().behaviours[does.subject].name);
   }
+
+  std::vector<std::uint16_t> kept_ = std::vector<std::uint16_t>(Unit::net().facts.size(), 0);  // per fact
 };
 
 /// A whole system under the simulated clock, without world and devices. Tests replace some subsystems by

@@ -40,6 +40,7 @@ ValueRecorder::ValueRecorder(const Bindings& bindings, std::uint32_t first_buffe
   for (const Bindings::RealOutgoing& output : bindings.real_outputs)
     results_.emplace_back(number++, output.value, output.encoding, limit);
   number = first_memory;
+  first_memory_ = results_.size();
   for_memory(bindings, limit, [&](const Bindings::Remembered& field) {
     results_.emplace_back(number++, field.value, field.encoding, limit);
   });
@@ -96,6 +97,11 @@ void ValueRecorder::real_input(std::size_t index, Time now, Reading reading) {
 void ValueRecorder::results(Time now) {
   for (Buffer& buffer : results_)
     if (buffer.encoding != nullptr && changed(buffer)) write(buffer, now, 0, {});
+}
+
+void ValueRecorder::memory(Time now) {
+  for (std::size_t field = first_memory_; field < results_.size(); ++field)
+    if (changed(results_[field])) write(results_[field], now, 0, {});
 }
 
 }  // namespace tessera

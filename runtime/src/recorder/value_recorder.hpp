@@ -32,6 +32,8 @@ class ValueRecorder {
   void real_input(std::size_t index, Time now, Reading reading);
   /// Records the outputs and the fields of memory that have changed.
   void results(Time now);
+  /// Records the fields of memory that have changed.
+  void memory(Time now);
 
  private:
   struct Buffer {
@@ -49,6 +51,7 @@ class ValueRecorder {
 
   RecordingLane& lane_;
   std::vector<Buffer> inputs_, results_, real_inputs_;
+  std::size_t first_memory_ = 0;          // in results_
   std::vector<const Arrival*> arrivals_;  // of inputs_
 };
 

@@ -241,7 +241,7 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
       decided_[place] = operations_.route(entry.subject, at_);
       break;
     case Does::Kind::know:
-      operations_.learn(entry.subject, entry.slot);
+      operations_.learn(entry.subject, entry.slot, at_);
       break;
   }
 }

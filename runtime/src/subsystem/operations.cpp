@@ -41,6 +41,12 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
+  for (const Fact& fact : parts_.instance->net->facts) {
+    KeptCell& kept = kept_.emplace_back();
+    if (fact.kind != Fact::Kind::memory) continue;
+    for (const Bindings::KeptCell& cell : parts_.bindings.kept)
+      if (fact.name.substr(fact.name.find('.') + 1) == cell.name) kept.cell = &cell;
+  }
   context_.attach(this);
   context_.period = parts_.instance->period;
   context_.index = index_of_agent(parts_.path);
@@ -244,6 +250,14 @@ void Operations::refresh_ages(Time now) {
 }
 
 // -------------------------------------------------------------------------------------------- conditions
+
+void Operations::learn(std::uint16_t fact, std::uint16_t value, Time now) {
+  channels_.learn(fact, value);
+  KeptCell& kept = kept_[fact];
+  if (kept.cell == nullptr || std::exchange(kept.value, value) == value) return;
+  kept.cell->set(kept.cell->value, value);
+  if (parts_.values != nullptr) parts_.values->memory(now);
+}
 
 Outcome Operations::decide(std::uint16_t behaviour, Time now) {
   refresh_ages(now);

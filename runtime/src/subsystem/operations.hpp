@@ -55,7 +55,7 @@ class Operations final : public ContextServices {
   void note_answer(std::uint32_t port) { channels_.note_answer(port); }
 
   /// A token has arrived in the place of that value of a fact of the net.
-  void learn(std::uint16_t fact, std::uint16_t value) { channels_.learn(fact, value); }
+  void learn(std::uint16_t fact, std::uint16_t value, Time now);
 
   // Conditions. Ages are those at `now`; a condition that throws is an error.
   [[nodiscard]] Outcome decide(std::uint16_t behaviour, Time now);
@@ -119,6 +119,11 @@ class Operations final : public ContextServices {
   ChannelValues channels_;
   DeviceCommands devices_;
   WrittenOutputs written_;
+  struct KeptCell {
+    const Bindings::KeptCell* cell = nullptr;  // nullptr: the fact is no memory
+    std::uint16_t value = 0;
+  };
+  std::vector<KeptCell> kept_;                      // per fact of the net
   std::vector<const Bindings::Outgoing*> checked_;  // outputs that must be finite
   Time called_at_{};
   Time began_at_{};              // the behaviour: its first call

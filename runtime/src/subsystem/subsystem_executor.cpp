@@ -294,7 +294,8 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
       route(place);
       break;
     case Does::Kind::know:
-      operations_.learn(entry.subject, entry.slot);
+      operations_.learn(entry.subject, entry.slot, now());
+      if (memory_ != nullptr) memory_->show();
       break;
   }
 }

@@ -6,6 +6,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
+#include "spec/agents/few_values.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/model/endings.hpp"
@@ -23,6 +24,12 @@ constexpr std::array generated =
 
 constexpr const char* next_hint = "write a behaviour, or a list such as [{ to: search, when: error }, end]";
 
+const Entry* entry_of(const Entry& behaviour, std::string_view key) {
+  const std::vector<Entry>& entries = behaviour.value->entries;
+  const auto found = std::ranges::find(entries, key, &Entry::key);
+  return found == entries.end() ? nullptr : &*found;
+}
+
 bool holds(const std::vector<Field>& fields, std::string_view name) {
   return std::any_of(fields.begin(), fields.end(), [name](const Field& field) { return field.name == name; });
 }
@@ -39,6 +46,8 @@ class BehaviourReader {
   }
 
   std::vector<Behaviour> read() {
+    for (const Entry& entry : entries_)
+      sets_.push_back(read_changes(entry_of(entry, "sets"), scope_.memory, out_));
     std::vector<Behaviour> behaviours;
     behaviours.reserve(entries_.size());
     for (const Entry& entry : entries_) behaviours.push_back(read_one(entry));
@@ -59,7 +68,8 @@ class BehaviourReader {
 
   Behaviour read_one(const Entry& entry) {
     const Section section(*entry.value, entry.span, "a behaviour",
-                          {"terminal", "error", "next", "send", "receive", "transfer", "takes"}, out_);
+                          {"terminal", "error", "next", "send", "receive", "transfer", "takes", "sets"},
+                          out_);
     Behaviour behaviour;
     behaviour.name = entry.key;
     behaviour.span = entry.span;
@@ -68,6 +78,7 @@ class BehaviourReader {
     check_distinct_names(behaviour);
     read_next(section.find("next"), behaviour);
     complete_next(behaviour);
+    behaviour.sets = sets_[static_cast<std::size_t>(&entry - entries_.data())];
     behaviour.send = read_buffers(section.find("send"), outputs_, inputs_, "output");
     behaviour.receive = read_buffers(section.find("receive"), inputs_, outputs_, "input");
     behaviour.transfer = read_transfer(section.find("transfer"));
@@ -105,13 +116,19 @@ class BehaviourReader {
   void read_step(const Node& node, Span at, Behaviour& behaviour) {
     Next step{{}, {}, at};
     if (node.is_map()) {
-      const Section section(node, at, "an entry of 'next'", {"to", "when"}, out_);
+      const Section section(node, at, "an entry of 'next'", {"to", "when", "sets"}, out_);
       const Entry* to = section.require("to", next_hint);
       if (to != nullptr) read_target(*to->value, to->span, step);
       if (const Entry* when = section.find("when")) step.when = read_when(*when, behaviour, scope_, out_);
+      step.sets = read_changes(section.find("sets"), scope_.memory, out_);
     } else {
       read_target(node, at, step);
     }
+    if (step.behaviour.valid()) {
+      const std::vector<Change>& then = sets_[step.behaviour.value];
+      step.sets.insert(step.sets.end(), then.begin(), then.end());
+    }
+    step.may_be_blocked = check_entry(step, scope_.memory, out_);
     behaviour.next.push_back(std::move(step));
   }
 
@@ -192,6 +209,7 @@ class BehaviourReader {
   const std::vector<Field>& outputs_;
   Diagnostics& out_;
   std::unordered_map<std::string, BehaviourId> by_name_;
+  std::vector<std::vector<Change>> sets_;  // per behaviour
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <unordered_map>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/agents/few_values.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/literals.hpp"
@@ -18,7 +19,12 @@ Field read_cell(const Entry& entry, const Types& types, Diagnostics& out) {
     cell.type = types.parse(*entry.value, entry.span, out);
     return cell;
   }
-  const Section section(*entry.value, entry.span, "a memory cell", {"type", "initial"}, out);
+  const Section section(*entry.value, entry.span, "a memory cell", {"type", "initial", "values", "counts"},
+                        out);
+  if (section.find("values") != nullptr || section.find("counts") != nullptr) {
+    cell.few = read_few_values(section, out);
+    return cell;
+  }
   if (const Entry* type = section.require("type", "for example { type: float64, initial: 1.5 }")) {
     cell.type = types.parse(*type->value, type->span, out);
   }

@@ -13,7 +13,9 @@ namespace tessera::spec {
 [[nodiscard]] std::vector<Field> read_buffers(const Entry* entry, std::string_view what, const Types& types,
                                               Diagnostics& out);
 
-/// NAME: TYPE or NAME: { type, initial } pairs. entry may be null.
+/// NAME: TYPE, NAME: { type, initial }, NAME: { values } or NAME: { counts } pairs. entry may be null.
+///
+/// Errors: besides those of names and types, those of read_few_values.
 [[nodiscard]] std::vector<Field> read_memory(const Entry* entry, const Types& types, Diagnostics& out);
 
 /// NAME: VALUE or NAME: { type, default, min, max, unit } pairs. entry may be null.

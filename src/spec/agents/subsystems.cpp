@@ -6,6 +6,7 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/behaviours.hpp"
 #include "spec/agents/buffers.hpp"
+#include "spec/agents/few_values.hpp"
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
 #include "spec/agents/safe_commands.hpp"
@@ -137,7 +138,9 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                                around.types};
     subsystem.behaviours = read_behaviours(*behaviours, scope, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
+    check_start(subsystem, out);
     check_behaviour_flow(subsystem, out);
+    check_counters(subsystem, out);
   }
   return subsystem;
 }

@@ -135,7 +135,7 @@ void ConditionNames::read_word(std::size_t at) {
     value.begin = word.position;
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
-  } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text)) {
+  } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text) && !read_value(at)) {
     const std::string home = other_home(word.text), name = in_quotes(word.text);
     const bool is_of_cpp = may_be_of_cpp(word.text, scope_.types);
     const std::string says = is_of_cpp ? name + " is a name of C++, not " + home : "unknown name " + name;
@@ -213,7 +213,7 @@ void ConditionNames::read_root(std::size_t at) {
       return false;
     }
     refer(kind, path, found, name);
-    chains_[at] = read_members(at, at + 3, value_of(all[*found].type), path, statuses);
+    chains_[at] = read_members(at, at + 3, value_of(all[*found]), path, statuses);
     return true;
   };
   std::string what;

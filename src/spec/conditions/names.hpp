@@ -59,7 +59,15 @@ class ConditionNames {
   [[nodiscard]] std::string other_home(std::string_view name) const;
   [[nodiscard]] bool holds_real(bool in) const;
 
+  /// A value of a memory cell with few values; false: the word is none.
+  bool read_value(std::size_t at);
+  [[nodiscard]] const Field* cell_at(std::size_t at) const;
+  [[nodiscard]] const Field* compared_cell(std::size_t at) const;
+  [[nodiscard]] const Field* cell_with_value(std::string_view name) const;
+
   [[nodiscard]] Value value_of(const Type& type) const;
+  [[nodiscard]] Value value_of(const Field& data) const;
+  [[nodiscard]] Value value_of(const Parameter& parameter) const { return value_of(parameter.type); }
   void refer(Reference::Kind kind, std::string path, std::optional<std::uint32_t> target, const Token& at,
              StructureId structure = {});
   [[nodiscard]] Span span_of(const Token& token) const {

@@ -78,6 +78,7 @@ void ConditionOperators::need_truth(const Value& value, const std::string& where
                   "every number but 0 is true; compare it: " + text_of(value) + " > 0");
     return;
   }
+  if (value.kind == Is::choice) return compare_choice({}, value, {});
   std::string hint;
   if (value.kind == Is::duration) hint = "compare it: " + text_of(value) + " > 500 ms";
   if (value.kind == Is::structure && value.declared) {
@@ -98,6 +99,11 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
     return result;
   }
   hint_at_minutes(left, right);
+  if (left.kind == Is::choice || right.kind == Is::choice) {
+    if (left.kind != Is::unknown && right.kind != Is::unknown) compare_choice(mark, left, right);
+    return result;
+  }
+  check_count(mark, left, right);
   for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
     if (one.kind == Is::unknown || other.kind == Is::unknown) return result;
     if (one.kind == other.kind) continue;
@@ -139,6 +145,28 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
   }
   if (check_signs(mark, left, right)) check_units(mark, left, right);
   return result;
+}
+
+/// A memory cell with values is equal to one of its values, or not. mark: none if it is not compared.
+void ConditionOperators::compare_choice(const Token& mark, const Value& left, const Value& right) {
+  const Value& cell = left.kind == Is::choice && !left.literal ? left : right;
+  const bool fits = left.few == right.few && left.literal != right.literal;
+  if (fits && mark.is_one_of({"==", "!=", "not_eq"})) return;
+  const Value& at = cell.few == nullptr ? left : cell;
+  mistake("E263", at, described(at),
+          fmt::format("compare it with one of its values: memory.{} == {}", at.few->name,
+                      at.few->few->names.front()));
+}
+
+/// An equality that a counter cannot have is a mistake of the author.
+void ConditionOperators::check_count(const Token& mark, const Value& left, const Value& right) {
+  if (!mark.is_one_of({"==", "!=", "not_eq"})) return;
+  for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
+    if (one.few == nullptr || !other.literal || one.few->few->find(text_of(other))) continue;
+    if (text_of(other).find_first_not_of("0123456789") != std::string::npos) continue;
+    mistake("E264", other, fmt::format("{} is never {}", text_of(one), text_of(other)),
+            "it is " + one.few->few->in_words());
+  }
 }
 
 /// Refuses what the build would refuse. false: it has. The type of a sum or a product is not known exactly.

@@ -12,7 +12,8 @@ namespace tessera::spec {
 /// it does not understand (casts, templates, assignments to unknown things) is left to the compiler.
 ///
 /// Errors: E209 an operator is missing or misspelt; E212 operands that do not go together, a condition that
-///         is neither true nor false. Warnings: W325 numbers of different units,
+///         is neither true nor false; E263 a memory cell with values that is not compared with one of them;
+///         E264 a counter that is compared with a number that it never has. Warnings: W325 numbers of different units,
 ///         W326 a number as true or false.
 class ConditionOperators {
  public:
@@ -45,6 +46,8 @@ class ConditionOperators {
   Value combine(const Token& mark, const Value& left, const Value& right);
   Value combine_logical(const Token& mark, const Value& left, const Value& right);
   Value compare(const Token& mark, const Value& left, const Value& right);
+  void compare_choice(const Token& mark, const Value& left, const Value& right);
+  void check_count(const Token& mark, const Value& left, const Value& right);
   void check_bits(const Token& mark, const Value& left, const Value& right);
   Value add(const Token& mark, const Value& left, const Value& right);
   Value multiply(const Token& mark, const Value& left, const Value& right);

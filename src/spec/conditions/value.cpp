@@ -18,6 +18,8 @@ std::string in_words(const Value& value, const Types& types) {
       return "a string";
     case Value::Kind::structure:
       return "a structure (" + types.spelled(value.type) + ")";
+    case Value::Kind::choice:
+      return value.literal ? "a value of memory." + value.few->name : value.few->few->in_words();
     case Value::Kind::unknown:
       break;
   }

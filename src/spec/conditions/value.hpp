@@ -19,16 +19,18 @@ struct Value {
     time,
     text,
     array,
-    structure
+    structure,
+    choice  ///< a memory cell with values, or one of its values (`literal`)
   } kind = Kind::unknown;
   bool declared = false;    ///< `type` means something
   bool literal = false;     ///< a number or a duration as it is written
   bool comparison = false;  ///< a comparison without brackets around it
   Type type{};
   std::size_t begin = 0, end = 0;  ///< in the text, in bytes
+  const Field* few = nullptr;      ///< the memory cell with few values that it is, or whose value it is
 
   [[nodiscard]] bool is_compound() const {
-    return kind == Kind::array || kind == Kind::structure || kind == Kind::text;
+    return kind == Kind::array || kind == Kind::structure || kind == Kind::text || kind == Kind::choice;
   }
   [[nodiscard]] bool is_plain() const { return kind == Kind::boolean || kind == Kind::number; }
 };

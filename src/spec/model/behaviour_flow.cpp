@@ -58,7 +58,11 @@ void check_entries(const Behaviour& behaviour, const Endings& endings, Diagnosti
                 behind ? "entries are tried in order; put the unconditional one last"
                        : "the constant conditions of the behaviour, and the entries before it, exclude it");
   }
-  if (endings.none_possible(Ending::terminal))
+  // Counters that stop an entry are another matter: check_counters.
+  const Endings uncounted(
+      behaviour, [](const Expression& one) { return truth_of(one); },
+      [](const Next&) { return Truth::always; });
+  if (uncounted.none_possible(Ending::terminal))
     out.warning(
         "W312", behaviour.next[written_entries(behaviour) - 1].span,
         "behaviour " + in_quotes(behaviour.name) + " may end as terminal with no entry of 'next' to take",

@@ -72,7 +72,8 @@ NextId end_of(const Behaviour& behaviour) {
   const auto& next = behaviour.next;
   if (!next.empty() && next.back().implied) return {static_cast<std::uint32_t>(next.size() - 1)};
   for (const NextId entry : next.ids())
-    if (next[entry].when.kind == When::Kind::always) return next[entry].behaviour.valid() ? NextId{} : entry;
+    if (next[entry].when.kind == When::Kind::always)
+      return next[entry].behaviour.valid() || !next[entry].sets.empty() ? NextId{} : entry;
   return {};
 }
 
@@ -93,8 +94,10 @@ void complete_next(Behaviour& behaviour) {
 Endings::Endings(const Behaviour& behaviour)
     : Endings(behaviour, [](const Expression& expression) { return truth_of(expression); }) {}
 
-Endings::Endings(const Behaviour& behaviour, TruthOf known)
-    : behaviour_(behaviour), known_(std::move(known)) {
+Truth allows_some(const Next& entry) { return entry.may_be_blocked ? Truth::free : Truth::always; }
+
+Endings::Endings(const Behaviour& behaviour, TruthOf known, Allows allows)
+    : behaviour_(behaviour), known_(std::move(known)), allows_(std::move(allows)) {
   for (const Ending ending : all_endings) try_entries(ending);
 }
 
@@ -126,7 +129,11 @@ void Endings::try_entries(Ending ending) {
   for (const NextId entry : behaviour_.next.ids()) {
     if (earlier == Truth::always) break;
     if (!asks(entry, ending)) continue;
-    const Truth alone = truth_alone(behaviour_.next[entry].when, ending, held, known_);
+    const Next& next = behaviour_.next[entry];
+    const Truth allowed = allows_(next);
+    HeldExpressions unasked = held;  // nothing follows from an entry that was not possible
+    Truth alone = truth_alone(next.when, ending, allowed == Truth::always ? held : unasked, known_);
+    if (allowed == Truth::never || (allowed == Truth::free && alone == Truth::always)) alone = allowed;
     taken[entry] = alone == Truth::always ? (earlier == Truth::never ? Truth::always : Truth::free) : alone;
     if (alone != Truth::never) earlier = alone;
   }

@@ -17,6 +17,9 @@ using TruthOf = std::function<Truth(const Expression&)>;
 /// A condition holds if one of its expressions holds.
 [[nodiscard]] Truth truth_of(const Condition& condition);
 [[nodiscard]] Truth truth_of(const Condition& condition, const TruthOf& known);
+/// Whether the changes of an entry of `next` to memory are possible: a counter stays in its range.
+using Allows = std::function<Truth(const Next&)>;
+[[nodiscard]] Truth allows_some(const Next& entry);
 
 /// How an iteration can end its behaviour.
 enum class Ending : std::uint8_t {
@@ -37,6 +40,8 @@ inline constexpr std::array all_endings{Ending::terminal, Ending::error, Ending:
 ///   entry without `when`, if that is `end`, or as an entry that complete_next has added.
 /// * All other entries are tried after a terminal ending alone.
 ///
+/// * An entry whose change of a counter is not possible does not hold (Next::may_be_blocked).
+///
 /// Some facts are known: constants, the kind of the ending, that one of the expressions of the condition
 /// that ended the behaviour holds, and which named conditions did not hold when earlier entries asked for
 /// them. `known` may say more. Everything else is free, even two expressions with the same text.
@@ -44,7 +49,7 @@ class Endings {
  public:
   /// Precondition: `behaviour` outlives this object.
   explicit Endings(const Behaviour& behaviour);
-  Endings(const Behaviour& behaviour, TruthOf known);
+  Endings(const Behaviour& behaviour, TruthOf known, Allows allows = allows_some);
 
   /// Whether the behaviour can end in that way. It can always end by a failure.
   [[nodiscard]] bool possible(Ending ending) const;
@@ -65,6 +70,7 @@ class Endings {
 
   const Behaviour& behaviour_;
   TruthOf known_;
+  Allows allows_;
   std::array<Numbered<NextId, Truth>, all_endings.size()> taken_;
   std::array<bool, all_endings.size()> none_{};
   std::array<bool, all_endings.size()> unrouted_{};

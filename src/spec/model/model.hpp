@@ -13,6 +13,7 @@
 #include "diagnostics/diagnostics.hpp"
 #include "spec/model/communication_model.hpp"
 #include "spec/model/deployment.hpp"
+#include "spec/model/few_values.hpp"
 #include "spec/model/ids.hpp"
 #include "spec/model/panel.hpp"
 #include "spec/model/property.hpp"
@@ -56,6 +57,7 @@ struct Field {
   Type type;
   std::string initial;  ///< C++ initialiser without braces; empty: zero. Only memory cells have one.
   Span span;
+  std::optional<FewValues> few{};  ///< of a memory cell that is part of the net; `type` then means nothing
 };
 
 struct Structure {
@@ -82,6 +84,7 @@ struct Reference {
     output,
     real,
     memory,
+    value,  ///< of a memory cell with few values
     own_parameter,
     system_parameter,
     field,    ///< of a structure
@@ -91,7 +94,7 @@ struct Reference {
   } kind = Kind::input;
   std::string path;  ///< up to and with this part, without subscripts: "in.line.left"
   /// Into Subsystem::inputs, ::outputs, ::real, ::memory or ::parameters, or Model::parameters. A field: into
-  /// Structure::fields. Otherwise none.
+  /// Structure::fields. A value: into FewValues::names. Otherwise none.
   std::optional<std::uint32_t> target{};
   StructureId structure{};  ///< of a field
   Span span;                ///< of this part alone; of the whole expression where its lines are joined
@@ -135,6 +138,10 @@ struct Next {
   When when;
   Span span;
   bool implied = false;  ///< not in the file: complete_next has added it
+  /// To memory when it is taken; those of the behaviour that it leads to come last.
+  std::vector<Change> sets{};
+  /// A counter may have no value for `sets`. The entry is then not taken, as if its condition did not hold.
+  bool may_be_blocked = false;
 };
 
 enum class Transfer : std::uint8_t { sequential, parallel };
@@ -150,7 +157,8 @@ struct Behaviour {
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
-  Duration takes{0};  ///< simulated time of the transition function
+  Duration takes{0};           ///< simulated time of the transition function
+  std::vector<Change> sets{};  ///< to memory when it begins
   Span span;
 };
 

@@ -24,16 +24,33 @@ struct NetPath {
   diagnostics::Span span;
 };
 
+/// What a memory cell with few values is compared with.
+struct Comparison {
+  enum class Kind : std::uint8_t {
+    equal,
+    unequal,
+    less,
+    less_equal,
+    greater,
+    greater_equal
+  } kind = Kind::equal;
+  PathPart value;        ///< a name, or a count
+  diagnostics::Span at;  ///< of the operator
+};
+
 /// A statement about one marking.
 struct Statement {
   enum class Kind : std::uint8_t {
-    token,     ///< a token in the place or page at `path`; with `to`, in the memory of that channel
+    /// A token in the place or page at `path`; with `to`, in the memory of that channel; with `compared`, in the
+    /// places of those values of the memory cell at `path`.
+    token,
     negation,  ///< negation of the only part
     all,       ///< all parts
     any        ///< at least one part
   } kind = Kind::token;
   NetPath path;
   std::optional<NetPath> to;
+  std::optional<Comparison> compared{};
   std::vector<Statement> parts;
 };
 

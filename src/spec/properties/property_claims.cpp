@@ -169,6 +169,7 @@ class ClaimReader {
     std::optional<NetPath> path = net_path(formula.path, i, star);
     if (!path) return std::nullopt;
     made.path = std::move(*path);
+    made.compared = formula.compared;
     if (!formula.to) return made;
     made.to = net_path(*formula.to, i, star);
     if (!made.to) return std::nullopt;

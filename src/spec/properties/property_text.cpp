@@ -1,5 +1,7 @@
 #include "spec/properties/property_text.hpp"
 
+#include <algorithm>
+#include <array>
 #include <string_view>
 #include <utility>
 
@@ -154,11 +156,38 @@ class PropertyTextReader {
     if (!from) return std::nullopt;
     formula.path = std::move(*from);
     formula.span = formula.path.whole;
-    if (!take("->")) return formula;
+    if (!compare(formula)) return std::nullopt;
+    if (formula.compared || !take("->")) return formula;
     if (word().empty()) return complain_here();
     formula.to = path();
     if (!formula.to) return std::nullopt;
     return formula;
+  }
+
+  /// "== nobody" behind a path; false: a comparison without a value.
+  bool compare(Formula& formula) {
+    using Kind = Comparison::Kind;
+    constexpr std::array<std::pair<std::string_view, Kind>, 6> operators{{{"==", Kind::equal},
+                                                                          {"!=", Kind::unequal},
+                                                                          {"<=", Kind::less_equal},
+                                                                          {">=", Kind::greater_equal},
+                                                                          {"<", Kind::less},
+                                                                          {">", Kind::greater}}};
+    for (const auto& [mark, kind] : operators) {
+      if (!take(mark)) continue;
+      const diagnostics::Span at = text_.part(at_ - mark.size(), mark.size());
+      const std::string_view value = word();
+      if (value.empty()) {
+        static_cast<void>(rest());
+        fail("E114", std::min(at_, end_ - 1), 1, "a value should follow " + in_quotes(mark),
+             "for example dock.control.memory.lent_to == nobody");
+        return false;
+      }
+      formula.compared = {kind, {std::string(value), text_.part(at_, value.size())}, at};
+      at_ += value.size();
+      return true;
+    }
+    return true;
   }
 
   std::optional<WrittenPath> path() {

@@ -12,6 +12,7 @@
 ///
 ///     formula = conjunction { "or" conjunction }      conjunction = negation { "and" negation }
 ///     negation = "not" negation | "(" formula ")" | ("any" | "all") "(" formula ")" | path [ "->" path ]
+///              | path ( "==" | "!=" | "<" | "<=" | ">" | ">=" ) ( NAME | NUMBER )
 ///     path = NAME [ "[" index "]" ] { "." NAME }
 namespace tessera::spec {
 
@@ -25,7 +26,7 @@ struct WrittenPath {
 
 struct Formula {
   enum class Kind : std::uint8_t {
-    path,      ///< a token in that place; with `to`, in the memory of that channel
+    path,      ///< a token in that place; with `to`, in the memory of that channel; or `compared`
     negation,  ///< negation of the only part
     both,      ///< all parts hold
     either,    ///< at least one part holds
@@ -34,6 +35,7 @@ struct Formula {
   } kind = Kind::path;
   WrittenPath path;
   std::optional<WrittenPath> to;
+  std::optional<Comparison> compared{};
   std::vector<Formula> parts;
   Span span;  ///< of its first word or path
 };

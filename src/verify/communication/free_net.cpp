@@ -132,6 +132,16 @@ std::optional<FreeNet> free_net(const net::Net& net, const std::vector<net::Inva
   return free;
 }
 
+bool asks_facts(const net::Net& net, const net::Property& property) {
+  const auto asks = [&net](const auto& self, const net::Statement& statement) -> bool {
+    return std::ranges::any_of(statement.places, [&](PlaceId place) { return net[place].fact.valid(); }) ||
+           std::ranges::any_of(statement.parts, [&](const net::Statement& part) { return self(self, part); });
+  };
+  return std::ranges::any_of(property.claims, [&](const net::Claim& claim) {
+    return asks(asks, claim.what) || asks(asks, claim.then);
+  });
+}
+
 std::optional<std::vector<TransitionId>> lifted(const net::Net& free, const net::Net& net,
                                                 const std::vector<TransitionId>& run) {
   std::map<Common, std::vector<TransitionId>> copies;

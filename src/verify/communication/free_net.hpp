@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "net/property.hpp"
 #include "verify/communication/communication.hpp"
 #include "verify/verify.hpp"
 
@@ -22,6 +23,9 @@ struct FreeNet {
 /// nullopt: no subsystem knows anything. Linear in the net.
 [[nodiscard]] std::optional<FreeNet> free_net(const net::Net& net,
                                               const std::vector<net::Invariant>& invariants);
+
+/// Whether the property speaks of values of facts, which the free net does not have.
+[[nodiscard]] bool asks_facts(const net::Net& net, const net::Property& property);
 
 /// The run of the net that is the given run of its free net. Both nets are abstract ones under one assumption.
 /// nullopt: what the subsystems know prevents it.

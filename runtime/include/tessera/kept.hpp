@@ -1,0 +1,75 @@
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+namespace tessera {
+
+struct Bindings;
+
+/// A value of memory that is part of the net (`values` in the specification). The net changes it, with its
+/// firings: transition functions and conditions read it as the enumeration.
+///
+/// Value: an enumeration that counts from 0. `tessera_names_of(Value)` gives the names of its enumerators.
+template <class Value>
+class Kept {
+ public:
+  Kept() = default;
+  Kept(const Kept&) = default;
+  Kept& operator=(const Kept&) = delete;
+  Kept(Kept&&) = default;
+  Kept& operator=(Kept&&) = delete;
+  ~Kept() = default;
+
+  constexpr operator Value() const { return value_; }  // NOLINT(google-explicit-constructor)
+  friend constexpr bool operator==(const Kept& kept, Value value) { return kept.value_ == value; }
+
+  /// The name of the value. Recordings keep it as a text.
+  [[nodiscard]] std::string_view view() const {
+    return tessera_names_of(Value{})[static_cast<std::size_t>(value_)];
+  }
+  [[nodiscard]] static constexpr std::size_t capacity() {
+    std::size_t longest = 0;
+    for (const std::string_view name : tessera_names_of(Value{})) longest = std::max(longest, name.size());
+    return longest;
+  }
+
+ private:
+  friend struct Bindings;
+  void set(std::uint32_t position) { value_ = static_cast<Value>(position); }
+  Value value_{};
+};
+
+/// A counter of memory that is part of the net (`counts` in the specification), from Least to Most. The net changes
+/// it, with its firings: transition functions and conditions read it as a number.
+template <int Least, int Most>
+class Counter {
+ public:
+  Counter() = default;
+  Counter(const Counter&) = default;
+  Counter& operator=(const Counter&) = delete;
+  Counter(Counter&&) = default;
+  Counter& operator=(Counter&&) = delete;
+  ~Counter() = default;
+
+  constexpr operator int() const { return value_; }  // NOLINT(google-explicit-constructor)
+
+  static constexpr int least = Least, most = Most;
+
+ private:
+  friend struct Bindings;
+  void set(std::uint32_t position) { value_ = Least + static_cast<int>(position); }
+  int value_ = Least;
+};
+
+/// A name that several enumerations have, in conditions: it is compared with any of them.
+template <auto Value>
+struct NamedValue {
+  constexpr operator decltype(Value)() const { return Value; }  // NOLINT(google-explicit-constructor)
+};
+template <auto... Values>
+struct NamedValues : NamedValue<Values>... {};
+
+}  // namespace tessera

@@ -1,0 +1,90 @@
+#include "codegen/kept_memory.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cctype>
+#include <set>
+#include <vector>
+
+#include "codegen/cpp_text.hpp"
+
+namespace tessera::codegen {
+namespace {
+
+/// "LentTo" of "lent_to".
+std::string upper_camel(std::string_view name) {
+  std::string out;
+  bool upper = true;
+  for (const char letter : name) {
+    if (letter != '_')
+      out += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(letter))) : letter;
+    upper = letter == '_';
+  }
+  return out;
+}
+
+bool has_enumeration(const spec::Field& cell) { return cell.few && !cell.few->counts; }
+
+/// Members of `Memory`, types of the specification and other enumerations keep their names.
+std::string enumeration_of(const spec::Model& model, const spec::Subsystem& subsystem,
+                           const spec::Field& cell) {
+  std::set<std::string> taken;
+  for (const spec::Structure& structure : model.structures) taken.insert(structure.name);
+  for (const spec::Field& other : subsystem.memory) taken.insert(other.name);
+  for (const spec::Field& other : subsystem.memory) {
+    if (!has_enumeration(other)) continue;
+    std::string name = upper_camel(other.name);
+    while (taken.contains(name) || name == "Memory") name += "Value";
+    if (&other == &cell) return name;
+    taken.insert(std::move(name));
+  }
+  return {};
+}
+
+}  // namespace
+
+std::string kept_type(const spec::Model& model, const spec::Subsystem& subsystem, const spec::Field& cell) {
+  if (cell.few->counts)
+    return fmt::format("tessera::Counter<{}, {}>", cell.few->names.front(), cell.few->names.back());
+  return fmt::format("tessera::Kept<{}>", enumeration_of(model, subsystem, cell));
+}
+
+std::string kept_enumerations(const spec::Model& model, const spec::Subsystem& subsystem) {
+  std::string out;
+  for (const spec::Field& cell : subsystem.memory) {
+    if (!has_enumeration(cell)) continue;
+    const std::string name = enumeration_of(model, subsystem, cell);
+    std::vector<std::string_view> values(cell.few->names.begin(), cell.few->names.end());
+    std::vector<std::string> literals;
+    for (const std::string_view value : values) literals.push_back(string_literal(value));
+    std::string text = enumeration(fmt::format("enum class {} : std::uint8_t", name), values);
+    text += fmt::format("friend constexpr std::array<std::string_view, {}> tessera_names_of({}) {{\n",
+                        values.size(), name);
+    const std::string list = fmt::format("  return {{{}}};\n", fmt::join(literals, ", "));
+    text += (list.size() <= column_limit - 2
+                 ? list
+                 : fmt::format("  return {{\n      {},\n  }};\n", fmt::join(literals, ",\n      "))) +
+            "}\n";
+    for (std::size_t begin = 0; begin < text.size();) {
+      const std::size_t end = text.find('\n', begin) + 1;
+      out += "  " + text.substr(begin, end - begin);
+      begin = end;
+    }
+    out += '\n';
+  }
+  return out;
+}
+
+std::string value_constant(const spec::Model& model, const spec::Subsystem& subsystem,
+                           std::string_view value) {
+  std::vector<std::string> meanings;
+  for (const spec::Field& cell : subsystem.memory)
+    if (has_enumeration(cell) && cell.few->find(value))
+      meanings.push_back(fmt::format("Memory::{}", enumeration_of(model, subsystem, cell)));
+  if (meanings.size() == 1) return fmt::format("{0} {1} = {0}::{1};", meanings.front(), value);
+  for (std::string& meaning : meanings) meaning += fmt::format("::{}", value);
+  return fmt::format("tessera::NamedValues<{}> {}{{}};", fmt::join(meanings, ", "), value);
+}
+
+}  // namespace tessera::codegen

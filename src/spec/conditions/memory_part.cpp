@@ -1,0 +1,76 @@
+#include "spec/conditions/memory_part.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <string_view>
+
+namespace tessera::spec {
+namespace {
+
+using Tokens = std::span<const Token>;
+
+bool is_comparison(const Token& token) {
+  return token.is_one_of({"==", "!=", "not_eq", "<", "<=", ">", ">="});
+}
+
+/// "lent_to" of "memory.lent_to"; empty: the tokens are something else.
+std::string_view cell_in(Tokens tokens) {
+  const bool fits = tokens.size() == 3 && tokens[0].is("memory") && tokens[1].is(".") &&
+                    tokens[2].kind == Token::Kind::name;
+  return fits ? tokens[2].text : std::string_view{};
+}
+
+template <class Number>
+bool compares(const Token& mark, Number left, Number right) {
+  if (mark.is("==")) return left == right;
+  if (mark.is_one_of({"!=", "not_eq"})) return left != right;
+  if (mark.is("<")) return left < right;
+  if (mark.is("<=")) return left <= right;
+  return mark.is(">") ? left > right : left >= right;
+}
+
+std::optional<std::int64_t> number_in(const Token& token) {
+  std::int64_t number = 0;
+  const char* const end = token.text.data() + token.text.size();
+  const bool octal = token.text.size() > 1 && token.text.front() == '0';
+  if (token.kind != Token::Kind::number || octal) return std::nullopt;
+  const auto [stop, error] = std::from_chars(token.text.data(), end, number);
+  return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+}
+
+/// Per value of the cell, whether it fits; empty: the constant is none that the net knows.
+std::vector<bool> fitting(const FewValues& few, const Token& mark, const Token& constant, bool is_left) {
+  std::optional<std::int64_t> other = number_in(constant);
+  if (!few.counts) {
+    const auto found = constant.kind == Token::Kind::name ? few.find(constant.text) : std::nullopt;
+    other = found ? std::optional<std::int64_t>(*found) : std::nullopt;
+    if (!mark.is_one_of({"==", "!=", "not_eq"})) return {};
+  }
+  std::vector<bool> holds;
+  for (std::uint32_t value = 0; other && value < few.names.size(); ++value) {
+    const std::int64_t mine = few.counts ? std::int64_t{few.least} + value : value;
+    holds.push_back(is_left ? compares(mark, *other, mine) : compares(mark, mine, *other));
+  }
+  return holds;
+}
+
+}  // namespace
+
+std::optional<MemoryPart> memory_part(Tokens part, const std::vector<Field>& memory) {
+  if (part.size() != 3 && part.size() != 5) return std::nullopt;
+  const bool is_left = part.size() == 5 && is_comparison(part[1]);  // the constant
+  const std::string_view name = cell_in(is_left ? part.last(3) : part.first(3));
+  const auto cell = std::ranges::find(memory, name, &Field::name);
+  if (name.empty() || cell == memory.end() || !cell->few) return std::nullopt;
+  MemoryPart found{static_cast<std::uint32_t>(cell - memory.begin()), {}};
+  if (part.size() == 3) {
+    for (std::uint32_t value = 0; cell->few->counts && value < cell->few->names.size(); ++value)
+      found.holds.push_back(cell->few->least + value != 0);
+  } else {
+    const Token& mark = is_left ? part[1] : part[3];
+    if (is_comparison(mark)) found.holds = fitting(*cell->few, mark, is_left ? part[0] : part[4], is_left);
+  }
+  return found.holds.empty() ? std::nullopt : std::optional(std::move(found));
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,42 @@
+#include "spec/model/few_values.hpp"
+
+#include <algorithm>
+
+namespace tessera::spec {
+
+std::optional<std::uint32_t> FewValues::find(std::string_view name) const {
+  const auto found = std::ranges::find(names, name);
+  if (found == names.end()) return std::nullopt;
+  return static_cast<std::uint32_t>(found - names.begin());
+}
+
+std::string FewValues::in_words() const {
+  if (counts) return "a count from " + names.front() + " to " + names.back();
+  std::string text = "one of ";
+  for (std::size_t value = 0; value < names.size() && value < 10; ++value)
+    text += (value == 0 ? "" : ", ") + names[value];
+  return text + (names.size() > 10 ? " ..." : "");
+}
+
+std::optional<std::uint32_t> Change::after(std::uint32_t before, const FewValues& values) const {
+  if (step == 0) return value;
+  const std::int64_t moved = std::int64_t{before} + step;
+  if (moved < 0 || moved >= static_cast<std::int64_t>(values.names.size())) return std::nullopt;
+  return static_cast<std::uint32_t>(moved);
+}
+
+std::optional<Allowed> allowed(const FewValues& values, std::uint32_t cell,
+                               const std::vector<Change>& changes) {
+  std::optional<Allowed> found;
+  for (std::uint32_t before = 0; before < values.names.size(); ++before) {
+    std::optional<std::uint32_t> now = before;
+    for (const Change& change : changes)
+      if (now && change.cell == cell) now = change.after(*now, values);
+    if (!now) continue;
+    if (!found) found = Allowed{before, before};
+    found->last = before;
+  }
+  return found;
+}
+
+}  // namespace tessera::spec

@@ -1,0 +1,49 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "diagnostics/diagnostics.hpp"
+
+namespace tessera::spec {
+
+/// The values of a memory cell that is part of the net: `{ values: [nobody, a, b] }`, `{ counts: 0..4 }`. The
+/// first one, or the lowest count, is there at the start.
+struct FewValues {
+  std::vector<std::string> names;        ///< of a counter "0", "1" ...
+  std::vector<diagnostics::Span> spans;  ///< as names; of a counter empty
+  bool counts = false;
+  std::uint32_t least = 0;  ///< of a counter
+
+  static constexpr std::size_t most = 256;  ///< values of one cell
+
+  /// The position of a value among `names`.
+  [[nodiscard]] std::optional<std::uint32_t> find(std::string_view name) const;
+  /// "one of nobody, a, b", "a count from 0 to 4"; at most ten names.
+  [[nodiscard]] std::string in_words() const;
+};
+
+/// What a behaviour that begins, or an entry of `next` that is taken, does to a cell with few values.
+struct Change {
+  std::uint32_t cell = 0;   ///< into Subsystem::memory
+  std::int32_t step = 0;    ///< +1 or -1; 0: the cell gets `value`
+  std::uint32_t value = 0;  ///< into FewValues::names
+  diagnostics::Span span{};
+
+  /// The value after the change; nullopt: a counter would leave its range.
+  [[nodiscard]] std::optional<std::uint32_t> after(std::uint32_t before, const FewValues& values) const;
+};
+
+/// The values of a cell from which changes in this order lead somewhere: its positions `first` to `last`. Steps
+/// move by one, so these are neighbours. nullopt: none.
+struct Allowed {
+  std::uint32_t first, last;
+};
+[[nodiscard]] std::optional<Allowed> allowed(const FewValues& values, std::uint32_t cell,
+                                             const std::vector<Change>& changes);
+
+}  // namespace tessera::spec

@@ -166,7 +166,7 @@ std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
   std::vector<int> facts;
   for (const Asked* asked : all)
     find_facts(net, net.behaviours[static_cast<std::size_t>(behaviour)].subsystem, *asked, facts);
-  facts.resize(std::min<std::size_t>(facts.size(), 6));  // 64 assignments at most
+  facts.resize(std::min<std::size_t>(facts.size(), 12));  // 4096 assignments at most
   std::vector<std::map<int, int>> values(std::size_t{1} << facts.size());
   for (std::size_t a = 0; a < values.size(); ++a)
     for (std::size_t f = 0; f < facts.size(); ++f)

@@ -69,14 +69,25 @@ endif()
 
 # Tessera's: the net and what binds it to the functions.
 set(sources{})
-add_library(system STATIC ${{sources}})
+add_library(system STATIC)
 # The runtime, which fires the net, is compiled for speed. Here, -O3 would take about twice as long. `a && b || c` is a
 # good condition: `tessera check` finds the comparisons that need brackets.
 target_compile_options(system PRIVATE -Wall -Wextra -Wno-parentheses -Werror $<$<CONFIG:Release,RelWithDebInfo>:-O1>)
-# Nearly all the time of each subsystem's source goes into the same headers. The others are small, and change more
-# often.
+# Nearly all the time of each source goes into the headers that all of its kind include. Conditions include less and
+# change more often, so only a few of them are compiled together.
+set(conditions ${{sources}})
+list(FILTER conditions INCLUDE REGEX "[.]conditions[.]cpp$")
+if(conditions)
+  add_library(conditions OBJECT ${{conditions}})
+  target_compile_options(conditions PRIVATE $<TARGET_PROPERTY:system,COMPILE_OPTIONS>)
+  set_target_properties(conditions PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 4)
+  target_link_libraries(conditions PRIVATE headers)
+  target_sources(system PRIVATE $<TARGET_OBJECTS:conditions>)
+  list(REMOVE_ITEM sources ${{conditions}})
+endif()
+target_sources(system PRIVATE ${{sources}})
 set_target_properties(system PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE 16)
-list(FILTER sources INCLUDE REGEX "^system[.]|[.]conditions[.]cpp$")
+list(FILTER sources INCLUDE REGEX "^system[.]")
 set_source_files_properties(${{sources}} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON)
 target_link_libraries(system PUBLIC headers)
 

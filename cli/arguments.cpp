@@ -114,7 +114,9 @@ Option Subcommand::declared(const std::string& name) const { return Option(*app_
 
 void Subcommand::footer(const std::string& text) { app_->footer(text); }
 
-void Subcommand::callback(std::function<void()> command) { app_->callback(std::move(command)); }
+void Subcommand::runs(std::function<int()> command) {
+  app_->callback([command = std::move(command), code = exit_code_] { *code = command(); });
+}
 
 CommandLine::CommandLine(const std::string& program, const std::string& version, const std::string& about)
     : app_(std::make_unique<CLI::App>(about)) {
@@ -127,7 +129,7 @@ CommandLine::CommandLine(const std::string& program, const std::string& version,
 CommandLine::~CommandLine() = default;
 
 Subcommand CommandLine::add(const std::string& name, const std::string& about) {
-  return Subcommand(*app_->add_subcommand(name, about));
+  return {*app_->add_subcommand(name, about), exit_code_};
 }
 
 void CommandLine::option(const std::string& name, const std::string& value,
@@ -197,16 +199,16 @@ void CommandLine::tell_unexpected() const {
   fmt::print(stderr, "`{} --help` shows its options\n", command);
 }
 
-std::optional<int> CommandLine::read(int argc, char** argv) {
+int CommandLine::read(int argc, char** argv) {
   if (argc > 1)
     if (const auto hidden = hidden_.find(argv[1]); hidden != hidden_.end()) {
       hidden->second({argv + 2, argv + argc});
-      return std::nullopt;
+      return ok;
     }
-  if (const std::optional<int> wrong = unknown_command(argc, argv)) return wrong;
+  if (const std::optional<int> wrong = unknown_command(argc, argv)) return *wrong;
   try {
     app_->parse(argc, argv);
-    return std::nullopt;
+    return exit_code_;
   } catch (const CLI::ExtrasError&) {
     tell_unexpected();
     return usage;

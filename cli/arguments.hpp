@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace CLI {
@@ -48,7 +49,7 @@ class Option {
 /// long as the `CommandLine`.
 class Subcommand {
  public:
-  explicit Subcommand(CLI::App& app) : app_(&app) {}
+  Subcommand(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
 
   /// names: "--for", "-o,--output". A name without dashes, such as "spec", is a positional argument.
   Option option(const std::string& names, std::string& value, const std::string& help);
@@ -64,11 +65,19 @@ class Subcommand {
   [[nodiscard]] Option declared(const std::string& name) const;
   /// Text below the options in the help.
   void footer(const std::string& text);
-  /// The function that the command runs. `CommandLine::read` passes its exceptions on.
-  void callback(std::function<void()> command);
+  /// The function that the command runs. `CommandLine::read` returns its result, and passes its exceptions on.
+  void runs(std::function<int()> command);
+  /// The same for a function of options. Returns the options, for their declaration.
+  template <class Options>
+  auto& runs(int (*command)(Options)) {
+    auto options = std::make_shared<std::remove_cvref_t<Options>>();
+    runs([options, command] { return command(*options); });
+    return *options;
+  }
 
  private:
   CLI::App* app_;
+  int* exit_code_;
 };
 
 /// The command line of the program. For one thread.
@@ -85,9 +94,9 @@ class CommandLine {
               const std::string& help);
   void footer(const std::string& text);
 
-  /// Reads the line and runs the command that it names. nullopt: the command has run. `ok`: help or version
-  /// was requested and printed. `usage`: the line is wrong, and standard error says why.
-  [[nodiscard]] std::optional<int> read(int argc, char** argv);
+  /// Reads the line and runs the command that it names. The exit code: that of the command; `ok`: help or version
+  /// was requested and printed; `usage`: the line is wrong, and standard error says why.
+  [[nodiscard]] int read(int argc, char** argv);
 
   struct Word {
     std::string name;  ///< without dashes
@@ -112,6 +121,7 @@ class CommandLine {
   void tell_unexpected() const;
 
   std::unique_ptr<CLI::App> app_;
+  int exit_code_ = 0;
   std::map<std::string, std::function<void(std::vector<std::string>)>> hidden_;
 };
 

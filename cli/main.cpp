@@ -1,7 +1,6 @@
 #include <cstdlib>
 #include <exception>
 #include <filesystem>
-#include <optional>
 #include <system_error>
 
 #include "cli/commands/commands.hpp"
@@ -27,7 +26,6 @@ int command(int argc, char** argv) {
       "--state", "DIR", [](const std::string& folder) { setenv("TESSERA_STATE_DIR", folder.c_str(), 1); },
       "The folder for builds and recordings, instead of .tessera of the project "
       "(or TESSERA_STATE_DIR)");
-  int exit_code = cli::ok;
   for (auto* add : {cli::add_new,       cli::add_check,     cli::add_migrate,
                     cli::add_rename,    cli::add_show,      cli::add_verify,
                     cli::add_export,    cli::add_play,      cli::add_generate,
@@ -37,9 +35,9 @@ int command(int argc, char** argv) {
                     cli::add_set,       cli::add_panel,     cli::add_emergency_stop,
                     cli::add_reset,     cli::add_world,     cli::add_studio,
                     cli::add_lsp,       cli::add_completion})
-    add(line, exit_code);
+    add(line);
   try {
-    if (const std::optional<int> decided = line.read(argc, argv)) return *decided;
+    return line.read(argc, argv);
   } catch (const tessera::project::Interrupted& interrupted) {
     cli::terminal().say("tessera: " + tessera::signal_name(interrupted.signal) + ": " + interrupted.what() +
                         "\n");
@@ -56,7 +54,6 @@ int command(int argc, char** argv) {
   } catch (...) {  // from a library: MuJoCo's is no std::exception
     return cli::complain("a library failed without saying why");
   }
-  return exit_code;
 }
 
 }  // namespace

@@ -1,7 +1,5 @@
 #include <fmt/core.h>
 
-#include <memory>
-
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
@@ -64,15 +62,14 @@ int check_command(const CheckOptions& options) {
 
 }  // namespace
 
-void add_check(CommandLine& app, int& exit_code) {
+void add_check(CommandLine& app) {
   Subcommand command = app.add("check", "Read a specification and report every mistake in it");
-  auto options = std::make_shared<CheckOptions>();
-  declare_specification(command, options->spec);
-  command.option("--json", options->json, "Write the diagnostics as JSON (- is standard output)");
+  CheckOptions& options = command.runs(check_command);
+  declare_specification(command, options.spec);
+  command.option("--json", options.json, "Write the diagnostics as JSON (- is standard output)");
   command.footer(
       "Ends with 0 if the specification is right, 1 if it is wrong, 2 if it cannot be read.\n"
       "Example: tessera check robot/spec.yaml");
-  command.callback([options, &exit_code] { exit_code = check_command(*options); });
 }
 
 }  // namespace tessera::cli

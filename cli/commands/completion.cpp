@@ -84,7 +84,7 @@ void complete(const CommandLine& line, std::vector<std::string> typed) {
 
 }  // namespace
 
-void add_completion(CommandLine& app, int& exit_code) {
+void add_completion(CommandLine& app) {
   Subcommand command = app.add("completion", "Print a script that completes command lines in a shell");
   auto shell = std::make_shared<std::string>("bash");
   command.option("shell", *shell, "Which shell").one_of({"bash", "zsh", "fish"}).shows_default();
@@ -95,9 +95,9 @@ void add_completion(CommandLine& app, int& exit_code) {
       "  tessera completion bash > /etc/bash_completion.d/tessera\n"
       "  tessera completion zsh > ~/.zfunc/_tessera         (a folder of $fpath)\n"
       "  tessera completion fish > ~/.config/fish/completions/tessera.fish");
-  command.callback([shell, &exit_code] {
+  command.runs([shell] {
     fmt::print("{}", *shell == "zsh" ? for_zsh : *shell == "fish" ? for_fish : for_bash);
-    exit_code = ok;
+    return ok;
   });
   app.add_hidden("complete", [&app](std::vector<std::string> typed) { complete(app, std::move(typed)); });
 }

@@ -1,4 +1,3 @@
-#include <memory>
 
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
@@ -31,20 +30,19 @@ int export_command(const ExportOptions& options) {
 
 }  // namespace
 
-void add_export(CommandLine& app, int& exit_code) {
+void add_export(CommandLine& app) {
   Subcommand command = app.add("export", "Write the flat net for other tools");
-  auto options = std::make_shared<ExportOptions>();
-  declare_specification(command, options->spec);
-  command.option("--pnml", options->pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
+  ExportOptions& options = command.runs(export_command);
+  declare_specification(command, options.spec);
+  command.option("--pnml", options.pnml, "P/T net of ISO/IEC 15909-2 to this file (- is standard output)")
       .required();
   command.flag(
-      "--abstract", options->abstract,
+      "--abstract", options.abstract,
       "Write the net that `verify` judges: without transitions that never fire, with an outcome where no "
       "condition holds");
   command.footer(
       "Examples: tessera export --pnml net.pnml\n"
       "          tessera export --abstract --pnml net.pnml && tessera verify net.pnml");
-  command.callback([options, &exit_code] { exit_code = export_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.hpp"
@@ -71,28 +70,27 @@ int generate_command(const GenerateCommandOptions& options) {
 
 }  // namespace
 
-void add_generate(CommandLine& app, int& exit_code) {
+void add_generate(CommandLine& app) {
   Subcommand command = app.add("generate", "Write the C++ controller that executes the verified net");
-  auto options = std::make_shared<GenerateCommandOptions>();
-  declare_specification(command, options->spec);
-  command.option("-o,--output", options->output,
+  GenerateCommandOptions& options = command.runs(generate_command);
+  declare_specification(command, options.spec);
+  command.option("-o,--output", options.output,
                  "Folder for the generated files (default: .tessera/generated)");
   command
-      .option("--sources", options->sources,
+      .option("--sources", options.sources,
               "A source with transition functions, instead of all in src/ (for builds of your own)")
       .repeated();
-  command.flag("--stubs", options->stubs, "Write missing transition functions into src/, empty");
+  command.flag("--stubs", options.stubs, "Write missing transition functions into src/, empty");
   command
-      .flag("--build", options->build,
+      .flag("--build", options.build,
             "Compile the controller too, so that a read-only copy of the project runs")
       .excludes(command.declared("--output"));
   command.option(
-      "--systemd", options->systemd,
+      "--systemd", options.systemd,
       "Folder for a unit of systemd per process of `deploy`, or one for the system (docs/use/service.md)");
-  declare_verification_gate(command, options->gate);
-  command.option("--json", options->json, "Write the list of changes as JSON (- is standard output)");
+  declare_verification_gate(command, options.gate);
+  command.option("--json", options.json, "Write the list of changes as JSON (- is standard output)");
   command.footer("Example: tessera generate --stubs");
-  command.callback([options, &exit_code] { exit_code = generate_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -47,21 +46,20 @@ int merge_command(const MergeOptions& options) {
 
 }  // namespace
 
-void add_merge(CommandLine& app, int& exit_code) {
+void add_merge(CommandLine& app) {
   Subcommand command = app.add("merge", "Join the results of schedules that were run in parts");
-  auto options = std::make_shared<MergeOptions>();
-  command.option("files", options->files, "Files of `tessera schedules N --json FILE`")
+  MergeOptions& options = command.runs(merge_command);
+  command.option("files", options.files, "Files of `tessera schedules N --json FILE`")
       .required()
       .existing_file();
-  command.option("--json", options->json, "Write them as one file of the same kind (- is standard output)");
-  command.flag("--other-builds", options->other_builds,
+  command.option("--json", options.json, "Write them as one file of the same kind (- is standard output)");
+  command.flag("--other-builds", options.other_builds,
                "The controllers were built apart, from the same sources: count them as one");
   command.footer(
       "Parts of different nets, settings or programs are refused, and so is a seed that is in two files.\n"
       "Ends with 0 if no run failed, 1 if one did, 3 if none did and parts are missing.\n"
       "Example: tessera schedules 1000000 --part 3/20 --json part3.json   (on each machine)\n"
       "         tessera merge part*.json --json all.json");
-  command.callback([options, &exit_code] { exit_code = merge_command(*options); });
 }
 
 }  // namespace tessera::cli

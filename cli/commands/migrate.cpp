@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <vector>
 
@@ -108,18 +107,17 @@ int migrate_command(const MigrateOptions& options) {
 
 }  // namespace
 
-void add_migrate(CommandLine& app, int& exit_code) {
+void add_migrate(CommandLine& app) {
   Subcommand command = app.add("migrate", "Let a specification of an earlier version mean what it meant");
-  auto options = std::make_shared<MigrateOptions>();
-  declare_specification(command, options->spec);
-  command.flag("--dry-run", options->dry_run, "Show the changes and write nothing");
+  MigrateOptions& options = command.runs(migrate_command);
+  declare_specification(command, options.spec);
+  command.flag("--dry-run", options.dry_run, "Show the changes and write nothing");
   command.footer(
       "Entries of `next` that name no error take no errors and no failures any more. Where they did,\n"
       "this command adds { to: NAME, when: error }. Comments, order and style stay.\n"
       "Ends with 0 if nothing is left to do, 1 if something has to be decided by hand (N331) or the\n"
       "specification is wrong, 2 if it cannot be read.\n"
       "Example: tessera migrate --dry-run robot/spec.yaml");
-  command.callback([options, &exit_code] { exit_code = migrate_command(*options); });
 }
 
 }  // namespace tessera::cli

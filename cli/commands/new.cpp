@@ -187,7 +187,7 @@ int new_command(const std::string& given, const std::string& wanted) {
 
 }  // namespace
 
-void add_new(CommandLine& app, int& exit_code) {
+void add_new(CommandLine& app) {
   Subcommand command = app.add("new", "Make a project with a simulated robot that runs at once");
   auto name = std::make_shared<std::string>();
   auto robot = std::make_shared<std::string>(robots.front().name);
@@ -204,7 +204,7 @@ void add_new(CommandLine& app, int& exit_code) {
       "Examples:\n"
       "  tessera new rover && cd rover && tessera simulate --for 60s\n"
       "  tessera new depot --robot fleet");
-  command.callback([name, robot, &exit_code] { exit_code = new_command(*name, *robot); });
+  command.runs([name, robot] { return new_command(*name, *robot); });
 }
 
 }  // namespace tessera::cli

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <chrono>
-#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
-#include <variant>
 #include <vector>
 
 #include "cli/commands/commands.hpp"
@@ -14,7 +12,6 @@
 #include "cli/watching/not_reached.hpp"
 #include "cli/watching/offers.hpp"
 #include "cli/watching/running_controller.hpp"
-#include "project/process/control_reader.hpp"
 #include "tessera/control_messages.hpp"
 #include "tessera/monitor.hpp"
 #include "tessera/result.hpp"
@@ -28,38 +25,6 @@ struct OperateOptions {
   std::vector<std::string> values;
   std::string which, why;
 };
-
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds patience{2};
-constexpr int question = 1;
-
-bool tell(RunningController& controller, const ControlCommand& command) {
-  controller.be_patient_for(patience);
-  return controller.send(line_of(command, question));
-}
-
-/// nullopt: it has ended, or does not answer. first: gets its first state, if that comes before the answer.
-std::optional<CommandAnswer> answer_of(RunningController& controller, Clock::time_point end,
-                                       std::optional<Snapshot>* first = nullptr) {
-  // It sends its state several times a second, beside answers: lines come as long as it runs. Lines that have come
-  // already are taken in any case, because others may have taken all the time.
-  const auto last = std::max(end, Clock::now() + std::chrono::milliseconds(200));
-  do {
-    const auto left = std::chrono::ceil<std::chrono::milliseconds>(end - Clock::now());
-    controller.be_patient_for(std::max(left, std::chrono::milliseconds(50)));
-    std::optional<project::ControlMessage> said = controller.message();
-    if (!said) break;
-    auto* answer = said->content ? std::get_if<CommandAnswer>(&*said->content) : nullptr;
-    if (answer != nullptr && answer->id == question) return std::move(*answer);
-    auto* snapshot = said->content ? std::get_if<Snapshot>(&*said->content) : nullptr;
-    if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
-  } while (Clock::now() < last);
-  return std::nullopt;
-}
-
-std::optional<CommandAnswer> answer_of(RunningController& controller) {
-  return answer_of(controller, Clock::now() + patience);
-}
 
 std::optional<Problem> problem_of(const RunningController& controller,
                                   const std::optional<CommandAnswer>& answer) {
@@ -86,12 +51,12 @@ FoundSystem find_system(const std::string& which, const std::string& unknown) {
 
 /// Each process that has the parameter takes its value, or tries it. Returns the exit code.
 int set_in_all(std::vector<SeenController>& processes, const command::Set& command) {
-  for (SeenController& one : processes) tell(one.controller, command);
+  for (SeenController& one : processes) one.controller.tell(command);
   bool taken = false, silent = false;
   std::string unknown;
   int code = ok;
   for (SeenController& one : processes) {
-    const std::optional<CommandAnswer> answer = answer_of(one.controller);
+    const std::optional<CommandAnswer> answer = one.controller.answer();
     const std::string name = one.snapshot ? one.snapshot->process.value_or("") : one.controller.name();
     if (!answer) {
       silent = true;
@@ -160,11 +125,11 @@ constexpr std::chrono::seconds stop_patience{3};
 
 /// Waits for the answers of controllers that have the command. Returns the exit code.
 int confirm_stops(std::vector<RunningController>& controllers, const std::string& which, NotReached& others) {
-  const auto end = Clock::now() + stop_patience;
+  const auto end = std::chrono::steady_clock::now() + stop_patience;
   int code = ok;
   for (RunningController& one : controllers) {
     std::optional<Snapshot> first;
-    const std::optional<CommandAnswer> answer = answer_of(one, end, &first);
+    const std::optional<CommandAnswer> answer = one.answer(end, &first);
     if (!answer)
       code =
           complain(one.name() + " has ended, still opens its devices, or does not answer: " + unknown_safety);
@@ -183,7 +148,7 @@ int emergency_stop_command(const OperateOptions& options) {
   const command::EmergencyStop command{options.why};
   // Each gets the command as soon as it is reached: one that hangs must not delay the others.
   FoundControllers found =
-      look_for_controllers(options.which, [&](RunningController& one) { tell(one, command); });
+      look_for_controllers(options.which, [&](RunningController& one) { one.tell(command); });
   int elsewhere = complain_of_other_folders(options.which);
   if (options.which.empty() && complain_of_unreachable() != ok) elsewhere = failed;
   if (const std::optional<Problem> wrong = wrong_with_monitor_folder())
@@ -213,10 +178,10 @@ int reset_processes(std::vector<SeenController>& processes, const std::string& s
   }
   if (stopped.empty() && code == ok)
     return complain("no process of " + system + " on this machine has an emergency stop");
-  for (SeenController* one : stopped) tell(one->controller, command::Reset{});
+  for (SeenController* one : stopped) one->controller.tell(command::Reset{});
   note_not_told(processes, "not reset");
   for (SeenController* one : stopped) {
-    if (const std::optional<Problem> wrong = problem_of(one->controller, answer_of(one->controller)))
+    if (const std::optional<Problem> wrong = problem_of(one->controller, one->controller.answer()))
       code = complain(one->snapshot->process.value_or("") + ": " + wrong->text);
     else
       fmt::print("{}: the emergency stop is over ({})\n", one->snapshot->process.value_or(""),
@@ -237,9 +202,8 @@ int reset_command(const OperateOptions& options) {
     if (system) fmt::print(stderr, "hint: `tessera reset {}` resets all of them\n", *system);
     return failed;
   }
-  tell(seen.front().controller, command::Reset{});
-  const std::optional<Problem> wrong =
-      problem_of(seen.front().controller, answer_of(seen.front().controller));
+  seen.front().controller.tell(command::Reset{});
+  const std::optional<Problem> wrong = problem_of(seen.front().controller, seen.front().controller.answer());
   return wrong ? complain(wrong->text) : code;
 }
 
@@ -251,13 +215,13 @@ void declare_controller(
 
 }  // namespace
 
-void add_set(CommandLine& app, int& exit_code) {
+void add_set(CommandLine& app) {
   Subcommand command = app.add("set", "Change parameters of a controller that runs in real time");
-  auto options = std::make_shared<OperateOptions>();
+  OperateOptions& options = command.runs(set_command);
   command.option(
-      "values", options->values,
+      "values", options.values,
       "PATH=VALUE, as with --set: v=0.3, robot.control.v=0.3; without any, it lists what there is");
-  declare_controller(command, *options);
+  declare_controller(command, options);
   command.footer(
       "Without values it lists all parameters, with their values, units and ranges.\n"
       "A value that does not fit the parameter's type and range is refused, and then no value is set. A "
@@ -266,34 +230,31 @@ void add_set(CommandLine& app, int& exit_code) {
       "just before it calls a transition function, and the recording says when. In a system of several\n"
       "processes, each one on this machine that has the parameter takes it and is named.\n"
       "Example: tessera set v=0.15 robot.control.w=1");
-  command.callback([options, &exit_code] { exit_code = set_command(*options); });
 }
 
-void add_emergency_stop(CommandLine& app, int& exit_code) {
+void add_emergency_stop(CommandLine& app) {
   Subcommand command =
       app.add("emergency-stop",
               "Give all devices of all running controllers their safe command until `tessera reset`");
-  auto options = std::make_shared<OperateOptions>();
-  declare_controller(command, *options, "Only those of this system, or this process");
-  command.option("--why", options->why, "The reason, for its terminal and its recording");
+  OperateOptions& options = command.runs(emergency_stop_command);
+  declare_controller(command, options, "Only those of this system, or this process");
+  command.option("--why", options.why, "The reason, for its terminal and its recording");
   command.footer(
       "This is no substitute for an emergency stop in hardware: it needs the controller, this computer and\n"
       "the connection between them. It goes to the controllers of this machine: of a system of several "
       "processes it\n"
       "names those of other machines, which it does not stop. Type it on each.");
-  command.callback([options, &exit_code] { exit_code = emergency_stop_command(*options); });
 }
 
-void add_reset(CommandLine& app, int& exit_code) {
+void add_reset(CommandLine& app) {
   Subcommand command =
       app.add("reset", "End the emergency stop of a running controller: its devices move again");
-  auto options = std::make_shared<OperateOptions>();
-  command.option("controller,--controller", options->which,
+  OperateOptions& options = command.runs(reset_command);
+  command.option("controller,--controller", options.which,
                  "Its system, its process (cart[0]) or its process number; needed if several run");
   command.footer(
       "If a system has several processes, name the system: all its processes on this machine that have an\n"
       "emergency stop are reset.");
-  command.callback([options, &exit_code] { exit_code = reset_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -3,7 +3,6 @@
 #include <fmt/ranges.h>
 
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -75,35 +74,33 @@ int package_command(PackageCommandOptions& options) {
 
 }  // namespace
 
-void add_package(CommandLine& app, int& exit_code) {
+void add_package(CommandLine& app) {
   Subcommand command =
       app.add("package", "Build the controller, and pack it with its libraries and units for the robot");
-  auto options = std::make_shared<PackageCommandOptions>();
-  declare_specification(command, options->spec);
-  command.option("-o,--output", options->output, "Folder for the packages").shows_default();
-  command.option("--format", options->format, "deb: a package of Debian; archive: a .tar.gz")
+  PackageCommandOptions& options = command.runs(package_command);
+  declare_specification(command, options.spec);
+  command.option("-o,--output", options.output, "Folder for the packages").shows_default();
+  command.option("--format", options.format, "deb: a package of Debian; archive: a .tar.gz")
       .one_of({"archive", "deb"})
       .shows_default();
-  command.option("--host", options->package.host,
+  command.option("--host", options.package.host,
                  "Only the package of this machine of `deploy` (default: one for each)");
-  command.option("--arch", options->architecture,
+  command.option("--arch", options.architecture,
                  "Kind of processor of the robot, as Debian calls it: arm64 (default: that of this machine)");
   command
-      .option("--runtime", options->runtime,
+      .option("--runtime", options.runtime,
               "Folder with Tessera's runtime for --arch (default: lib/tessera/ARCH of this installation)")
       .needs(command.declared("--arch"));
-  command.option("--release", options->package.version, "Version of the package").shows_default();
-  command.option("--groups", options->groups,
+  command.option("--release", options.package.version, "Version of the package").shows_default();
+  command.option("--groups", options.groups,
                  "Groups of the user who runs the units, for devices: dialout,gpio");
-  command.option("--parameters", options->parameters,
+  command.option("--parameters", options.parameters,
                  "File of parameters to pack (default: params.yaml of the project)");
-  command.option("--set", options->set, "PATH=VALUE: a parameter to pack, after those of the file")
-      .repeated();
-  declare_verification_gate(command, options->gate);
+  command.option("--set", options.set, "PATH=VALUE: a parameter to pack, after those of the file").repeated();
+  declare_verification_gate(command, options.gate);
   command.footer(
       "Examples:\n  tessera package --format deb --output packages\n"
       "  tessera package --host cart.local --release 1.2   (docs/use/service.md)");
-  command.callback([options, &exit_code] { exit_code = package_command(*options); });
 }
 
 }  // namespace tessera::cli

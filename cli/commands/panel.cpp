@@ -7,7 +7,6 @@
 #include <chrono>
 #include <cmath>
 #include <csignal>
-#include <memory>
 #include <optional>
 #include <string>
 #include <thread>
@@ -17,7 +16,6 @@
 #include "cli/terminal.hpp"
 #include "cli/watching/offers.hpp"
 #include "cli/watching/running_controller.hpp"
-#include "project/process/control_reader.hpp"
 #include "tessera/control_messages.hpp"
 #include "tessera/given_values.hpp"
 
@@ -63,26 +61,15 @@ std::optional<PanelCommand> panel_command_of(const PanelOptions& options) {
   return command;
 }
 
-/// The answer to a command, found among the regular lines. nullopt: the process does not answer.
+/// nullopt: the process has ended, or does not answer.
 std::optional<CommandAnswer> panel_answer(RunningController& controller, const PanelCommand& command) {
-  static int last = 0;
-  const int id = ++last;
-  const auto end = Clock::now() + std::chrono::seconds(2);
-  if (!controller.send(line_of(command, id))) return std::nullopt;
-  while (Clock::now() < end) {
-    const std::optional<project::ControlMessage> said = controller.message();
-    if (!said) break;
-    const auto* const answer = said->content ? std::get_if<CommandAnswer>(&*said->content) : nullptr;
-    if (answer != nullptr && answer->id == id) return *answer;
-  }
-  return std::nullopt;
+  return controller.tell(command) ? controller.answer() : std::nullopt;
 }
 
 /// The process that has the panel and has taken the command; nullptr: the mistake has been printed.
 RunningController* operate(std::vector<SeenController>& processes, const PanelCommand& command) {
   std::string unknown = "no controller answers";
   for (SeenController& one : processes) {
-    one.controller.be_patient_for(std::chrono::seconds(2));
     const auto answer = panel_answer(one.controller, command);
     if (answer && !answer->problem) return &one.controller;
     if (answer) unknown = answer->problem->text;
@@ -122,21 +109,20 @@ int panel_command(const PanelOptions& options) {
 
 }  // namespace
 
-void add_panel(CommandLine& app, int& exit_code) {
+void add_panel(CommandLine& app) {
   Subcommand command = app.add("panel", "Operate a panel of a controller that runs in real time");
-  auto options = std::make_shared<PanelOptions>();
-  command.option("path", options->path, "The real buffer with the panel: robot.console.drive");
+  PanelOptions& options = command.runs(panel_command);
+  command.option("path", options.path, "The real buffer with the panel: robot.console.drive");
   command.option(
-      "values", options->values,
+      "values", options.values,
       "FIELD=VALUE: forward=0.3, horn=true; the rest is neutral. Without any, it lists what there is");
-  command.option("--for", options->duration, "Hold the values for so long (500ms by default)");
-  command.option("--controller", options->which,
+  command.option("--for", options.duration, "Hold the values for so long (500ms by default)");
+  command.option("--controller", options.which,
                  "Its system, its process (cart[0]) or its process number; needed if several run");
   command.footer(
       "Without values it lists the panels, or the one of the path, with values, units and ranges.\n"
       "The values are repeated while the command runs. When it ends, also by Ctrl+C, the panel is neutral.\n"
       "Example: tessera panel robot.console.drive forward=0.3 turn=0.1 --for 2s");
-  command.callback([options, &exit_code] { exit_code = panel_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <numeric>
 #include <optional>
@@ -166,15 +165,14 @@ int play_command(const PlayOptions& options) {
 
 }  // namespace
 
-void add_play(CommandLine& app, int& exit_code) {
+void add_play(CommandLine& app) {
   Subcommand command = app.add("play", "Fire the transitions of a net that has no controller (PNML)");
-  auto options = std::make_shared<PlayOptions>();
-  command.option("net", options->file, "PNML file").required();
-  command.option("steps", options->steps, "How often to fire").shows_default();
-  command.option("--seed", options->seed, "Seed of the lots that decide ties").shows_default();
-  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  PlayOptions& options = command.runs(play_command);
+  command.option("net", options.file, "PNML file").required();
+  command.option("steps", options.steps, "How often to fire").shows_default();
+  command.option("--seed", options.seed, "Seed of the lots that decide ties").shows_default();
+  command.option("--json", options.json, "Write the outcome as JSON (- is standard output)");
   command.footer("Example: tessera play net.pnml 1000000 --seed 7");
-  command.callback([options, &exit_code] { exit_code = play_command(*options); });
 }
 
 }  // namespace tessera::cli

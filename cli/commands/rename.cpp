@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <filesystem>
 #include <map>
-#include <memory>
 #include <set>
 #include <string>
 #include <vector>
@@ -83,21 +82,20 @@ int rename_command(const RenameOptions& options) {
 
 }  // namespace
 
-void add_rename(CommandLine& app, int& exit_code) {
+void add_rename(CommandLine& app) {
   Subcommand command =
       app.add("rename", "Give a part of a specification another name, also in C++ and params.yaml");
-  auto options = std::make_shared<RenameOptions>();
-  command.option("name", options->name, "Its name now, such as robot.control.follow").required();
-  command.option("new_name", options->to, "Its new name, such as pursue").required();
-  declare_specification(command, options->spec);
-  command.flag("--dry-run", options->dry_run, "Show the lines that would change and write nothing");
+  RenameOptions& options = command.runs(rename_command);
+  command.option("name", options.name, "Its name now, such as robot.control.follow").required();
+  command.option("new_name", options.to, "Its new name, such as pursue").required();
+  declare_specification(command, options.spec);
+  command.flag("--dry-run", options.dry_run, "Show the lines that would change and write nothing");
   command.footer(
       "All files are written or none. If several parts have the name, one of these words before it decides:\n"
       "input:, output:, real:, memory:, parameter:, type:, template:, model:, process:, condition:, field:.\n"
       "The language server and the studio rename in the same way. The way back is the same command.\n"
       "Ends with 0 if it was renamed, 1 if it cannot be, 2 if the specification cannot be read.\n"
       "Example: tessera rename robot.control.follow pursue robot/spec.yaml");
-  command.callback([options, &exit_code] { exit_code = rename_command(*options); });
 }
 
 }  // namespace tessera::cli

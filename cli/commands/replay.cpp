@@ -7,7 +7,6 @@
 #include <fstream>
 #include <iostream>
 #include <iterator>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
@@ -344,41 +343,40 @@ int replay_command(ReplayOptions options) {
 
 }  // namespace
 
-void add_replay(CommandLine& app, int& exit_code) {
+void add_replay(CommandLine& app) {
   Subcommand command =
       app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
-  auto options = std::make_shared<ReplayOptions>();
-  command.option("recording", options->recordings,
+  ReplayOptions& options = command.runs(replay_command);
+  command.option("recording", options.recordings,
                  std::string("Recording of a run, or a project: its last one (default: ") + usual_recording +
                      "); several with --coverage, or with --check those of a deployed system");
-  command.flag("--check", options->check,
+  command.flag("--check", options.check,
                "Play it on the net of its specification: is it a legal firing sequence?");
-  command.option("--spec", options->spec, "That specification (default: beside the recording or above)");
-  command.flag("--coverage", options->coverage, shown_only,
+  command.option("--spec", options.spec, "That specification (default: beside the recording or above)");
+  command.flag("--coverage", options.coverage, shown_only,
                "Show the parts of the net that no recording, or result of schedules, has reached; "
                "--coverage=FILE writes JSON, too");
-  command.flag("--print", options->print, "Print the events");
-  command.flag("--values", options->values, all_values,
+  command.flag("--print", options.print, "Print the events");
+  command.flag("--values", options.values, all_values,
                "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
                "--csv a row per change and a column per field");
-  command.option("--from", options->from_s, "Events, or a film, from this time on, in seconds");
-  command.option("--to", options->to_s, "Events, or a film, up to this time, in seconds");
-  command.option("--last", options->last, "Only this many events, the last ones");
-  command.option("--subsystem", options->subsystem, "Events of this subsystem, or of `system`");
-  command.option("--containing", options->transition, "Events whose text contains this: t6, .snd.motion");
-  command.option("--csv", options->csv, "Write the events as CSV (- is standard output)");
-  command.option("--to-perfetto", options->perfetto, "Write a trace for ui.perfetto.dev");
-  command.option("--json", options->json, "Write summary and check as JSON (- is standard output)");
+  command.option("--from", options.from_s, "Events, or a film, from this time on, in seconds");
+  command.option("--to", options.to_s, "Events, or a film, up to this time, in seconds");
+  command.option("--last", options.last, "Only this many events, the last ones");
+  command.option("--subsystem", options.subsystem, "Events of this subsystem, or of `system`");
+  command.option("--containing", options.transition, "Events whose text contains this: t6, .snd.motion");
+  command.option("--csv", options.csv, "Write the events as CSV (- is standard output)");
+  command.option("--to-perfetto", options.perfetto, "Write a trace for ui.perfetto.dev");
+  command.option("--json", options.json, "Write summary and check as JSON (- is standard output)");
   Option film =
-      command.option("--film", options->film.file,
+      command.option("--film", options.film.file,
                      "Draw the simulated run: FILE.png (animated) or FILE.y4m; with ffmpeg also .mp4, "
                      ".webm and .gif");
   command
-      .option("--camera", options->film.camera, "Films: a camera of the world (default: all robots in view)")
+      .option("--camera", options.film.camera, "Films: a camera of the world (default: all robots in view)")
       .needs(film);
-  command.option("--speed", options->film.speed, "Films: speed, as a multiple of that of the run")
-      .needs(film);
-  command.option("--size", options->film.size, "Films: WIDTHxHEIGHT in pixels").shows_default().needs(film);
+  command.option("--speed", options.film.speed, "Films: speed, as a multiple of that of the run").needs(film);
+  command.option("--size", options.film.size, "Films: WIDTHxHEIGHT in pixels").shows_default().needs(film);
   for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--json",
                             "--coverage", "--last", "--subsystem", "--containing"})
     film.excludes(command.declared(other));
@@ -391,7 +389,6 @@ void add_replay(CommandLine& app, int& exit_code) {
       "         tessera replay --to-perfetto run.json\n"
       "         tessera replay --film run.mp4 --speed 2\n"
       "         tessera replay --coverage monday.tsr tuesday.tsr all.json");
-  command.callback([options, &exit_code] { exit_code = replay_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -1,6 +1,5 @@
 #include <filesystem>
 #include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
@@ -45,19 +44,18 @@ int rerun_command(RerunOptions options) {
 
 }  // namespace
 
-void add_rerun(CommandLine& app, int& exit_code) {
+void add_rerun(CommandLine& app) {
   Subcommand command =
       app.add("rerun", "Run user code again on the inputs of a recording, and compare the results");
-  auto options = std::make_shared<RerunOptions>();
-  command.option("recording", options->recording, "Recording of a run").required().existing_file();
-  declare_specification(command, options->spec);
-  command.option("--set", options->set, "PATH=VALUE: change a parameter (v=0.3, robot.control.v=0.3)")
+  RerunOptions& options = command.runs(rerun_command);
+  command.option("recording", options.recording, "Recording of a run").required().existing_file();
+  declare_specification(command, options.spec);
+  command.option("--set", options.set, "PATH=VALUE: change a parameter (v=0.3, robot.control.v=0.3)")
       .repeated();
-  declare_verification_gate(command, options->gate);
-  command.flag("--debug", options->debug, "Build for gdb and print the command that debugs this");
-  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
+  declare_verification_gate(command, options.gate);
+  command.flag("--debug", options.debug, "Build for gdb and print the command that debugs this");
+  command.option("--json", options.json, "Write the outcome as JSON (- is standard output)");
   command.footer("Example: tessera rerun field.tsr   would this code have done the same there?");
-  command.callback([options, &exit_code] { exit_code = rerun_command(*options); });
 }
 
 }  // namespace tessera::cli

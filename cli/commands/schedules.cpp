@@ -6,7 +6,6 @@
 #include <iterator>
 #include <limits>
 #include <map>
-#include <memory>
 #include <string_view>
 #include <utility>
 #include <variant>
@@ -155,18 +154,18 @@ int schedules_command(ScheduleOptions options) {
 
 }  // namespace
 
-void add_schedules(CommandLine& app, int& exit_code) {
+void add_schedules(CommandLine& app) {
   Subcommand command =
       app.add("schedules", "Run many interleavings of the simulated controller, and count the failures");
-  auto options = std::make_shared<ScheduleOptions>();
+  ScheduleOptions& options = command.runs(schedules_command);
   command
-      .option("count", options->count,
+      .option("count", options.count,
               "How many, with seeds from --seed on, of 1 s or --for each; nothing is recorded")
       .required()
       .within(1, std::numeric_limits<int>::max());
-  declare_simulated_run_options(command, *options);
-  command.option("--part", options->part, "Only one part of the seeds, 3/20");
-  command.option("--jobs", options->jobs, "Processes at a time (default: one per core)").within(1, most_jobs);
+  declare_simulated_run_options(command, options);
+  command.option("--part", options.part, "Only one part of the seeds, 3/20");
+  command.option("--jobs", options.jobs, "Processes at a time (default: one per core)").within(1, most_jobs);
   command.footer(
       "Ends with 0 if no run failed, 1 if one did. `tessera simulate --interleave --seed N` repeats and\n"
       "records one of them.\n"
@@ -174,7 +173,6 @@ void add_schedules(CommandLine& app, int& exit_code) {
       "  tessera schedules 1000 --for 1s      is there an interleaving that goes wrong?\n"
       "  tessera schedules 1000000 robot --part 3/20 --json part3.json   see `tessera merge`\n"
       "  tessera schedules 100 --coverage     which parts has no run reached?");
-  command.callback([options, &exit_code] { exit_code = schedules_command(*options); });
 }
 
 }  // namespace tessera::cli

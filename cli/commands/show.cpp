@@ -1,8 +1,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <memory>
-
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
@@ -86,22 +84,22 @@ int show_command(const ShowOptions& options) {
 
 }  // namespace
 
-void add_show(CommandLine& app, int& exit_code) {
+void add_show(CommandLine& app) {
   Subcommand command = app.add("show", "Show the hierarchical Petri net: as a tree, a drawing or numbers");
-  auto options = std::make_shared<ShowOptions>();
-  declare_specification(command, options->spec);
-  command.option("--page", options->page,
+  ShowOptions& options = command.runs(show_command);
+  declare_specification(command, options.spec);
+  command.option("--page", options.page,
                  "Path of one page, e.g. robot.control.follow (default: the whole system)");
-  command.option("--svg", options->svg, "Draw to this file (- is standard output)");
-  command.option("--dot", options->dot, "Draw for graphviz to this file");
+  command.option("--svg", options.svg, "Draw to this file (- is standard output)");
+  command.option("--dot", options.dot, "Draw for graphviz to this file");
   command.option(
-      "--levels", options->levels,
+      "--levels", options.levels,
       "How many levels of pages below the drawn one to open (default: all of the system, none of a page)");
-  command.option("--notation", options->notation, "Labels: paths, or the paper's symbols")
+  command.option("--notation", options.notation, "Labels: paths, or the paper's symbols")
       .one_of({"paths", "paper"})
       .shows_default();
-  command.flag("--counts", options->counts, "Numbers of places, transitions, pages and arcs");
-  command.option("--json", options->json,
+  command.flag("--counts", options.counts, "Numbers of places, transitions, pages and arcs");
+  command.option("--json", options.json,
                  "The net, or with --counts the numbers, as JSON (- is standard output)");
   command.footer(
       "Examples:\n"
@@ -109,7 +107,6 @@ void add_show(CommandLine& app, int& exit_code) {
       "  tessera show --page robot.control.follow --svg follow.svg\n"
       "  tessera show --svg net.svg --notation paper\n"
       "  tessera show --counts --json -");
-  command.callback([options, &exit_code] { exit_code = show_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include <memory>
 #include <utility>
 #include <variant>
 
@@ -129,26 +128,25 @@ int run_command(RunCommandOptions options) {
 
 }  // namespace
 
-void add_simulate(CommandLine& app, int& exit_code) {
+void add_simulate(CommandLine& app) {
   Subcommand command = app.add("simulate", "Build the controller and run it in its simulated world");
-  auto options = std::make_shared<SimulateOptions>();
-  declare_simulated_run_options(command, *options);
-  declare_single_run_options(command, *options);
-  command.flag("--interleave", options->interleave,
+  SimulateOptions& options = command.runs(simulate_command);
+  declare_simulated_run_options(command, options);
+  declare_single_run_options(command, options);
+  command.flag("--interleave", options.interleave,
                "Subsystems take turns after every firing, drawn from the seed, as in `tessera schedules`");
-  command.flag("--realtime", options->realtime, "Not faster than the wall clock");
+  command.flag("--realtime", options.realtime, "Not faster than the wall clock");
   command.option(
-      "--ros2-clock", options->ros2_clock,
+      "--ros2-clock", options.ros2_clock,
       "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
       "then not faster than the wall clock (docs/use/ros2.md)");
-  command.option("--report", options->report, "Folder for a page and a picture of the run");
+  command.option("--report", options.report, "Folder for a page and a picture of the run");
   command.declared("--hardware").excludes(command.declared("--scenario"));
   command.footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
       "Many runs: `tessera schedules`. On recorded inputs: `tessera rerun`. A net in PNML: `tessera play`.");
-  command.callback([options, &exit_code] { exit_code = simulate_command(*options); });
 }
 
 namespace {
@@ -184,24 +182,23 @@ void declare_deployment_options(Subcommand& command, RunCommandOptions& options)
 
 }  // namespace
 
-void add_run(CommandLine& app, int& exit_code) {
+void add_run(CommandLine& app) {
   Subcommand command =
       app.add("run", "Build the controller and run it on the steady clock with real drivers");
-  auto options = std::make_shared<RunCommandOptions>();
-  declare_run_options(command, *options);
-  declare_single_run_options(command, *options);
-  declare_world_options(command, *options);
-  command.flag("--world", options->world,
+  RunCommandOptions& options = command.runs(run_command);
+  declare_run_options(command, options);
+  declare_single_run_options(command, options);
+  declare_world_options(command, options);
+  command.flag("--world", options.world,
                "With the simulated drivers, in the simulated world if there is one, in real time");
-  command.option("--json", options->json, "Write the outcome as JSON (- is standard output)");
-  command.option("--report", options->report, "Folder for a page and a picture of the run");
-  command.flag("--no-monitor", options->no_monitor,
+  command.option("--json", options.json, "Write the outcome as JSON (- is standard output)");
+  command.option("--report", options.report, "Folder for a page and a picture of the run");
+  command.flag("--no-monitor", options.no_monitor,
                "Without a control socket: `tessera emergency-stop`, `set` and `top` cannot reach this run");
-  declare_deployment_options(command, *options);
+  declare_deployment_options(command, options);
   command.footer(
       "Examples:\n  tessera run\n  tessera run --world --for 10s\n"
       "  tessera run --deploy --restart on-failure       every process of this machine (docs/use/fleets.md)");
-  command.callback([options, &exit_code] { exit_code = run_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -153,19 +153,18 @@ int studio_command(const StudioCommandOptions& options) {
 
 }  // namespace
 
-void add_studio(CommandLine& app, int& exit_code) {
+void add_studio(CommandLine& app) {
   Subcommand command = app.add("studio", "See, edit, verify and run a system in the browser");
-  auto options = std::make_shared<StudioCommandOptions>();
-  declare_specification(command, options->spec);
-  command.option("--port", options->port, "Port to begin with: one that is taken leads to the next; 0: any")
+  StudioCommandOptions& options = command.runs(studio_command);
+  declare_specification(command, options.spec);
+  command.option("--port", options.port, "Port to begin with: one that is taken leads to the next; 0: any")
       .within(0, 65535)
       .shows_default();
-  command.flag("--no-browser", options->no_browser, "Print the address and open nothing");
+  command.flag("--no-browser", options.no_browser, "Print the address and open nothing");
   command.footer(
       "Prints the address with the token of this start; whoever has it can edit and run this project.\n"
       "Only this machine can connect. From another: ssh -L 8417:127.0.0.1:8417 HOST\n"
       "Example: tessera studio robot");
-  command.callback([options, &exit_code] { exit_code = studio_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -125,19 +124,18 @@ int test_command(const TestOptions& options) {
 
 }  // namespace
 
-void add_test(CommandLine& app, int& exit_code) {
+void add_test(CommandLine& app) {
   Subcommand command = app.add("test", "Build and run the project's own GoogleTests of its functions");
-  auto options = std::make_shared<TestOptions>();
-  declare_specification(command, options->spec);
-  command.option("--filter", options->filter, "GoogleTest filter, e.g. Follow.*");
-  command.flag("--debug", options->debug, "Build the tests for gdb");
+  TestOptions& options = command.runs(test_command);
+  declare_specification(command, options.spec);
+  command.option("--filter", options.filter, "GoogleTest filter, e.g. Follow.*");
+  command.flag("--debug", options.debug, "Build the tests for gdb");
   command
-      .flag("--coverage", options->coverage,
+      .flag("--coverage", options.coverage,
             "Show which lines of src/, and which parts of the net, the tests have not reached")
       .excludes(command.declared("--debug"));
-  declare_verification_gate(command, options->gate);
+  declare_verification_gate(command, options.gate);
   command.footer("Example: tessera test --filter 'Follow.*'");
-  command.callback([options, &exit_code] { exit_code = test_command(*options); });
 }
 
 }  // namespace tessera::cli

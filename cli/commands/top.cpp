@@ -5,7 +5,6 @@
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
-#include <memory>
 #include <optional>
 #include <string_view>
 #include <system_error>
@@ -191,20 +190,20 @@ int top_command(const TopOptions& options) {
 
 }  // namespace
 
-void add_top(CommandLine& app, int& exit_code) {
+void add_top(CommandLine& app) {
   Subcommand command = app.add("top", "Watch a controller that runs in real time");
-  auto options = std::make_shared<TopOptions>();
+  TopOptions& options = command.runs(top_command);
   command.option(
-      "controller,--controller", options->which,
+      "controller,--controller", options.which,
       "Its system, its process (cart[0]) or its process number; needed if several systems run. A project: "
       "its processes on all machines");
-  command.flag("--once", options->once, "Print one table (with --json: one line of each process) and end");
-  command.flag("--json", options->lines, "Print the lines of JSON that the controllers send");
-  command.option("--domain", options->network.domain,
+  command.flag("--once", options.once, "Print one table (with --json: one line of each process) and end");
+  command.flag("--json", options.lines, "Print the lines of JSON that the controllers send");
+  command.option("--domain", options.network.domain,
                  "Of a project: domain of DDS (default: that of `deploy`)");
-  command.option("--interface", options->network.interface,
+  command.option("--interface", options.network.interface,
                  "Of a project: network interface (default: that of `deploy`)");
-  command.option("--peers", options->network.peers,
+  command.option("--peers", options.network.peers,
                  "Of a project: hosts of its processes: A,B (default: those of `deploy`)");
   command.footer(
       "A * behind a behaviour: its transition function is being executed. `call` is what its last one took,\n"
@@ -215,7 +214,6 @@ void add_top(CommandLine& app, int& exit_code) {
       "see\n"
       "those of other machines. On a machine without one, name the project.\n"
       "Example: tessera run --world &  tessera top");
-  command.callback([options, &exit_code] { exit_code = top_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -4,7 +4,6 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
-#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "cli/commands/commands.hpp"
@@ -235,37 +234,36 @@ int verify_command(const VerifyOptions& options) {
 
 }  // namespace
 
-void add_verify(CommandLine& app, int& exit_code) {
+void add_verify(CommandLine& app) {
   Subcommand command =
       app.add("verify", "Prove that nothing can go wrong in the net, or show the run in which it does");
-  auto options = std::make_shared<VerifyOptions>();
-  command.option("spec", options->spec, "Specification, the folder of its spec.yaml, or a PNML file")
+  VerifyOptions& options = command.runs(verify_command);
+  command.option("spec", options.spec, "Specification, the folder of its spec.yaml, or a PNML file")
       .shows_default();
-  command.option("--property", options->properties, "Only this property; may be given several times");
-  command.option("--timeout", options->timeout, "For all properties together, such as 60s or 2min")
+  command.option("--property", options.properties, "Only this property; may be given several times");
+  command.option("--timeout", options.timeout, "For all properties together, such as 60s or 2min")
       .shows_default();
-  command.option("--memory", options->memory, "For the markings of a search, such as 500MB or 4GB")
+  command.option("--memory", options.memory, "For the markings of a search, such as 500MB or 4GB")
       .shows_default();
   std::vector<std::string> methods = verify::method_names();
   methods.insert(methods.begin(), "any");
-  command.option("--method", options->method, "Use only this method").one_of(methods).shows_default();
+  command.option("--method", options.method, "Use only this method").one_of(methods).shows_default();
   std::vector<std::string> rules{"all"};
   for (const reduce::NamedRule& rule : reduce::named_rules()) rules.emplace_back(rule.name);
-  command.option("--without", options->without, "Do not use this reduction (to check one against the rest)")
+  command.option("--without", options.without, "Do not use this reduction (to check one against the rest)")
       .one_of(rules);
-  command.flag("--states", options->states, "Count the reachable markings as well");
-  command.option("--json", options->json, "Write the verdicts as JSON (- is standard output)");
-  command.option("--trace", options->trace, "Write the runs that show violations as JSON");
-  command.option("--scenario", options->scenario,
+  command.flag("--states", options.states, "Count the reachable markings as well");
+  command.option("--json", options.json, "Write the verdicts as JSON (- is standard output)");
+  command.option("--trace", options.trace, "Write the runs that show violations as JSON");
+  command.option("--scenario", options.scenario,
                  "Write the run of a violation for `tessera simulate --scenario`");
-  command.flag("--explain", options->explain,
+  command.flag("--explain", options.explain,
                "Explain each verdict: its method, and its meaning for the net with conditions");
   command.footer(
       "Ends with 0 if all properties hold, 1 if one is violated or the specification is wrong,\n"
       "2 if a file cannot be read, 3 if a property is unknown.\n"
       "Example: tessera verify robot/spec.yaml --explain\n"
       "         tessera verify net.pnml --states --json -");
-  command.callback([options, &exit_code] { exit_code = verify_command(*options); });
 }
 
 }  // namespace tessera::cli

@@ -1,6 +1,5 @@
 #include <fmt/format.h>
 
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
@@ -110,16 +109,15 @@ int world_command(const WorldCommandOptions& options) {
 
 }  // namespace
 
-void add_world(CommandLine& app, int& exit_code) {
+void add_world(CommandLine& app) {
   Subcommand command = app.add("world", "List what a simulated world offers, with drivers for it");
-  auto options = std::make_shared<WorldCommandOptions>();
-  command.option("file", options->file, "A MuJoCo model (XML), or a specification that names one")
+  WorldCommandOptions& options = command.runs(world_command);
+  command.option("file", options.file, "A MuJoCo model (XML), or a specification that names one")
       .shows_default();
-  command.option("--json", options->json, "Write the list as JSON (- is standard output)");
+  command.option("--json", options.json, "Write the list as JSON (- is standard output)");
   command.footer(
       "Examples:\n  tessera world arm.xml\n  tessera world          the world of ./spec.yaml\n"
       "The kinds of drivers are described in docs/use/worlds.md.");
-  command.callback([options, &exit_code] { exit_code = world_command(*options); });
 }
 
 }  // namespace tessera::cli

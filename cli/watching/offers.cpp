@@ -4,16 +4,13 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <iterator>
 #include <map>
 #include <optional>
 #include <tuple>
 #include <utility>
-#include <variant>
 
 #include "cli/terminal.hpp"
-#include "project/process/control_reader.hpp"
 #include "tessera/control_messages.hpp"
 #include "tessera/nearest.hpp"
 #include "tessera/result.hpp"
@@ -22,25 +19,13 @@ namespace tessera::cli {
 
 namespace {
 
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::seconds offers_patience{2};
-constexpr int offers_question = 1;
-
 /// nullopt: the mistake has been printed.
 std::optional<Offered> offered_by(RunningController& controller) {
-  controller.be_patient_for(offers_patience);
-  const auto end = Clock::now() + offers_patience;
-  if (controller.send(line_of(command::Offers{}, offers_question)))
-    while (Clock::now() < end) {
-      std::optional<project::ControlMessage> said = controller.message();
-      if (!said) break;
-      auto* const answer = said->content ? std::get_if<CommandAnswer>(&*said->content) : nullptr;
-      if (answer == nullptr || answer->id != offers_question) continue;
-      if (answer->offered) return std::move(answer->offered);
-      complain(controller.name() + " does not say what it has: another version of Tessera made it");
-      return std::nullopt;
-    }
-  complain(controller.name() + " has ended, or does not answer: what it has is unknown");
+  std::optional<CommandAnswer> answer;
+  if (controller.tell(command::Offers{})) answer = controller.answer();
+  if (answer && answer->offered) return std::move(answer->offered);
+  complain(controller.name() + (answer ? " does not say what it has: another version of Tessera made it"
+                                       : " has ended, or does not answer: what it has is unknown"));
   return std::nullopt;
 }
 

@@ -99,6 +99,28 @@ std::vector<fs::path> connect_to(const std::vector<fs::path>& files,
 
 }  // namespace
 
+bool RunningController::tell(const ControlCommand& command) {
+  be_patient_for(patience);
+  return connection_.send(line_of(command, ++told_));
+}
+
+std::optional<CommandAnswer> RunningController::answer(Clock::time_point end,
+                                                       std::optional<Snapshot>* first) {
+  // It sends its state several times a second, beside answers: lines come as long as it runs. Lines that have come
+  // already are taken in any case, because others may have taken all the time.
+  const auto last = std::max(end, Clock::now() + std::chrono::milliseconds(200));
+  do {
+    be_patient_for(left_until(end));
+    std::optional<project::ControlMessage> said = message();
+    if (!said) break;
+    auto* answer = said->content ? std::get_if<CommandAnswer>(&*said->content) : nullptr;
+    if (answer != nullptr && answer->id == told_) return std::move(*answer);
+    auto* snapshot = said->content ? std::get_if<Snapshot>(&*said->content) : nullptr;
+    if (first != nullptr && !*first && snapshot != nullptr) *first = std::move(*snapshot);
+  } while (Clock::now() < last);
+  return std::nullopt;
+}
+
 FoundControllers look_for_controllers(const std::string& which, const Greet& greet) {
   FoundControllers found;
   std::vector<std::pair<RunningController, fs::path>> unnamed;

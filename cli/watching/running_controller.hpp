@@ -1,11 +1,11 @@
 #pragma once
 
 #include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <optional>
 #include <string>
-#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,14 +38,21 @@ class RunningController {
   [[nodiscard]] const project::ControlMessage* coming_message();
   /// Limits all later waits to this time, because the process may be stopped or hang.
   void be_patient_for(std::chrono::milliseconds time) { connection_.limit_waits(time); }
-  /// false: the controller has ended, or accepts no data.
-  [[nodiscard]] bool send(std::string_view text) const { return connection_.send(text); }
+  /// Sends a command. false: the controller has ended, or accepts no data for `patience`.
+  bool tell(const ControlCommand& command);
+  /// The answer to the last command. nullopt: the controller has ended, or does not answer until `end`. first: gets
+  /// its first state, if that comes before the answer.
+  [[nodiscard]] std::optional<CommandAnswer> answer(
+      std::chrono::steady_clock::time_point end = std::chrono::steady_clock::now() + patience,
+      std::optional<Snapshot>* first = nullptr);
+  static constexpr std::chrono::seconds patience{2};
 
  private:
   project::ControlConnection connection_;
   std::string name_;
   project::ControlReader heard_;
   std::optional<project::ControlMessage> coming_;  ///< nullopt: it was not looked at yet
+  std::int64_t told_ = 0;                          ///< number of the last command
 };
 
 /// A controller and its first message, which stays unread.

@@ -70,7 +70,7 @@ class ServiceEnds {
   std::optional<Endpoint> writer_, reader_;
 };
 
-/// What a client and a server have in common: the drivers of a service share one.
+/// The common part of a client and a server: the drivers of a service share one.
 ///
 /// Threads: any.
 class SharedService {

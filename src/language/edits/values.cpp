@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <system_error>
 
 #include "diagnostics/diagnostics.hpp"
 #include "spec/document/document.hpp"
@@ -11,7 +13,6 @@ namespace tessera::language {
 namespace {
 
 bool one_of(std::string_view all, char c) { return all.find(c) != std::string_view::npos; }
-bool is_number_digit(char c) { return c >= '0' && c <= '9'; }
 
 std::string_view without_blanks(std::string_view text) {
   const std::size_t first = text.find_first_not_of(" \t\r\n");
@@ -19,27 +20,14 @@ std::string_view without_blanks(std::string_view text) {
   return text.substr(first, text.find_last_not_of(" \t\r\n") + 1 - first);
 }
 
-std::size_t digits_from(std::string_view text, std::size_t at) {
-  while (at < text.size() && is_number_digit(text[at])) ++at;
-  return at;
-}
-
 /// -0.5, .5, 2., 1e-3. sign: also +1.
 bool is_number(std::string_view text, bool sign) {
-  std::size_t at = !text.empty() && (text[0] == '-' || (sign && text[0] == '+')) ? 1 : 0;
-  const std::size_t whole = digits_from(text, at);
-  std::size_t end = whole;
-  if (end < text.size() && text[end] == '.') end = digits_from(text, end + 1);
-  if (end - at - (end > whole ? 1 : 0) == 0) return false;
-  at = end;
-  if (at < text.size() && (text[at] == 'e' || text[at] == 'E')) {
-    ++at;
-    if (at < text.size() && (text[at] == '-' || text[at] == '+')) ++at;
-    const std::size_t exponent = digits_from(text, at);
-    if (exponent == at) return false;
-    at = exponent;
-  }
-  return at == text.size();
+  if (sign && text.starts_with('+') && !text.starts_with("+-")) text.remove_prefix(1);
+  // from_chars also accepts "inf", "nan" and similar texts.
+  if (text.find_first_not_of("0123456789.eE+-") != std::string_view::npos) return false;
+  double number = 0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error != std::errc::invalid_argument && end == text.data() + text.size();
 }
 
 /// Whether YAML reads the plain text as something else than text, so that a text needs quotes.

@@ -12,6 +12,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "../scratch.hpp"
 #include "project/files/files.hpp"
 #include "project/files/state_folder.hpp"
 #include "project/process/process.hpp"
@@ -79,7 +80,7 @@ class Command : public testing::Test {
   }
   ~Command() override {
     unsetenv("TESSERA_STATE_DIR");  // built_example
-    fs::remove_all(folder_);
+    remove_scratch(folder_);
     fs::remove_all(user_);
   }
 

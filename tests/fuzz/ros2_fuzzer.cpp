@@ -5,8 +5,8 @@
 #include <string>
 #include <vector>
 
-#include "ros2/codec/plan.hpp"
 #include "ros2/codec/request_header.hpp"
+#include "ros2/codec/translator.hpp"
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
@@ -60,7 +60,7 @@ class OneText final : public Definitions {
 };
 
 struct Case {
-  Plan receive, send;
+  Translator receive, send;
 };
 const Case& rich_case() {
   static const Case made = [] {
@@ -70,9 +70,9 @@ const Case& rich_case() {
     const auto value = parse_value_type(rich_value);
     if (message == nullptr || !value) std::abort();
     const Mapping mapping{};  // names do not go together with sequences of the buffer
-    auto receive = Plan::make(message, *value, mapping, Direction::receive, problems);
+    auto receive = Translator::make(message, *value, mapping, Direction::receive, problems);
     const auto same = parse_value_type(same_value);
-    auto send = Plan::make(message, *same, mapping, Direction::send, problems);
+    auto send = Translator::make(message, *same, mapping, Direction::send, problems);
     if (!receive || !send) std::abort();
     return Case{*receive, *send};
   }();
@@ -81,34 +81,34 @@ const Case& rich_case() {
 
 /// A message that is accepted can be sent on, and gives the same value again.
 void try_message(std::span<const std::byte> bytes) {
-  static const Plan back = [] {
+  static const Translator back = [] {
     std::vector<Mistake> mistakes;
     std::vector<MappingProblem> problems;
     const auto message = resolve("fuzz/msg/Rich", DefinitionBundle("fuzz/msg/Rich", rich_message), mistakes);
-    auto plan = Plan::make(message, *parse_value_type(same_value), {}, Direction::receive, problems);
+    auto plan = Translator::make(message, *parse_value_type(same_value), {}, Direction::receive, problems);
     return plan ? *plan : rich_case().receive;
   }();
   std::vector<std::byte> value, again, other;
   static_cast<void>(rich_case().receive.decode(bytes, other));
-  if (back.decode(bytes, value) != Plan::Outcome::good) return;
+  if (back.decode(bytes, value) != Translator::Outcome::good) return;
   std::vector<std::byte> message;
   if (!rich_case().send.encode(value, {}, message)) std::abort();
-  if (back.decode(message, again) != Plan::Outcome::good || again != value) std::abort();
+  if (back.decode(message, again) != Translator::Outcome::good || again != value) std::abort();
 }
 
 /// A message of a service: the header comes off and goes back, and the rest becomes a value with own fields.
 void try_service_message(std::span<const std::byte> bytes) {
-  static const Plan plan = [] {
+  static const Translator plan = [] {
     std::vector<Mistake> mistakes;
     std::vector<MappingProblem> problems;
     const auto message = resolve("fuzz/msg/Rich", DefinitionBundle("fuzz/msg/Rich", rich_message), mistakes);
     Mapping mapping{{}, {"left", "right"}, ""};
     mapping.own = own_fields_of_service(/*has_outcome=*/true);
     auto made =
-        Plan::make(message,
-                   *parse_value_type("{outcome: uint8, flag: bool, position: float64[2], call: uint64, "
-                                     "word: string(8)}"),
-                   mapping, Direction::receive, problems);
+        Translator::make(message,
+                         *parse_value_type("{outcome: uint8, flag: bool, position: float64[2], call: uint64, "
+                                           "word: string(8)}"),
+                         mapping, Direction::receive, problems);
     if (!made) std::abort();
     return *made;
   }();
@@ -120,7 +120,8 @@ void try_service_message(std::span<const std::byte> bytes) {
   // The header is little-endian afterwards, whatever it was before.
   again[1] = std::byte{1};
   if (again.size() != bytes.size() || take_header(again) != header) std::abort();
-  if (plan.decode(message, value, std::array<std::uint64_t, 2>{header->client, 3}) != Plan::Outcome::good)
+  if (plan.decode(message, value, std::array<std::uint64_t, 2>{header->client, 3}) !=
+      Translator::Outcome::good)
     return;
   if (plan.own_number(value, call_field) != header->client || plan.own_number(value, outcome_field) != 3)
     std::abort();

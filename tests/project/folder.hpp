@@ -8,6 +8,7 @@
 #include <set>
 #include <string>
 
+#include "../scratch.hpp"
 #include "project/files/files.hpp"
 #include "project/process/listener.hpp"
 
@@ -32,7 +33,7 @@ class Folder : public testing::Test {
     fs::remove_all(folder_);
     fs::create_directories(folder_);
   }
-  ~Folder() override { fs::remove_all(folder_); }
+  ~Folder() override { remove_scratch(folder_); }
   void write(const fs::path& file, const std::string& text) const {
     fs::create_directories((folder_ / file).parent_path());
     std::ofstream(folder_ / file, std::ios::binary) << text;

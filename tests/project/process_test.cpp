@@ -14,6 +14,8 @@
 #include <string>
 #include <thread>
 
+#include "../scratch.hpp"
+
 namespace tessera::project {
 namespace {
 
@@ -30,7 +32,7 @@ class Starter : public testing::Test {
       kill(starter_, SIGKILL);
       waitpid(starter_, nullptr, 0);
     }
-    fs::remove_all(folder_);
+    remove_scratch(folder_);
   }
 
   /// Returns when the shell has touched `ready`.

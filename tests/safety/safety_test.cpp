@@ -15,6 +15,7 @@
 #include <tuple>
 #include <vector>
 
+#include "../scratch.hpp"
 #include "project/process/process.hpp"
 #include "tessera/recording.hpp"
 #include "trials.hpp"
@@ -35,7 +36,7 @@ class ScratchFolder {
   }
   ScratchFolder(const ScratchFolder&) = delete;
   ScratchFolder& operator=(const ScratchFolder&) = delete;
-  ~ScratchFolder() { fs::remove_all(path_); }
+  ~ScratchFolder() { remove_scratch(path_); }
   [[nodiscard]] const fs::path& path() const { return path_; }
   [[nodiscard]] std::string operator/(const std::string& name) const { return (path_ / name).string(); }
 

@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "../schema/judge.hpp"
+#include "../scratch.hpp"
 
 namespace tessera::server_test {
 
@@ -123,7 +124,7 @@ Served::Served(fs::path folder) : folder_(std::move(folder)) {
 
 Served::~Served() {
   studio_.reset();
-  if (!keep_) fs::remove_all(folder_);
+  if (!keep_) remove_scratch(folder_);
 }
 
 void Served::serve() {

@@ -81,15 +81,17 @@ export class Api {
     const path = addressOf(name, of, query ?? {});
     const headers: Record<string, string> = { Authorization: `Bearer ${this.token}` };
     if (body !== undefined) headers["Content-Type"] = "application/json";
-    let answer: Response;
+    let answer: Response, text: string;
     try {
       answer = await fetch(path, { method, headers, keepalive, ...(body === undefined ? {} : { body: JSON.stringify(body) }) });
+      // An answer that breaks off is none: the server has gone, or the page is being left.
+      text = await answer.text();
     } catch {
       throw new ApiError(0, "The server does not answer.");
     }
     let json: Record<string, unknown>;
     try {
-      json = answer.headers.get("Content-Length") === "0" ? {} : ((await answer.json()) as Record<string, unknown>);
+      json = text === "" ? {} : (JSON.parse(text) as Record<string, unknown>);
     } catch {
       throw new ApiError(answer.status || 500, `The server answered ${path} with something that is not JSON.`);
     }

@@ -4,7 +4,7 @@ import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError, message } from "./api";
 import type { Analysis, Diagnostic, Edit, FileRenamed, SpecAnswer } from "../model/protocol";
-import { Queue } from "./queue";
+import { Queue } from "../model/queue";
 import { Store } from "./store";
 
 export interface DraftState {
@@ -38,7 +38,7 @@ interface File {
   revision: string;
 }
 
-/** What a tab keeps until it is saved: its text, the text on disk that this began with, and edits that are not done. */
+/** A tab keeps this until it is saved: its text, the text on disk that this began with, and edits that are not done. */
 interface Kept {
   text?: string;
   base?: string;
@@ -148,7 +148,7 @@ export class Draft {
   }
 
   /**
-   * An edit of the text `before`. What was typed since then stays, and is the first that is undone. false: it is not done,
+   * An edit of the text `before`. Text typed since then stays, and is the first that is undone. false: it is not done,
    * since the same lines were changed.
    */
   editOf(before: string, after: string): boolean {
@@ -158,7 +158,7 @@ export class Draft {
     return true;
   }
 
-  /** What is typed from now on is a step of its own. */
+  /** Text typed from now on is a step of its own. */
   endTyping(): void {
     this.history.endTyping();
   }

@@ -54,8 +54,7 @@ function transitionHelp(page: Page, { role, condition }: PageTransition): string
     case "next":
       return text ? `leads to the next behaviour if ${text}.` : "leads to the next behaviour.";
   }
-  if (role === "start_system" || role === "start_agent")
-    return `starts all that is in ${pageName(page)} at the same time.`;
+  if (role === "start_system" || role === "start_agent") return `starts all that is in ${pageName(page)} at the same time.`;
   if (role === "start") return `starts the first behaviour of ${pageName(page)}.`;
   if (role === "end_system" || role === "end_agent") return `fires when all that is in ${pageName(page)} has ended.`;
   return "fires when each place before it holds a token; takes those tokens and puts one into each place after it.";

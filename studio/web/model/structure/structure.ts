@@ -273,7 +273,7 @@ export function findThing(structure: Structure, selection: string): Thing | unde
   return buffer && { kind: "buffer", of: buffer, subsystem };
 }
 
-/** What selects an element after paths in the file have changed: `moved` gives the present one of a path. */
+/** The text that selects an element after paths in the file have changed: `moved` gives the present one of a path. */
 export function selectionAfter(structure: Structure, selection: string, moved: (at: YamlPath) => YamlPath): string {
   const direction = selection.slice(0, selection.length - selectedPath(selection).length);
   const names = selectedPath(selection).split(".");

@@ -26,8 +26,7 @@ export const isNumber = (base: string) => (numberTypes as readonly string[]).inc
 
 /** null: the text is no type. */
 export function typeParts(text: string): TypeParts | null {
-  const found =
-    /^\s*(?:(string)\b\s*(?:<=\s*(\d+))?|([A-Za-z_]\w*))\s*(?:\[\s*(\d+)\s*\]|<=\s*(\d+))?\s*(.*?)\s*$/.exec(text);
+  const found = /^\s*(?:(string)\b\s*(?:<=\s*(\d+))?|([A-Za-z_]\w*))\s*(?:\[\s*(\d+)\s*\]|<=\s*(\d+))?\s*(.*?)\s*$/.exec(text);
   if (!found) return null;
   const [, string, most = "", other = "", extent = "", largest, unit = ""] = found;
   const length = largest === undefined ? extent : `<=${largest}`;

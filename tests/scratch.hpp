@@ -1,0 +1,50 @@
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "eventually.hpp"
+
+namespace tessera {
+
+/// The other processes that work in a folder or have one of its files open.
+inline std::vector<pid_t> processes_in(const std::filesystem::path& folder) {
+  namespace fs = std::filesystem;
+  std::error_code gone;  // processes end while they are looked at
+  const std::string below = fs::weakly_canonical(folder, gone).string();
+  const auto is_below = [&](const fs::path& link) {
+    const std::string at = fs::read_symlink(link, gone).string();
+    return !gone && at.starts_with(below) && (at.size() == below.size() || at[below.size()] == '/');
+  };
+  std::vector<pid_t> found;
+  for (const auto& process : fs::directory_iterator("/proc", gone)) {
+    const std::string name = process.path().filename();
+    if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(getpid()))
+      continue;
+    bool uses = is_below(process.path() / "cwd");
+    for (fs::directory_iterator file(process.path() / "fd", gone), end; !uses && !gone && file != end;
+         file.increment(gone))
+      uses = is_below(file->path());
+    if (uses) found.push_back(std::stoi(name));
+  }
+  return found;
+}
+
+/// Removes the folder of a test when the processes that the test left in it have ended. Those that do not end fail
+/// the test.
+inline void remove_scratch(const std::filesystem::path& folder) {
+  if (!eventually([&] { return processes_in(folder).empty(); })) {
+    for (const pid_t process : processes_in(folder)) {
+      ADD_FAILURE() << "process " << process << " still runs in " << folder;
+      kill(process, SIGKILL);
+    }
+  }
+  std::filesystem::remove_all(folder);
+}
+
+}  // namespace tessera

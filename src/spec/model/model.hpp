@@ -134,7 +134,8 @@ struct Next {
   BehaviourId behaviour{};  ///< none: `end`
   When when;
   Span span;
-  bool implied = false;  ///< not in the file: complete_next has added it
+  bool implied = false;    ///< not in the file: complete_next has added it
+  bool inherited = false;  ///< not in the list: `on_error`, at `span`, says it
 };
 
 enum class Transfer : std::uint8_t { sequential, parallel };

@@ -168,7 +168,7 @@ struct Migration {
 /// their behaviours repeat.
 struct Shortened {
   std::string text;
-  std::vector<std::string> done;  ///< "robot.control: on_error: safe, for 11 behaviours"; empty: the text is as before
+  std::vector<std::string> done;  ///< "robot.control: on_error: safe, for 11 behaviours"; empty: nothing
 };
 /// Comments, order and style of everything else stay. All behaviours are the same, entry by entry, and so is the net.
 ///

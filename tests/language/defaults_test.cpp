@@ -45,7 +45,7 @@ std::string with_other(std::string in, const std::string& old, const std::string
 
 std::vector<std::string> labels_in(const std::string& with_cursor) {
   const Typed typed(with_cursor);
-  const Document document(typed.defaulted, grammar());
+  const Document document(typed.text, grammar());
   std::vector<std::string> labels;
   for (const Proposal& one : complete(document, typed.cursor)) labels.push_back(one.label);
   return labels;
@@ -190,7 +190,7 @@ TEST(Defaults, InLinesGoLikeThoseInBrackets) {
   EXPECT_TRUE(reads_well(without));
   EXPECT_EQ(times(without, "request"), 0U);
   const Document document(without, grammar());
-  EXPECT_THAT(without, HasSubstr("send: []")) << "not all outputs";
+  EXPECT_THAT(without, HasSubstr("send:\n            []")) << "not all outputs";
 }
 
 TEST(Defaults, KeepTheBehaviourThatAnAgentOrTheSystemNames) {
@@ -221,7 +221,8 @@ TEST(Defaults, MoveToATemplateWithTheirAgent) {
                                        "    control:", "    on_error: safe\n    control:");
   const std::string made = after_edit(outer, R"([{"do":"make_template","at":["agents","robot"]}])");
   EXPECT_TRUE(reads_well(made));
-  EXPECT_LT(made.find("on_error: safe"), made.find("agents:"));
+  EXPECT_GT(made.find("on_error: safe"), made.find("templates:"));
+  EXPECT_THAT(made, HasSubstr("use: robot"));
 }
 
 }  // namespace

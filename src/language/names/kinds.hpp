@@ -6,7 +6,7 @@
 
 #include "language/names/index.hpp"
 
-/// What the builder of the index asks about one name.
+/// Questions of the builder of the index about one name.
 namespace tessera::language {
 
 /// The kind of the third word of a path.

@@ -231,7 +231,7 @@ class Completer {
     add_names(names);
   }
 
-  /// Of the system or of an agent: the behaviours of the subsystems in it.
+  /// Proposes the behaviours of the subsystems in the system or in an agent.
   void on_error() {
     for (const DefinitionNames& definition : index_.definitions())
       if (place_.way.size() == 1 || index_[definition.symbol].way == Way{place_.way[0], place_.way[1]})

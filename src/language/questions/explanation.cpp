@@ -56,12 +56,12 @@ std::string joined(const std::vector<spec::BufferId>& list,
   return text.empty() ? "nothing" : text;
 }
 
-/// Where a key stands, for people.
+/// The line of a key, for people.
 std::string line_of(const Document& document, const Entry& entry) {
   return fmt::format("line {}", document.lines().position(entry.extent.begin).line + 1);
 }
 
-/// What a behaviour has from `on_error`, `send` and `receive` around it.
+/// The defaults that a behaviour has from `on_error`, `send` and `receive` around it.
 std::string inherited(const Document& document, const Symbol& symbol, const UnitNames& unit) {
   diagnostics::Diagnostics out("", document.text());
   const std::optional<spec::Model> model = spec::parse_what_is_known(out);

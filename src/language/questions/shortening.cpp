@@ -55,7 +55,7 @@ bool is_same(const spec::Model& a, const spec::Model& b) {
       });
 }
 
-/// What stands behind each # that may begin a comment.
+/// The text from each # on that may begin a comment.
 std::multiset<std::string> comments_of(const std::string& text) {
   std::multiset<std::string> all;
   for (std::size_t at = text.find('#'); at != std::string::npos; at = text.find('#', at + 1)) {
@@ -71,7 +71,7 @@ std::string in_list(const Names& names) {
   return "[" + text + "]";
 }
 
-/// Changes of `base` that give `list`; nullopt: none do, or they are not shorter.
+/// Changes of `base` that give `list`; nullopt: none do, or they are not fewer than its names.
 std::optional<std::string> as_changes(const Names& list, const Names& base) {
   const auto has = [](const Names& names, const std::string& name) {
     return std::ranges::find(names, name) != names.end();
@@ -87,8 +87,7 @@ std::optional<std::string> as_changes(const Names& list, const Names& base) {
       changes.push_back("+" + name);
       result.push_back(name);
     }
-  const std::string text = in_list(changes);
-  return result == list && text.size() < in_list(list).size() ? std::optional(text) : std::nullopt;
+  return result == list && changes.size() < list.size() ? std::optional(in_list(changes)) : std::nullopt;
 }
 
 /// The most frequent value that stands more than once; the first of equals.
@@ -277,6 +276,8 @@ class Shortener {
       text = now.text();
       ++changed;
     }
+    // A default that fewer than half of the others use would mislead.
+    if (2 * changed + 1 < first.keys(behaviours).size()) return;
     take(text, fmt::format("{}: on_error: {}, for {} behaviours", name, *to, changed));
   }
 

@@ -144,7 +144,7 @@ Hint hint_for(const std::string& word, const Behaviour& of, const SharedConditio
                        : guess;
 }
 
-/// What a single word that looks like a condition of the subsystem probably means; empty: it does not.
+/// The condition of the subsystem that a single word probably means; empty: it means none.
 Hint misspelt_name(const Node& value, const SharedConditions& shared) {
   if (!value.is_scalar() || !is_identifier(value.text) || value.text == "elapsed" || value.text == "index")
     return {};

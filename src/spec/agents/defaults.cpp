@@ -114,7 +114,7 @@ class ListReader {
 
   [[nodiscard]] std::string done() const { return scope_.what == "output" ? "sent" : "received"; }
 
-  /// Where the list around this one comes from.
+  /// The origin of the list around this one.
   [[nodiscard]] std::string source() const {
     const std::string all = "all " + std::string(scope_.what) + "s";
     if (around_.entry == nullptr)

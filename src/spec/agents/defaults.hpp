@@ -8,7 +8,7 @@
 #include "spec/document/section.hpp"
 #include "spec/model/model.hpp"
 
-/// What a specification, an agent or a subsystem says for all behaviours in it. After reading, the model is that of
+/// A specification, an agent and a subsystem may say something for all behaviours in it. After reading, the model is that of
 /// the same specification with everything written out.
 namespace tessera::spec {
 
@@ -77,7 +77,7 @@ struct SharedConditions {
 /// Warnings: W361 no behaviour names it.
 void check_used(const SharedConditions& conditions, Diagnostics& out);
 
-/// What one subsystem says for all its behaviours, besides `on_error`.
+/// The defaults of one subsystem for all its behaviours, besides `on_error`.
 struct SubsystemDefaults {
   ListDefault send, receive;
   SharedConditions conditions;

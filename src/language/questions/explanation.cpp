@@ -61,10 +61,10 @@ std::string line_of(const Document& document, const Entry& entry) {
   return fmt::format("line {}", document.lines().position(entry.extent.begin).line + 1);
 }
 
-/// The defaults that a behaviour has from `on_error`, `send` and `receive` around it.
+/// The defaults that a behaviour has from `on_error`, `send` and `receive` around it; empty in a text with errors.
 std::string inherited(const Document& document, const Symbol& symbol, const UnitNames& unit) {
   diagnostics::Diagnostics out("", document.text());
-  const std::optional<spec::Model> model = spec::parse_what_is_known(out);
+  const std::optional<spec::Model> model = spec::parse(out);
   const std::uint32_t line = document.lines().position(symbol.definition.begin).line + 1;
   const Node& body = node_at(document.outline(), unit.way);
   const Node& own = node_at(document.outline(), symbol.way);

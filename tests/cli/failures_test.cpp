@@ -49,9 +49,11 @@ TEST_F(Failures, AreNotedByCheckAndRoutedByMigrate) {
 constexpr const char* repeated =
     "tessera: 1\nsystem: cell\nagents:\n  arm:\n    control:\n      rate: 10 Hz\n"
     "      outputs: { left: bool, right: bool }\n      # what it does\n      behaviours:\n"
-    "        grab: { send: [left], terminal: { late: elapsed > 1 s }, next: [{ to: safe, when: error }, "
+    "        grab: { send: [left], terminal: { late: elapsed > 1 s || index > 7 }, next: [{ to: safe, when: "
+    "error }, "
     "lift] }  # box\n"
-    "        lift: { send: [left], terminal: { late: elapsed > 1 s }, next: [{ to: safe, when: error }, "
+    "        lift: { send: [left], terminal: { late: elapsed > 1 s || index > 7 }, next: [{ to: safe, when: "
+    "error }, "
     "grab] }\n"
     "        safe: { send: [left, right], terminal: true, next: [{ to: end, when: error }, grab] }\n";
 
@@ -70,7 +72,7 @@ TEST_F(Failures, OfAllBehavioursAreWrittenOnceByMigrate) {
   EXPECT_EQ(
       content_of(folder_ / "spec.yaml"),
       "tessera: 1\nsystem: cell\nagents:\n  arm:\n    control:\n      rate: 10 Hz\n"
-      "      outputs: { left: bool, right: bool }\n      conditions: { late: elapsed > 1 s }\n"
+      "      outputs: { left: bool, right: bool }\n      conditions: { late: elapsed > 1 s || index > 7 }\n"
       "      send: [left]\n      on_error: safe\n      # what it does\n      behaviours:\n"
       "        grab: { terminal: late, next: lift }  # box\n        lift: { terminal: late, next: grab }\n"
       "        safe: { send: [+right], terminal: true, next: [{ to: end, when: error }, grab] }\n");

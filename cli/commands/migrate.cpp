@@ -1,12 +1,13 @@
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "cli/commands/commands.hpp"
 #include "cli/launch.hpp"
+#include "cli/line_difference.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "diagnostics/utf8.hpp"
@@ -14,6 +15,7 @@
 #include "project/files/files.hpp"
 #include "project/verification/pipeline.hpp"
 #include "spec/parser.hpp"
+#include "verify/hashes.hpp"
 
 namespace tessera::cli {
 
@@ -26,48 +28,6 @@ struct MigrateOptions {
   bool dry_run = false;
 };
 
-/// "-" and "+" before the lines of a text; the last one may have no end.
-std::string marked(char mark, std::string_view text) {
-  std::string marked;
-  for (std::size_t at = 0; at < text.size();) {
-    std::size_t end = std::min(text.find('\n', at), text.size());
-    std::string_view line = text.substr(at, end - at);
-    if (line.ends_with('\r')) line.remove_suffix(1);
-    marked += mark + diagnostics::visible(line) + "\n";
-    at = end + 1;
-  }
-  return marked;
-}
-
-/// The lines that change, before and after.
-std::string difference(const language::Document& document,
-                       const std::vector<language::Migration::Step>& steps) {
-  std::string text;
-  const language::Lines& lines = document.lines();
-  for (std::size_t first = 0; first < steps.size();) {
-    std::size_t next = first + 1;
-    std::uint32_t last_line = steps[first].edit.range.end.line;
-    for (; next < steps.size() && steps[next].edit.range.start.line <= last_line; ++next)
-      last_line = std::max(last_line, steps[next].edit.range.end.line);
-    const std::uint32_t line = steps[first].edit.range.start.line;
-    const std::size_t begin = lines.start_of(line);
-    const std::size_t end =
-        last_line + 1 < lines.count() ? lines.start_of(last_line + 1) : document.text().size();
-    std::string after;
-    std::size_t at = begin;
-    for (std::size_t step = first; step < next; ++step) {
-      const language::TextEdit& edit = steps[step].edit;
-      after += document.text().substr(at, lines.offset(edit.range.start) - at) + edit.text;
-      at = lines.offset(edit.range.end);
-    }
-    after += document.text().substr(at, end - at);
-    text += fmt::format("line {}\n", line + 1) + marked('-', document.text().substr(begin, end - begin)) +
-            marked('+', after);
-    first = next;
-  }
-  return text;
-}
-
 /// Notes about what the author has to decide.
 void tell_by_hand(const language::Migration& migration, const std::string& file, const std::string& text) {
   diagnostics::Diagnostics notes(file, text);
@@ -76,6 +36,23 @@ void tell_by_hand(const language::Migration& migration, const std::string& file,
                "say where a failure of " + diagnostics::in_quotes(one.behaviour) + " leads: " + one.why,
                "without an entry that names it, an error or a failure ends the subsystem, and the run fails");
   terminal().say(notes);
+}
+
+/// The identity of the net of a text; nullopt: it has none.
+std::optional<std::string> net_hash(const std::string& file, const std::string& text) {
+  diagnostics::Diagnostics out(file, text);
+  const std::optional<spec::Model> model = spec::parse(out);
+  if (!model) return std::nullopt;
+  const PartialNets nets = build_what_is_possible(*model, out);
+  return nets.flat ? std::optional(verify::hash_of(*nets.flat)) : std::nullopt;
+}
+
+void tell_shorter(const language::Shortened& shorter, const std::string& file, const std::string& hash,
+                  bool dry_run) {
+  for (const std::string& one : shorter.done) fmt::print("{}: {}\n", file, one);
+  const std::size_t count = shorter.done.size();
+  fmt::print("{}: {} default{} {}; the net is the same: {}\n", file, count, count == 1 ? "" : "s",
+             dry_run ? "would be written" : "written", hash);
 }
 
 int migrate_command(const MigrateOptions& options) {
@@ -90,17 +67,25 @@ int migrate_command(const MigrateOptions& options) {
   const language::Document document(found.text(), grammar);
   std::optional<language::Migration> migration = language::migrate(document);
   if (!migration) return complain("cannot migrate " + file.string());
-  std::ranges::sort(migration->steps, {}, [](const auto& step) { return step.edit.range; });
   std::vector<language::TextEdit> edits;
   for (const language::Migration::Step& step : migration->steps) edits.push_back(step.edit);
-  fmt::print("{}", difference(document, migration->steps));
-  if (!edits.empty() && !options.dry_run) write_file(file, language::edited(document, edits));
-  const char* what = edits.size() == 1 ? "entry" : "entries";
-  if (edits.empty())
-    fmt::print("{}: nothing to change\n", file.string());
-  else
-    fmt::print("{}: {} {} for errors and failures {}\n", file.string(), edits.size(), what,
-               options.dry_run ? "would be added" : "added");
+  const std::string routed = edits.empty() ? found.text() : language::edited(document, edits);
+  std::optional<language::Shortened> shorter;
+  if (migration->by_hand.empty()) shorter = language::shortened(routed);
+  const std::string& text = shorter ? shorter->text : routed;
+  std::optional<std::string> hash;
+  if (text != routed) {
+    hash = net_hash(found.file(), routed);
+    if (!hash || hash != net_hash(found.file(), text))
+      return complain("the shorter form of " + file.string() + " would have another net; nothing is written");
+  }
+  fmt::print("{}", line_difference(found.text(), text));
+  if (text != found.text() && !options.dry_run) write_file(file, text);
+  if (text == found.text()) fmt::print("{}: nothing to change\n", file.string());
+  if (!edits.empty())
+    fmt::print("{}: {} {} for errors and failures {}\n", file.string(), edits.size(),
+               edits.size() == 1 ? "entry" : "entries", options.dry_run ? "would be added" : "added");
+  if (hash) tell_shorter(*shorter, file.string(), *hash, options.dry_run);
   tell_by_hand(*migration, found.file(), found.text());
   return migration->by_hand.empty() ? ok : failed;
 }
@@ -108,13 +93,16 @@ int migrate_command(const MigrateOptions& options) {
 }  // namespace
 
 void add_migrate(CommandLine& app) {
-  Subcommand command = app.add("migrate", "Let a specification of an earlier version mean what it meant");
+  Subcommand command =
+      app.add("migrate", "Let a specification of an earlier version mean what it meant, in its shorter form");
   MigrateOptions& options = command.runs(migrate_command);
   declare_specification(command, options.spec);
   command.flag("--dry-run", options.dry_run, "Show the changes and write nothing");
   command.footer(
       "Entries of `next` that name no error take no errors and no failures any more. Where they did,\n"
-      "this command adds { to: NAME, when: error }. Comments, order and style stay.\n"
+      "this command adds { to: NAME, when: error }. Then it writes on_error, send, receive and conditions\n"
+      "of subsystems for what their behaviours repeat, if the net stays the same. Comments, order and\n"
+      "style stay.\n"
       "Ends with 0 if nothing is left to do, 1 if something has to be decided by hand (N331) or the\n"
       "specification is wrong, 2 if it cannot be read.\n"
       "Example: tessera migrate --dry-run robot/spec.yaml");

@@ -164,6 +164,18 @@ struct Migration {
 [[nodiscard]] std::optional<Migration> migrate(const Document& document,
                                                std::optional<diagnostics::Span> only = std::nullopt);
 
+/// A specification in its shorter form: `on_error`, `send`, `receive` and `conditions` of subsystems stand for what
+/// their behaviours repeat.
+struct Shortened {
+  std::string text;
+  std::vector<std::string> done;  ///< "robot.control: on_error: safe, for 11 behaviours"; empty: nothing
+};
+/// Comments, order and style of everything else stay. All behaviours are the same, entry by entry, and so is the net.
+///
+/// Shape:  the text is read several times for each behaviour.
+/// nullopt: it has errors.
+[[nodiscard]] std::optional<Shortened> shortened(const std::string& text);
+
 /// All names as a tree.
 [[nodiscard]] std::vector<Heading> headings(const Document& document);
 

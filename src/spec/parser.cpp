@@ -2,6 +2,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/buffers.hpp"
+#include "spec/agents/defaults.hpp"
 #include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
 #include "spec/channels/channels.hpp"
@@ -44,7 +45,7 @@ std::string read_system(const Section& file, Diagnostics& out) {
 Model read_model(const Document& document, Diagnostics& out) {
   const Section file(document.root(), document.root().span, "a specification",
                      {"tessera", "system", "types", "parameters", "templates", "agents", "channels",
-                      "drivers", "properties", "simulation", "models", "deploy"},
+                      "drivers", "properties", "simulation", "models", "deploy", "on_error"},
                      out);
   Model model;
   if (!file.readable()) return model;
@@ -55,8 +56,10 @@ Model read_model(const Document& document, Diagnostics& out) {
   model.structures = types.structures();
   model.parameters = read_parameters(file.find("parameters"), types, out);
   const Entry* agents = file.require("agents", "a system is made of agents");
-  const AgentGroups groups =
-      read_agents(file.find("templates"), agents, {types, model.parameters}, model, out);
+  std::optional<OnError> on_error = read_on_error(file, out);
+  const SystemScope scope{types, model.parameters, on_error ? &*on_error : nullptr};
+  const AgentGroups groups = read_agents(file.find("templates"), agents, scope, model, out);
+  if (on_error) check_used(*on_error, out);
   CommunicationModels models;
   models.read(file.find("models"), model, out);
   const WiringExcuses excuses = read_channels(file.find("channels"), types, groups, models, model, out);

@@ -45,6 +45,42 @@ TEST_F(Failures, AreNotedByCheckAndRoutedByMigrate) {
   EXPECT_NE(again.text.find("nothing to change"), std::string::npos) << again.text;
 }
 
+/// Two behaviours that repeat what a subsystem can say.
+constexpr const char* repeated =
+    "tessera: 1\nsystem: cell\nagents:\n  arm:\n    control:\n      rate: 10 Hz\n"
+    "      outputs: { left: bool, right: bool }\n      # what it does\n      behaviours:\n"
+    "        grab: { send: [left], terminal: { late: elapsed > 1 s || index > 7 }, next: [{ to: safe, when: "
+    "error }, "
+    "lift] }  # box\n"
+    "        lift: { send: [left], terminal: { late: elapsed > 1 s || index > 7 }, next: [{ to: safe, when: "
+    "error }, "
+    "grab] }\n"
+    "        safe: { send: [left, right], terminal: true, next: [{ to: end, when: error }, grab] }\n";
+
+TEST_F(Failures, OfAllBehavioursAreWrittenOnceByMigrate) {
+  write(folder_ / "spec.yaml", repeated);
+  const project::Exit shown = tessera("migrate --dry-run");
+  EXPECT_EQ(shown.code, 0) << shown.text;
+  EXPECT_EQ(content_of(folder_ / "spec.yaml"), repeated) << "nothing is written";
+  EXPECT_NE(shown.text.find("3 defaults would be written; the net is the same: "), std::string::npos)
+      << shown.text;
+  const project::Exit done = tessera("migrate");
+  EXPECT_EQ(done.code, 0) << done.text;
+  for (const char* part : {"\n+      on_error: safe\n", "arm.control: on_error: safe, for 2 behaviours",
+                           "arm.control: send: [left], for 3 behaviours", "3 defaults written"})
+    EXPECT_NE(done.text.find(part), std::string::npos) << part << "\n" << done.text;
+  EXPECT_EQ(
+      content_of(folder_ / "spec.yaml"),
+      "tessera: 1\nsystem: cell\nagents:\n  arm:\n    control:\n      rate: 10 Hz\n"
+      "      outputs: { left: bool, right: bool }\n      conditions: { late: elapsed > 1 s || index > 7 }\n"
+      "      send: [left]\n      on_error: safe\n      # what it does\n      behaviours:\n"
+      "        grab: { terminal: late, next: lift }  # box\n        lift: { terminal: late, next: grab }\n"
+      "        safe: { send: [+right], terminal: true, next: [{ to: end, when: error }, grab] }\n");
+  const project::Exit again = tessera("migrate");
+  EXPECT_EQ(again.code, 0);
+  EXPECT_NE(again.text.find("nothing to change"), std::string::npos) << again.text;
+}
+
 TEST_F(Failures, ThatAConditionHasDecidedAreLeftToTheAuthor) {
   std::string text = gripper;
   text.replace(text.find("next: lift"), 10, "next: [{ to: end, when: elapsed > 2 s }, lift]");

@@ -55,6 +55,8 @@ bool changed(const Document& document, TextEditor& editor, const Edit& edit) {
 std::optional<std::string> problem_with(const Document& document, TextEditor& editor, const Edit& edit) {
   if (edit.kind == Edit::Kind::insert && editor.entry(edit.at / edit.key) != nullptr)
     return fmt::format("'{}' is there already", edit.key);
+  if (edit.kind == Edit::Kind::remove)
+    if (std::optional<std::string> why = needed_by(document, editor, edit.at)) return why;
   if (changed(document, editor, edit)) return std::nullopt;
   if (edit.kind == Edit::Kind::make_template)
     return "the agent is written in one line, with anchors, or beside templates of another layout: move it "

@@ -93,22 +93,11 @@ NextEntry read_entry(const TextEditor& editor, const Path& at) {
   return {editor.value_text(at / "to"), editor.value_text(at / "when")};
 }
 
-/// The entries of `next` of a behaviour.
-std::vector<Path> next_entries(const TextEditor& editor, const Path& behaviour) {
-  const Path at = behaviour / "next";
-  const Entry* next = editor.entry(at);
-  if (next == nullptr || next->written.empty()) return {};
-  const Node* list = editor.list(at);
-  if (list == nullptr) return {at};
-  std::vector<Path> entries;
-  for (std::size_t item = 0; item < list->items.size(); ++item) entries.push_back(at / item);
-  return entries;
-}
-
 void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector<Path>& paths) {
   const Path behaviours = without_last(at), unit = without_last(behaviours);
   const std::string& name = *key_of(at.back());
-  if (editor.value_text(unit / "start") == name) paths.push_back(unit / "start");
+  for (const char* key : {"start", "on_error"})
+    if (editor.value_text(unit / key) == name) paths.push_back(unit / key);
   for (const std::string& other : editor.keys(behaviours)) {
     if (other == name) continue;
     const std::vector<Path> entries = next_entries(editor, behaviours / other);
@@ -118,6 +107,45 @@ void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector
     if (!gone.empty() && gone.size() == entries.size()) gone = {behaviours / other / "next"};
     paths.insert(paths.end(), gone.begin(), gone.end());
   }
+}
+
+/// The uses of a buffer in one list of `send` or `receive`. Without changes, the list is that of the subsystem.
+void add_list_items(const TextEditor& editor, const Path& at, const std::string& buffer,
+                    std::vector<Path>& paths) {
+  const Node* list = editor.list(at);
+  if (list == nullptr) return;
+  std::vector<Path> hits;
+  bool changes = false;
+  for (std::size_t item = 0; item < list->items.size(); ++item) {
+    const std::string& text = list->items[item].value->text;
+    const bool sign = text.starts_with('+') || text.starts_with('-');
+    changes = changes || sign;
+    if (text.substr(sign ? 1 : 0) == buffer) hits.push_back(at / item);
+  }
+  if (changes && hits.size() == list->items.size()) hits = {at};
+  paths.insert(paths.end(), hits.begin(), hits.end());
+}
+
+/// The uses of an input or output in the lists of its subsystem and of the behaviours there.
+void add_lists(const TextEditor& editor, const Path& at, const char* key, std::vector<Path>& paths) {
+  const Path unit = without_last(without_last(at)), list = unit / key;
+  const std::string& name = *key_of(at.back());
+  add_list_items(editor, list, name, paths);
+  for (const std::string& order : editor.keys(list)) add_list_items(editor, list / order, name, paths);
+  for (const std::string& behaviour : editor.keys(unit / "behaviours"))
+    add_list_items(editor, unit / "behaviours" / behaviour / key, name, paths);
+}
+
+/// Whether the path leads to the only item of `send` or `receive`. A list without items says that there are none;
+/// without the list, there would be all.
+bool is_last_of_list(const TextEditor& editor, const Path& path) {
+  if (key_of(path.back()) != nullptr || (path[0] != Step("agents") && path[0] != Step("templates")))
+    return false;
+  const Path list = without_last(path);
+  const bool is_of_buffers = std::ranges::any_of(
+      list, [](const Step& step) { return step == Step("send") || step == Step("receive"); });
+  const Node* node = is_of_buffers ? editor.list(list) : nullptr;
+  return node != nullptr && node->items.size() == 1;
 }
 
 /// The safe command and the limits of a real buffer.
@@ -134,7 +162,8 @@ std::vector<Path> to_remove(const Document& document, const TextEditor& editor, 
   std::vector<Path> paths{at};
   const Use* name = document.index().defined_at(editor.entry(at)->extent.begin);
   if (name == nullptr) return paths;
-  switch (document.index()[name->symbol].kind) {
+  const Kind kind = document.index()[name->symbol].kind;
+  switch (kind) {
     case Kind::real:
       add_device_entries(editor, at, paths);
       [[fallthrough]];
@@ -144,6 +173,8 @@ std::vector<Path> to_remove(const Document& document, const TextEditor& editor, 
     case Kind::output: {
       const std::vector<Path> others = Dependents(document, editor, name->symbol).find();
       paths.insert(paths.end(), others.begin(), others.end());
+      if (kind == Kind::input) add_lists(editor, at, "receive", paths);
+      if (kind == Kind::output) add_lists(editor, at, "send", paths);
       break;
     }
     case Kind::behaviour:
@@ -157,14 +188,42 @@ std::vector<Path> to_remove(const Document& document, const TextEditor& editor, 
 
 }  // namespace
 
+std::vector<Path> next_entries(const TextEditor& editor, const Path& behaviour) {
+  const Path at = behaviour / "next";
+  const Entry* next = editor.entry(at);
+  if (next == nullptr || next->written.empty()) return {};
+  const Node* list = editor.list(at);
+  if (list == nullptr) return {at};
+  std::vector<Path> entries;
+  for (std::size_t item = 0; item < list->items.size(); ++item) entries.push_back(at / item);
+  return entries;
+}
+
 bool remove_with_uses(const Document& document, TextEditor& editor, const Path& at) {
   if (editor.entry(at) == nullptr) return false;
   std::vector<Path> paths = to_remove(document, editor, at);
   // From below: the positions of the others stay. The rest of a list decides how the next one goes.
   std::ranges::stable_sort(paths, std::greater{},
                            [&](const Path& path) { return editor.entry(path)->whole.begin; });
-  for (const Path& path : paths) editor.remove(path);
+  for (const Path& path : paths)
+    if (is_last_of_list(editor, path))
+      editor.replace(without_last(path), "[]");
+    else
+      editor.remove(path);
   return true;
+}
+
+std::optional<std::string> needed_by(const Document& document, const TextEditor& editor, const Path& at) {
+  const Entry* entry = editor.entry(at);
+  const Use* name = entry == nullptr ? nullptr : document.index().defined_at(entry->extent.begin);
+  if (name == nullptr || document.index()[name->symbol].kind != Kind::behaviour) return std::nullopt;
+  if (editor.entry(without_last(without_last(at)) / "on_error") != nullptr) return std::nullopt;
+  const Entry* outer = editor.entry({at[0], at[1], "on_error"});
+  if (outer == nullptr) outer = editor.entry({"on_error"});
+  if (outer == nullptr || outer->value->text != entry->key) return std::nullopt;
+  const std::size_t line = document.lines().position(outer->extent.begin).line + 1;
+  return "'on_error' on line " + std::to_string(line) + " leads failures to '" + entry->key +
+         "'; change that first, or write on_error: stop in the subsystem";
 }
 
 // ------------------------------------------------------------------------------------------------ channels

@@ -2,7 +2,9 @@
 
 #include <cstddef>
 #include <map>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "language/edits/text_editor.hpp"
 #include "language/language.hpp"
@@ -16,11 +18,18 @@ using Fields = std::map<std::string, std::string>;
 /// Properties and checks stay, for the user to judge. editor: has the text of the document.
 bool remove_with_uses(const Document& document, TextEditor& editor, const Path& at);
 
+/// Why the element at a path has to stay: an `on_error` of the agent or of the system names this behaviour. nullopt: it
+/// may go.
+[[nodiscard]] std::optional<std::string> needed_by(const Document& document, const TextEditor& editor,
+                                                   const Path& at);
+
 /// A channel as an item of `channels`: in short form if that can express it.
 [[nodiscard]] std::string channel_text(const Fields& fields);
 /// Changes some fields of the channel `at`.
 bool change_channel(TextEditor& editor, const Path& at, Fields change);
 
+/// The entries of `next` of a behaviour, which is one entry or a list of them.
+[[nodiscard]] std::vector<Path> next_entries(const TextEditor& editor, const Path& behaviour);
 /// Adds an entry to `next` of a behaviour, which is one entry or a list of them.
 bool add_next(TextEditor& editor, const Path& behaviour, const Fields& entry);
 /// Changes fields of an entry; an empty `when` removes its condition, an empty `to` the entry.

@@ -67,7 +67,9 @@ struct UnitNames {
   std::string name;
   Way way;
   NamesOf inputs, outputs, memory, real, parameters, behaviours;
-  std::map<std::string, NamesOf, std::less<>> conditions;  ///< by behaviour: named expressions
+  NamesOf shared;  ///< `conditions`, which several behaviours may name
+  std::map<std::string, NamesOf, std::less<>>
+      conditions;  ///< by behaviour: named expressions, also shared ones
 };
 
 /// An agent described in full, or a template.

@@ -2,9 +2,9 @@
 #include <set>
 
 #include "language/names/index.hpp"
+#include "language/names/kinds.hpp"
 
 namespace tessera::language {
-
 /// Walks the outline twice: first the definitions, then the uses.
 class IndexBuilder {
  public:
@@ -23,6 +23,7 @@ class IndexBuilder {
     use_types();
     for (DefinitionNames& definition : index_.definitions_)
       for (UnitNames& unit : definition.units) use_in_unit(unit);
+    use_on_errors();
     use_in_channels();
     use_in_drivers(root_["drivers"]);
     use_in_drivers(root_["simulation"]["drivers"]);
@@ -35,9 +36,6 @@ class IndexBuilder {
   }
 
  private:
-  /// The kind of the third word of a path.
-  enum class Place : std::uint8_t { agent, from, to, real, formula };
-
   SymbolId define(Kind kind, const Entry& entry, SymbolId owner, Way way, const std::string& above) {
     Symbol symbol;
     symbol.kind = kind;
@@ -64,16 +62,6 @@ class IndexBuilder {
       index_.symbols_[id].type = type_of(kind, *entry.value);
       names.emplace(entry.key, id);
     }
-  }
-
-  static std::string type_of(Kind kind, const Node& value) {
-    if (kind == Kind::parameter) {
-      if (value.is_scalar()) return value.text;
-      const std::string unit = value["unit"].text;
-      return (value["type"].text.empty() ? "float64" : value["type"].text) + (unit.empty() ? "" : " " + unit);
-    }
-    if (kind == Kind::model || kind == Kind::process || kind == Kind::behaviour) return {};
-    return value.is_map() ? value["type"].text : value.text;
   }
 
   void define_types() {
@@ -132,6 +120,7 @@ class IndexBuilder {
     part("real", Kind::real, unit.real);
     part("parameters", Kind::parameter, unit.parameters);
     part("behaviours", Kind::behaviour, unit.behaviours);
+    part("conditions", Kind::condition, unit.shared);
     for (const Entry& behaviour : body["behaviours"].entries) define_conditions(unit, behaviour, path);
     nodes_.push_back(&body);
     definition.units.push_back(std::move(unit));
@@ -144,10 +133,16 @@ class IndexBuilder {
       Way way = unit.way;
       way.insert(way.end(), {"behaviours", behaviour.key, key});
       const Node& condition = (*behaviour.value)[key];
-      if (!condition.is_map()) continue;
+      NamesOf& names = unit.conditions[behaviour.key];
+      const auto share = [&](const std::string& name) {
+        const auto shared = unit.shared.find(name);
+        if (shared != unit.shared.end()) names.insert(*shared);
+        return shared != unit.shared.end();
+      };
+      if (condition.is_scalar()) share(condition.text);
       for (const Entry& named : condition.entries) {
-        NamesOf& names = unit.conditions[behaviour.key];
-        if (named.key.empty() || names.contains(named.key)) continue;
+        if (named.key.empty() || (is_nothing(*named.value) && share(named.key)) || names.contains(named.key))
+          continue;
         names.emplace(named.key,
                       define(Kind::condition, named, owner->second, way, path + "." + behaviour.key));
       }
@@ -163,9 +158,15 @@ class IndexBuilder {
   void use(const Node& scalar, const NamesOf& names) {
     if (scalar.is_scalar() && scalar.verbatim) use(scalar.extent, names, scalar.text);
   }
-  void use_items(const Node& list, const NamesOf& names) {
-    use(list, names);
-    for (const Entry& item : list.items) use(*item.value, names);
+  /// Buffers of `send` or `receive`, or changes of the list of the subsystem: [+request, -grip].
+  void use_list(const Node& list, const NamesOf& names) {
+    for (const Entry& order : list.entries) use_list(*order.value, names);
+    for (const Entry& item : list.items) {
+      const Node& text = *item.value;
+      if (!text.is_scalar() || !text.verbatim) continue;
+      const std::size_t sign = text.text.starts_with('+') || text.text.starts_with('-') ? 1 : 0;
+      use({text.extent.begin + sign, text.extent.end}, names, std::string_view(text.text).substr(sign));
+    }
   }
 
   void use_type(const Node& value) {
@@ -197,7 +198,23 @@ class IndexBuilder {
     }
     for (const Entry& limit : body["limits"].entries) use_limit(unit, limit);
     use(body["start"], unit.behaviours);
+    use(body["on_error"], unit.behaviours);
+    use_list(body["send"], unit.outputs);
+    use_list(body["receive"], unit.inputs);
+    for (const Entry& shared : body["conditions"].entries) use_expression(unit, *shared.value);
     for (const Entry& behaviour : body["behaviours"].entries) use_in_behaviour(unit, behaviour);
+  }
+
+  /// `on_error` of the system and of agents: the behaviour of the first subsystem that does not say it itself.
+  void use_on_errors() {
+    std::size_t at = 0;
+    for (const DefinitionNames& definition : index_.definitions_) {
+      const Way& way = index_.symbols_[definition.symbol].way;
+      const Node& agent = root_[way[0]][way[1]];
+      for (const UnitNames& unit : definition.units)
+        if (nodes_[at++]->find("on_error") == nullptr)
+          use(agent.find("on_error") != nullptr ? agent["on_error"] : root_["on_error"], unit.behaviours);
+    }
   }
 
   /// The keys of a map that is a value of a structure.
@@ -238,10 +255,16 @@ class IndexBuilder {
     const NamesOf& conditions = found == unit.conditions.end() ? nothing : found->second;
     for (const char* key : {"terminal", "error"}) {
       use_expression(unit, body[key]);
-      for (const Entry& named : body[key].entries) use_expression(unit, *named.value);
+      use(body[key], unit.shared);
+      for (const Entry& named : body[key].entries) {
+        use_expression(unit, *named.value);
+        if (is_nothing(*named.value)) use(named.extent, unit.shared, named.key);
+      }
     }
-    use_items(body["send"], unit.outputs);
-    use_items(body["receive"], unit.inputs);
+    use(body["send"], unit.outputs);
+    use(body["receive"], unit.inputs);
+    use_list(body["send"], unit.outputs);
+    use_list(body["receive"], unit.inputs);
     const auto step = [&](const Node& next) {
       use(next, unit.behaviours);
       use(next["to"], unit.behaviours);
@@ -290,17 +313,6 @@ class IndexBuilder {
     index_.uses_.push_back({moved(words[1].extent, base), unit->symbol, false});
     if (words.size() < 3) return;
     use(moved(words[2].extent, base), members(*unit, place, words[2].name), words[2].name);
-  }
-
-  /// A formula names behaviours, and buffers that have no behaviour of their name: `robot.control.line.full`.
-  static const NamesOf& members(const UnitNames& unit, Place place, std::string_view name) {
-    if (place == Place::from) return unit.outputs;
-    if (place == Place::to) return unit.inputs;
-    if (place == Place::real) return unit.real;
-    if (unit.behaviours.contains(name)) return unit.behaviours;
-    return unit.inputs.contains(name)    ? unit.inputs
-           : unit.outputs.contains(name) ? unit.outputs
-                                         : unit.behaviours;
   }
 
   void use_in_channels() {

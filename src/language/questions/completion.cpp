@@ -109,6 +109,8 @@ class Completer {
     if (unit_ == nullptr) return;
     Way inside(way.begin() + static_cast<std::ptrdiff_t>(unit_->way.size()), way.end());
     if (inside == Way{"safe"} || inside == Way{"limits"}) return add_names(unit_->real);
+    if (inside.size() == 3 && inside[0] == "behaviours" && (inside[2] == "terminal" || inside[2] == "error"))
+      return add_names(unit_->shared);
     if (inside.size() < 2) return;
     const NamesOf& cells = inside[0] == "safe" ? unit_->real : unit_->memory;
     if (inside[0] != "safe" && !(inside[0] == "memory" && inside.size() > 2 && inside[2] == "initial"))
@@ -145,6 +147,8 @@ class Completer {
     if (is_type_place()) return types(), true;
     if (size == 3 && last == "use" && (way[0] == "agents" || way[0] == "templates"))
       return add_names(index_.templates()), true;
+    if (last == "on_error" && (size == 1 || (size == 3 && (way[0] == "agents" || way[0] == "templates"))))
+      return on_error(), true;
     if (size >= 2 && way[0] == "channels") return channel_value(last);
     if (size >= 2 && way[0] == "properties" && last != "name")
       return paths(PathEnd::behaviour, "[*]"), words_of_formulas(), true;
@@ -186,6 +190,9 @@ class Completer {
 
   bool value_in_unit() {
     if (inside_ == Way{"start"}) return add_names(unit_->behaviours), true;
+    if (inside_ == Way{"on_error"}) return add_names(unit_->behaviours), stop(), true;
+    if ((step(0) == "send" || step(0) == "receive") && inside_.back().empty()) return buffers(step(0)), true;
+    if (step(0) == "conditions" && inside_.size() == 2) return expression(), true;
     if (step(0) != "behaviours" || inside_.size() < 3) return false;
     const std::string& key = inside_[2];
     const std::string& last = inside_.back();
@@ -199,10 +206,37 @@ class Completer {
       add_names(unit_->behaviours);
       return add(Proposal::Kind::word, "end", "the subsystem ends"), true;
     }
-    if (key == "send") return add_names(unit_->outputs), true;
-    if (key == "receive") return add_names(unit_->inputs), true;
-    if (key == "terminal" || key == "error") return expression(), true;
-    return false;
+    if (key == "send" || key == "receive") return buffers(key), true;
+    if (key != "terminal" && key != "error") return false;
+    if (inside_.size() == 3 && chain().empty() && place_.scalar->extent.begin >= begin_)
+      add_names(unit_->shared);
+    return expression(), true;
+  }
+
+  void stop() { add(Proposal::Kind::word, "stop", "the subsystem ends, and the run fails"); }
+
+  /// Behind + only what the subsystem does not list, behind - only what it lists.
+  void buffers(const std::string& key) {
+    NamesOf names = key == "send" ? unit_->outputs : unit_->inputs;
+    const char sign = begin_ > 0 ? document_.text()[begin_ - 1] : ' ';
+    if (step(0) == "behaviours" && begin_ > place_.scalar->extent.begin && (sign == '+' || sign == '-')) {
+      const Node& own = node_at(document_.outline(), unit_->way)[key];
+      const Node& list = own.is_map() && !own.entries.empty() ? *own.entries.front().value : own;
+      const auto is_listed = [&](const std::string& name) {
+        return !list.is_sequence() || std::any_of(list.items.begin(), list.items.end(),
+                                                  [&](const Entry& one) { return one.value->text == name; });
+      };
+      std::erase_if(names, [&](const auto& one) { return is_listed(one.first) != (sign == '-'); });
+    }
+    add_names(names);
+  }
+
+  /// Proposes the behaviours of the subsystems in the system or in an agent.
+  void on_error() {
+    for (const DefinitionNames& definition : index_.definitions())
+      if (place_.way.size() == 1 || index_[definition.symbol].way == Way{place_.way[0], place_.way[1]})
+        for (const UnitNames& unit : definition.units) add_names(unit.behaviours);
+    stop();
   }
 
   /// The names before the cursor that dots join: {"in", "line"} of "a + in.line.le".

@@ -4,6 +4,7 @@
 
 #include "language/language.hpp"
 #include "language/questions/place.hpp"
+#include "spec/parser.hpp"
 
 namespace tessera::language {
 namespace {
@@ -47,6 +48,56 @@ std::string channels_of(const Document& document, SymbolId id) {
   return text.empty() ? "" : "\n\nChannels:" + text;
 }
 
+std::string joined(const std::vector<spec::BufferId>& list,
+                   const Numbered<spec::BufferId, spec::Field>& buffers) {
+  std::string text;
+  for (const spec::BufferId buffer : list)
+    if (buffers.has(buffer)) text += (text.empty() ? "" : ", ") + code(buffers[buffer].name);
+  return text.empty() ? "nothing" : text;
+}
+
+/// The line of a key, for people.
+std::string line_of(const Document& document, const Entry& entry) {
+  return fmt::format("line {}", document.lines().position(entry.extent.begin).line + 1);
+}
+
+/// The defaults that a behaviour has from `on_error`, `send` and `receive` around it; empty in a text with errors.
+std::string inherited(const Document& document, const Symbol& symbol, const UnitNames& unit) {
+  diagnostics::Diagnostics out("", document.text());
+  const std::optional<spec::Model> model = spec::parse(out);
+  const std::uint32_t line = document.lines().position(symbol.definition.begin).line + 1;
+  const Node& body = node_at(document.outline(), unit.way);
+  const Node& own = node_at(document.outline(), symbol.way);
+  std::string text;
+  const auto add = [&](const spec::Subsystem& subsystem, const spec::Behaviour& behaviour) {
+    for (const spec::Next& next : behaviour.next)
+      if (next.inherited && subsystem.behaviours.has(next.behaviour))
+        text += fmt::format("\n\nA failure leads to {}: `on_error`, line {}.",
+                            code(subsystem.behaviours[next.behaviour].name), next.span.line);
+    const auto list = [&](const char* key, const char* does, const auto& used, const auto& buffers) {
+      const Entry* around = body.find(key);
+      const bool replaced = own[key].is_sequence() &&
+                            std::none_of(own[key].items.begin(), own[key].items.end(), [](const Entry& one) {
+                              return one.value->text.starts_with('+') || one.value->text.starts_with('-');
+                            });
+      if (!used || replaced || (around == nullptr && own.find(key) == nullptr)) return;
+      text += fmt::format("\n\n{} {}: ", does, joined(*used, buffers));
+      text += around == nullptr ? fmt::format("all but those that `{}` leaves out.", key)
+                                : fmt::format("`{}` of the subsystem, {}{}.", key, line_of(document, *around),
+                                              own.find(key) == nullptr ? "" : ", as changed here");
+    };
+    list("send", "Sends", behaviour.send, subsystem.outputs);
+    list("receive", "Receives", behaviour.receive, subsystem.inputs);
+  };
+  if (!model) return text;
+  for (const spec::Definition& definition : model->definitions)
+    for (const spec::Subsystem& subsystem : definition.subsystems)
+      for (const spec::Behaviour& behaviour : subsystem.behaviours)
+        if (behaviour.name == symbol.name && behaviour.span.line == line && text.empty())
+          add(subsystem, behaviour);
+  return text;
+}
+
 std::string about(const Document& document, SymbolId id) {
   const Index& index = document.index();
   const Symbol& symbol = index[id];
@@ -59,6 +110,8 @@ std::string about(const Document& document, SymbolId id) {
         "\n\nTransition function: `void {}(Context& context, const Inputs& in, Memory& memory, Outputs& "
         "out)`",
         symbol.name);
+  if (const UnitNames* unit = index.unit_at(symbol.way); unit != nullptr && symbol.kind == Kind::behaviour)
+    text += inherited(document, symbol, *unit);
   if (symbol.kind == Kind::condition) {
     const Node& expression = node_at(document.outline(), symbol.way);
     if (expression.is_scalar()) text += "\n\n" + code(expression.text);

@@ -27,7 +27,7 @@ class Migrator {
     for (const spec::Definition& definition : model->definitions)
       for (const spec::Subsystem& subsystem : definition.subsystems)
         for (const Behaviour& behaviour : subsystem.behaviours)
-          if (const auto route = former_route(behaviour))
+          if (const auto route = former_route(subsystem, behaviour))
             add(definition.name + "." + subsystem.name, subsystem, behaviour, *route);
     if (only) keep(*model, *only);
     drop_wrong();
@@ -136,14 +136,16 @@ class Migrator {
         const spec::Subsystem& old = was->definitions[d].subsystems[s];
         const spec::Subsystem& now = is->definitions[d].subsystems[s];
         for (const spec::BehaviourId b : old.behaviours.ids())
-          if (!fits(old.behaviours[b], now.behaviours[b], steps)) return false;
+          if (!fits(old, now, b, steps)) return false;
       }
     return true;
   }
 
-  static bool fits(const Behaviour& old, const Behaviour& now, const std::vector<Migration::Step>& steps) {
-    const std::optional<FormerRoute> route = former_route(old);
-    const std::optional<FormerRoute> left = former_route(now);
+  static bool fits(const spec::Subsystem& before, const spec::Subsystem& after, spec::BehaviourId id,
+                   const std::vector<Migration::Step>& steps) {
+    const Behaviour &old = before.behaviours[id], &now = after.behaviours[id];
+    const std::optional<FormerRoute> route = former_route(before, old);
+    const std::optional<FormerRoute> left = former_route(after, now);
     const bool is_meant =
         std::ranges::any_of(steps, [&](const Migration::Step& step) { return step.span == old.span; });
     if (!route || left) return route.has_value() == left.has_value() && !(is_meant && left && route->certain);

@@ -9,7 +9,6 @@
 #include "spec/agents/few_values.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
-#include "spec/model/endings.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"
 
@@ -30,15 +29,12 @@ const Entry* entry_of(const Entry& behaviour, std::string_view key) {
   return found == entries.end() ? nullptr : &*found;
 }
 
-bool holds(const std::vector<Field>& fields, std::string_view name) {
-  return std::any_of(fields.begin(), fields.end(), [name](const Field& field) { return field.name == name; });
-}
-
 /// Reads the behaviours of one subsystem. They may refer to behaviours that follow later in the file.
 class BehaviourReader {
  public:
-  BehaviourReader(const std::vector<Entry>& entries, const ConditionScope& scope, Diagnostics& out)
-      : entries_(entries), scope_(scope), inputs_(scope.inputs), outputs_(scope.outputs), out_(out) {
+  BehaviourReader(const std::vector<Entry>& entries, const ConditionScope& scope, SubsystemDefaults& defaults,
+                  Diagnostics& out)
+      : entries_(entries), scope_(scope), defaults_(defaults), out_(out) {
     for (std::uint32_t i = 0; i < entries_.size(); ++i) {
       check(entries_[i]);
       by_name_.emplace(entries_[i].key, BehaviourId{i});
@@ -73,14 +69,15 @@ class BehaviourReader {
     Behaviour behaviour;
     behaviour.name = entry.key;
     behaviour.span = entry.span;
-    behaviour.terminal = read_condition(section.find("terminal"), scope_, out_);
-    behaviour.error = read_condition(section.find("error"), scope_, out_);
+    behaviour.terminal = read_condition(section.find("terminal"), scope_, defaults_.conditions, out_);
+    behaviour.error = read_condition(section.find("error"), scope_, defaults_.conditions, out_);
     check_distinct_names(behaviour);
     read_next(section.find("next"), behaviour);
-    complete_next(behaviour);
     behaviour.sets = sets_[static_cast<std::size_t>(&entry - entries_.data())];
-    behaviour.send = read_buffers(section.find("send"), outputs_, inputs_, "output");
-    behaviour.receive = read_buffers(section.find("receive"), inputs_, outputs_, "input");
+    behaviour.send =
+        read_list(section.find("send"), {scope_.outputs, scope_.inputs, "output"}, defaults_.send);
+    behaviour.receive =
+        read_list(section.find("receive"), {scope_.inputs, scope_.outputs, "input"}, defaults_.receive);
     behaviour.transfer = read_transfer(section.find("transfer"));
     if (const Entry* takes = section.find("takes")) {
       behaviour.takes = read_duration(*takes->value, takes->span, "takes", out_).value_or(Duration{1});
@@ -92,8 +89,11 @@ class BehaviourReader {
     for (const Expression& error : behaviour.error.expressions) {
       for (const Expression& terminal : behaviour.terminal.expressions) {
         if (error.name.empty() || error.name != terminal.name) continue;
-        out_.error("E107", error.span, "condition " + in_quotes(error.name) + " is both terminal and error",
-                   "'when: " + error.name + "' could mean either; rename one");
+        const bool shared = error.span == terminal.span;  // one condition of the subsystem
+        out_.error("E107", shared ? behaviour.error.span : error.span,
+                   "condition " + in_quotes(error.name) + " is both terminal and error",
+                   "'when: " + error.name + "' could mean either; " +
+                       (shared ? "name it under one of the two" : "rename one"));
       }
     }
   }
@@ -119,7 +119,8 @@ class BehaviourReader {
       const Section section(node, at, "an entry of 'next'", {"to", "when", "sets"}, out_);
       const Entry* to = section.require("to", next_hint);
       if (to != nullptr) read_target(*to->value, to->span, step);
-      if (const Entry* when = section.find("when")) step.when = read_when(*when, behaviour, scope_, out_);
+      if (const Entry* when = section.find("when"))
+        step.when = read_when(*when, behaviour, scope_, defaults_.conditions, out_);
       step.sets = read_changes(section.find("sets"), scope_.memory, out_);
     } else {
       read_target(node, at, step);
@@ -149,47 +150,18 @@ class BehaviourReader {
                did_you_mean(text->text, names));
   }
 
-  std::optional<std::vector<BufferId>> read_buffers(const Entry* entry, const std::vector<Field>& buffers,
-                                                    const std::vector<Field>& others,
-                                                    const std::string& what) {
-    if (entry == nullptr) return std::nullopt;
-    if (entry->key == "receive" && entry->value->is_scalar() &&
-        (entry->value->text == "first" || entry->value->text == "last")) {
-      out_.error("E110", entry->value->span, "'receive: " + entry->value->text + "' belongs to a subsystem",
+  BufferList read_list(const Entry* entry, const ListScope& scope, ListDefault& around) {
+    if (entry == nullptr) {
+      around.used = true;
+      return around.list;
+    }
+    const Node& value = *entry->value;
+    if (entry->key == "receive" && value.is_scalar() && (value.text == "first" || value.text == "last")) {
+      out_.error("E110", value.span, "'receive: " + value.text + "' belongs to a subsystem",
                  "write it beside 'rate'; 'receive' of a behaviour lists its inputs");
       return std::nullopt;
     }
-    std::vector<BufferId> listed;
-    for (const Node* item : items_of(*entry->value, entry->span, in_quotes(entry->key), out_)) {
-      const Node* text = text_of(*item, entry->span, "an " + what, out_);
-      if (text == nullptr) continue;
-      const auto found = std::find_if(buffers.begin(), buffers.end(),
-                                      [text](const Field& field) { return field.name == text->text; });
-      if (found == buffers.end()) {
-        unknown_buffer(*text, buffers, others, what);
-        continue;
-      }
-      const BufferId index{static_cast<std::uint32_t>(found - buffers.begin())};
-      if (std::find(listed.begin(), listed.end(), index) != listed.end()) {
-        out_.error("E107", text->span, what + " " + in_quotes(text->text) + " is listed twice");
-      } else {
-        listed.push_back(index);
-      }
-    }
-    return listed;
-  }
-
-  void unknown_buffer(const Node& text, const std::vector<Field>& buffers, const std::vector<Field>& others,
-                      const std::string& what) {
-    std::vector<std::string> names;
-    for (const Field& field : buffers) names.push_back(field.name);
-    const bool other = holds(others, text.text);
-    const bool is_output = what == "output";
-    out_.error(
-        "E101", text.span,
-        other ? in_quotes(text.text) + " is no " + what : "unknown " + what + " " + in_quotes(text.text),
-        other ? std::string("list it under '") + (is_output ? "receive" : "send") + "'"
-              : did_you_mean(text.text, names));
+    return read_buffer_list(value, *entry, scope, around, out_);
   }
 
   Transfer read_transfer(const Entry* entry) {
@@ -205,8 +177,7 @@ class BehaviourReader {
 
   const std::vector<Entry>& entries_;
   const ConditionScope& scope_;
-  const std::vector<Field>& inputs_;
-  const std::vector<Field>& outputs_;
+  SubsystemDefaults& defaults_;
   Diagnostics& out_;
   std::unordered_map<std::string, BehaviourId> by_name_;
   std::vector<std::vector<Change>> sets_;  // per behaviour
@@ -214,13 +185,14 @@ class BehaviourReader {
 
 }  // namespace
 
-std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope, Diagnostics& out) {
+std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope,
+                                       SubsystemDefaults& defaults, Diagnostics& out) {
   const std::vector<Entry>& entries = entries_of(*entry.value, entry.span, "behaviours", out);
   if (entries.empty() && (entry.value->is_map() || entry.value->is_null())) {
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",
               "for example behaviours: { run: {} }");
   }
-  return BehaviourReader(entries, scope, out).read();
+  return BehaviourReader(entries, scope, defaults, out).read();
 }
 
 }  // namespace tessera::spec

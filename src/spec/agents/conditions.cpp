@@ -70,8 +70,33 @@ Expression checked_expression(const Node& node, Span at, std::string name, const
   return expression;
 }
 
-void read_named(const Entry& condition, Condition& result, const ConditionScope& scope, Diagnostics& out) {
-  std::vector<std::string> names;
+void check_condition_name(const Entry& entry, Diagnostics& out) {
+  check_name(entry.key, entry.span, "condition", out);
+  if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end())
+    out.error("E106", entry.span, "condition name " + in_quotes(entry.key) + " is reserved");
+}
+
+/// A key without a value: the condition of the subsystem that has this name.
+void read_shared(const Entry& entry, Condition& result, SharedConditions& shared, Diagnostics& out) {
+  if (const Expression* one = shared.use(entry.key)) {
+    result.expressions.push_back(*one);
+    return;
+  }
+  out.error("E101", entry.span, "the subsystem has no condition " + in_quotes(entry.key),
+            did_you_mean(entry.key, shared.names()));
+  result.expressions.push_back({{}, {}, entry.span});
+}
+
+/// The line of the condition of the subsystem that has the name, too.
+void complain_about_shared(const Entry& entry, const Expression& one, Diagnostics& out) {
+  out.error("E107", entry.span, "condition " + in_quotes(entry.key) + " is one of the subsystem already",
+            "the first is on line " + std::to_string(one.span.line) + "; " + entry.key +
+                " without an expression names it");
+}
+
+void read_named(const Entry& condition, Condition& result, const ConditionScope& scope,
+                SharedConditions& shared, Diagnostics& out) {
+  std::vector<std::string> names = shared.names();
   for (const Entry& entry : condition.value->entries) names.push_back(entry.key);
   if (condition.value->entries.empty()) {
     out.error("E104", condition.span, in_quotes(condition.key) + " needs at least one named expression",
@@ -80,10 +105,12 @@ void read_named(const Entry& condition, Condition& result, const ConditionScope&
     result.expressions.push_back({{}, {}, condition.span});
   }
   for (const Entry& entry : condition.value->entries) {
-    check_name(entry.key, entry.span, "condition", out);
-    if (std::find(reserved.begin(), reserved.end(), entry.key) != reserved.end()) {
-      out.error("E106", entry.span, "condition name " + in_quotes(entry.key) + " is reserved");
+    if (entry.value->is_null() && !shared.all.empty()) {
+      read_shared(entry, result, shared, out);
+      continue;
     }
+    check_condition_name(entry, out);
+    if (const Expression* one = shared.use(entry.key)) complain_about_shared(entry, *one, out);
     result.expressions.push_back(checked_expression(*entry.value, entry.span, entry.key, scope, names, out));
   }
 }
@@ -106,7 +133,10 @@ std::vector<std::string> names_of_conditions(const Behaviour& of) {
 }
 
 /// The hint for a single word that names no condition.
-Hint hint_for(const std::string& word, const Behaviour& of) {
+Hint hint_for(const std::string& word, const Behaviour& of, const SharedConditions& shared) {
+  const std::vector<std::string> all = shared.names();
+  if (std::find(all.begin(), all.end(), word) != all.end())
+    return "name it under 'terminal' or 'error' of this behaviour, too: only what has ended it can be asked";
   if (word == "terminal") return "leave 'when' out: such an entry is taken when the behaviour is terminal";
   const std::vector<std::string> names = names_of_conditions(of);
   const Hint guess = did_you_mean(word, names);
@@ -114,9 +144,32 @@ Hint hint_for(const std::string& word, const Behaviour& of) {
                        : guess;
 }
 
+/// The condition of the subsystem that a single word probably means; empty: it means none.
+Hint misspelt_name(const Node& value, const SharedConditions& shared) {
+  if (!value.is_scalar() || !is_identifier(value.text) || value.text == "elapsed" || value.text == "index")
+    return {};
+  return did_you_mean(value.text, shared.names());
+}
+
 }  // namespace
 
-Condition read_condition(const Entry* entry, const ConditionScope& scope, Diagnostics& out) {
+SharedConditions read_shared_conditions(const Entry* entry, const ConditionScope& scope, Diagnostics& out) {
+  SharedConditions shared;
+  if (entry == nullptr) return shared;
+  const std::vector<Entry>& entries = entries_of(*entry->value, entry->span, "conditions", out);
+  std::vector<std::string> names;
+  for (const Entry& one : entries) names.push_back(one.key);
+  for (const Entry& one : entries) {
+    const std::size_t errors = out.error_count();
+    check_condition_name(one, out);
+    shared.all.push_back(checked_expression(*one.value, one.span, one.key, scope, names, out));
+    shared.used.push_back(out.error_count() > errors);  // then nothing more is said about it
+  }
+  return shared;
+}
+
+Condition read_condition(const Entry* entry, const ConditionScope& scope, SharedConditions& shared,
+                         Diagnostics& out) {
   Condition condition;
   if (entry == nullptr) return condition;
   const Node& value = *entry->value;
@@ -128,14 +181,20 @@ Condition read_condition(const Entry* entry, const ConditionScope& scope, Diagno
   }
   condition.kind = Condition::Kind::expressions;
   if (value.is_map()) {
-    read_named(*entry, condition, scope, out);
+    read_named(*entry, condition, scope, shared, out);
+  } else if (const Expression* one = value.is_scalar() ? shared.use(value.text) : nullptr) {
+    condition.expressions.push_back(*one);
+  } else if (const Hint guess = misspelt_name(value, shared); !guess.empty()) {
+    out.error("E101", value.span, "unknown condition " + in_quotes(value.text), guess);
+    condition.expressions.push_back({{}, {}, value.span});
   } else {
-    condition.expressions.push_back(checked_expression(value, entry->span, {}, scope, {}, out));
+    condition.expressions.push_back(checked_expression(value, entry->span, {}, scope, shared.names(), out));
   }
   return condition;
 }
 
-When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& scope, Diagnostics& out) {
+When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& scope,
+               const SharedConditions& shared, Diagnostics& out) {
   When when;
   Expression expression;
   const Node* text = read_expression(*entry.value, entry.span, expression, out);
@@ -152,7 +211,7 @@ When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& sc
     when.kind = When::Kind::named_error;
     when.expression = error;
   } else if (is_identifier(word) && !is_old_boolean(*entry.value)) {
-    out.error("E101", expression.span, "unknown condition " + in_quotes(word), hint_for(word, of));
+    out.error("E101", expression.span, "unknown condition " + in_quotes(word), hint_for(word, of, shared));
     when.kind = When::Kind::expression;
   } else {
     when.kind = When::Kind::expression;

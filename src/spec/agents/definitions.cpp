@@ -1,6 +1,7 @@
 #include "spec/agents/definitions.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
@@ -35,7 +36,7 @@ void read_group(const Entry* section, SubsystemKind kind, const SystemScope& aro
 Definition read_definition(const Entry& entry, bool is_template, const SystemScope& around,
                            Diagnostics& out) {
   const Section section(*entry.value, entry.span, is_template ? "a template" : "an agent",
-                        {"control", "receptors", "effectors", "use", "count", "ring"}, out);
+                        {"control", "receptors", "effectors", "on_error", "use", "count", "ring"}, out);
   Definition definition{entry.key, {}, is_template, entry.span};
   for (const char* key : {"count", "ring"}) {
     if (const Entry* misplaced = section.find(key)) {
@@ -43,11 +44,15 @@ Definition read_definition(const Entry& entry, bool is_template, const SystemSco
                 "put the agent under 'templates' and write { use: NAME, count: 50 }");
     }
   }
+  std::optional<OnError> on_error = read_on_error(section, out);
+  SystemScope inside = around;
+  if (on_error) inside.on_error = &*on_error;
   if (const Entry* control = section.require("control", "every agent has one control subsystem")) {
-    definition.subsystems.push_back(read_subsystem(*control, SubsystemKind::control, around, out));
+    definition.subsystems.push_back(read_subsystem(*control, SubsystemKind::control, inside, out));
   }
-  read_group(section.find("receptors"), SubsystemKind::receptor, around, definition, out);
-  read_group(section.find("effectors"), SubsystemKind::effector, around, definition, out);
+  read_group(section.find("receptors"), SubsystemKind::receptor, inside, definition, out);
+  read_group(section.find("effectors"), SubsystemKind::effector, inside, definition, out);
+  if (on_error) check_used(*on_error, out);
   return definition;
 }
 

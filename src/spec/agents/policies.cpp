@@ -59,11 +59,15 @@ RealTime read_realtime(const Entry& entry, Diagnostics& out) {
 /// A behaviour and a channel have keys of the same name with other values.
 void read_receive(const Section& section, const Entry& receive, Subsystem& subsystem, Diagnostics& out) {
   const Node& value = *receive.value;
-  if (value.is_sequence()) {
-    out.error("E104", receive.span, "receive must be last or first, not a list",
-              "the list of the inputs that a behaviour receives belongs to the behaviour");
+  if (value.is_map()) {
+    const Section order(value, receive.span, "receive", {"first", "last"}, out);
+    if (value.entries.size() != 1)
+      out.error("E104", receive.span, "receive has one of 'first' and 'last'",
+                "write receive: { first: [A, B] }");
+    subsystem.receive_first = order.find("first") != nullptr;
     return;
   }
+  if (value.is_sequence()) return;  // of inputs, received last
   if (value.is_scalar() && (value.text == "blocking" || value.text == "non_blocking")) {
     out.error("E104", value.span, "receive must be last or first, not " + in_quotes(value.text),
               "whether a receiver waits is said by its channel: { from: ..., to: ..., receive: blocking }");
@@ -76,6 +80,12 @@ void read_receive(const Section& section, const Entry& receive, Subsystem& subsy
 }
 
 }  // namespace
+
+const Entry* list_of(const Entry& entry) {
+  const Node& value = *entry.value;
+  if (value.is_map()) return value.entries.empty() ? nullptr : &value.entries.front();
+  return !value.is_sequence() && entry.key == "receive" ? nullptr : &entry;
+}
 
 void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& out) {
   if (const Entry* overrun = section.find("overrun")) {

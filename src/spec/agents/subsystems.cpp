@@ -6,12 +6,14 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/behaviours.hpp"
 #include "spec/agents/buffers.hpp"
+#include "spec/agents/conditions.hpp"
 #include "spec/agents/few_values.hpp"
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
 #include "spec/agents/safe_commands.hpp"
 #include "spec/document/section.hpp"
 #include "spec/model/behaviour_flow.hpp"
+#include "spec/model/endings.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"
 
@@ -83,6 +85,59 @@ void read_stale(const Entry* stale, Subsystem& subsystem, Diagnostics& out) {
   }
 }
 
+/// `send` or `receive` of the subsystem, if it is a list.
+ListDefault read_list(const Entry* entry, const ListScope& scope, Diagnostics& out) {
+  ListDefault none;
+  const Entry* list = entry == nullptr ? nullptr : list_of(*entry);
+  if (list == nullptr) return none;
+  ListDefault read{.entry = entry};
+  read.list = read_buffer_list(*list->value, *list, scope, none, out);
+  return read;
+}
+
+SubsystemDefaults read_defaults(const Section& section, const ConditionScope& scope, Diagnostics& out) {
+  SubsystemDefaults defaults;
+  defaults.send = read_list(section.find("send"), {scope.outputs, scope.inputs, "output"}, out);
+  defaults.receive = read_list(section.find("receive"), {scope.inputs, scope.outputs, "input"}, out);
+  defaults.conditions = read_shared_conditions(section.find("conditions"), scope, out);
+  return defaults;
+}
+
+void check_used(const SubsystemDefaults& defaults, Diagnostics& out) {
+  check_used(defaults.send, out);
+  check_used(defaults.receive, out);
+  check_used(defaults.conditions, out);
+}
+
+Next entry_for_errors(BehaviourId to, Span at, const Subsystem& subsystem, Diagnostics& out) {
+  Next entry{
+      .behaviour = to, .when = {}, .span = at, .inherited = true, .sets = subsystem.behaviours[to].sets};
+  entry.when.kind = When::Kind::error;
+  entry.when.text.span = at;
+  entry.may_be_blocked = check_entry(entry, subsystem.memory, out);
+  return entry;
+}
+
+/// Completes every `next` by `on_error`, and by the entries that are implied.
+///
+/// The behaviour that `on_error` names does not lead its own failures to itself: it is what is left when something
+/// fails, and would hide that it fails, too.
+void read_failures(const Section& section, const SystemScope& around, Subsystem& subsystem,
+                   Diagnostics& out) {
+  std::optional<OnError> own = read_on_error(section, out);
+  OnError* on_error = own ? &*own : around.on_error;
+  if (on_error != nullptr) {
+    const BehaviourId to = resolve_on_error(*on_error, own.has_value(), subsystem, out);
+    if (to.valid()) {
+      const Next entry = entry_for_errors(to, on_error->span, subsystem, out);
+      for (const BehaviourId from : subsystem.behaviours.ids())
+        if (from != to && lead_failures(subsystem.behaviours[from], entry)) on_error->used = true;
+    }
+  }
+  if (own) check_used(*own, out);
+  for (Behaviour& behaviour : subsystem.behaviours) complete_next(behaviour);
+}
+
 }  // namespace
 
 std::string_view name_of(SubsystemKind kind) {
@@ -101,8 +156,9 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                          Diagnostics& out) {
   const Section section(
       *entry.value, entry.span, "a subsystem",
-      {"rate", "inputs", "outputs", "memory", "parameters", "start", "behaviours", "real", "safe", "limits",
-       "stale", "recovery", "overrun", "receive", "watchdog", "non_finite", "realtime"},
+      {"rate",    "inputs",   "outputs",    "memory",   "parameters", "start",   "behaviours",
+       "real",    "safe",     "limits",     "stale",    "recovery",   "overrun", "send",
+       "receive", "on_error", "conditions", "watchdog", "non_finite", "realtime"},
       out);
   check_kind(section, kind, out);
   Subsystem subsystem;
@@ -136,7 +192,12 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                                subsystem.parameters,
                                around.parameters,
                                around.types};
-    subsystem.behaviours = read_behaviours(*behaviours, scope, out);
+    SubsystemDefaults defaults = read_defaults(section, scope, out);
+    const std::size_t errors = out.error_count();
+    subsystem.behaviours = read_behaviours(*behaviours, scope, defaults, out);
+    // A list or name with a mistake may have been meant to use a default.
+    if (out.error_count() == errors) check_used(defaults, out);
+    read_failures(section, around, subsystem, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
     check_start(subsystem, out);
     check_behaviour_flow(subsystem, out);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include "spec/agents/defaults.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
@@ -10,12 +11,14 @@ namespace tessera::spec {
 struct SystemScope {
   const Types& types;
   const std::vector<Parameter>& parameters;  ///< of the system
+  OnError* on_error = nullptr;               ///< of the agent, or else of the system; null: neither says it
 };
 
 /// Reads the subsystem below `entry`, whose key is its name.
 ///
 /// Errors: E101 unknown start or safe buffer; E103 no behaviours; E110 a key of another kind of subsystem;
-///         those of buffers, parameters and behaviours.
+///         E271, E275 `on_error`; those of buffers, parameters and behaviours. Warnings: W361 a default that nothing
+///         uses.
 [[nodiscard]] Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemScope& around,
                                        Diagnostics& out);
 

@@ -159,7 +159,7 @@ bool ConditionNames::is_template(std::size_t at) const {
 
 Hint ConditionNames::hint_for_word(std::string_view word) const {
   if (std::ranges::find(others_, word) != others_.end())
-    return "a named condition stands alone in 'when'; inside of an expression, repeat what it says";
+    return "a named condition stands alone; inside of an expression, repeat what it says";
   if (word == "context" || word == "now" || word == "iteration")
     return "a condition has in, out, memory, parameters, elapsed and index; a transition function can write "
            "what it knows to its memory";

@@ -53,12 +53,21 @@ bool is_noted(const Behaviour& behaviour) {
          endings.unrouted(Ending::failure) && !endings.unrouted(Ending::error);
 }
 
+bool is_of_on_error(const Subsystem& subsystem, const Behaviour& behaviour) {
+  const auto leads = [&](const Behaviour& from) {
+    return std::ranges::any_of(from.next, [&](const Next& next) {
+      return next.inherited && (&from == &behaviour || &subsystem.behaviours[next.behaviour] == &behaviour);
+    });
+  };
+  return std::ranges::any_of(subsystem.behaviours, leads);
+}
+
 /// Entries with conditions that took errors before the entry that names them.
 void note_conditions(const Subsystem& subsystem, diagnostics::Diagnostics& out) {
   std::string names;
   const Next* first = nullptr;
   for (const Behaviour& behaviour : subsystem.behaviours) {
-    const std::optional<FormerRoute> route = former_route(behaviour);
+    const std::optional<FormerRoute> route = former_route(subsystem, behaviour);
     if (!route || route->certain || Endings(behaviour).unrouted(Ending::failure)) continue;
     names += (names.empty() ? "" : ", ") + in_quotes(behaviour.name);
     if (first == nullptr) first = &behaviour.next[route->before];
@@ -74,7 +83,7 @@ void note(const Subsystem& subsystem, diagnostics::Diagnostics& out) {
   constexpr std::size_t shown = 4;
   std::vector<std::pair<const Behaviour*, FormerRoute>> changed;
   for (const Behaviour& behaviour : subsystem.behaviours)
-    if (const auto route = former_route(behaviour); route && is_noted(behaviour))
+    if (const auto route = former_route(subsystem, behaviour); route && is_noted(behaviour))
       changed.emplace_back(&behaviour, *route);
   if (changed.empty()) return;
   std::string changes;
@@ -97,7 +106,8 @@ void note(const Subsystem& subsystem, diagnostics::Diagnostics& out) {
 
 }  // namespace
 
-std::optional<FormerRoute> former_route(const Behaviour& behaviour) {
+std::optional<FormerRoute> former_route(const Subsystem& subsystem, const Behaviour& behaviour) {
+  if (is_of_on_error(subsystem, behaviour)) return std::nullopt;
   FormerRoute route{.before = {}};
   for (const NextId entry : behaviour.next.ids()) {
     const Next& next = behaviour.next[entry];

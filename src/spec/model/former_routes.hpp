@@ -19,8 +19,9 @@ struct FormerRoute {
       false;  ///< the behaviour never ends as terminal, and `before` is its only entry: of no use now
 };
 
-/// nullopt: each error and failure leads where it has led.
-[[nodiscard]] std::optional<FormerRoute> former_route(const Behaviour& behaviour);
+/// nullopt: each error and failure leads where it has led, or `on_error`, which earlier versions did not have, leads
+/// the behaviour's failures or leads to it.
+[[nodiscard]] std::optional<FormerRoute> former_route(const Subsystem& subsystem, const Behaviour& behaviour);
 
 /// Notes: N330 a failure of behaviours no longer leads on, N332 entries with conditions no longer take
 /// errors that a later entry names; of each at most one for each subsystem. N330 leaves out behaviours whose

@@ -137,7 +137,8 @@ struct Next {
   BehaviourId behaviour{};  ///< none: `end`
   When when;
   Span span;
-  bool implied = false;  ///< not in the file: complete_next has added it
+  bool implied = false;    ///< not in the file: complete_next has added it
+  bool inherited = false;  ///< not in the list: `on_error`, at `span`, says it
   /// To memory when it is taken; those of the behaviour that it leads to come last.
   std::vector<Change> sets{};
   /// A counter may have no value for `sets`. The entry is then not taken, as if its condition did not hold.

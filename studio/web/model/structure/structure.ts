@@ -204,6 +204,37 @@ function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behavio
   };
 }
 
+/** A default of behaviours, and the part of the specification that says it. */
+export interface Default {
+  text: string;
+  of: "subsystem" | "agent" | "system";
+}
+
+/** `on_error` as it holds at a subsystem or agent; `around`: only what is said around it. */
+export function onError({ yaml }: Structure, at: YamlPath, around = false): Default | undefined {
+  const levels: { path: YamlPath; of: Default["of"] }[] = [{ path: [], of: "system" }];
+  if (at.length >= 2) levels.unshift({ path: at.slice(0, 2), of: "agent" });
+  if (at.length > 2) levels.unshift({ path: at, of: "subsystem" });
+  for (const { path, of } of around ? levels.slice(1) : levels) {
+    const text = yaml.valueText([...path, "on_error"]);
+    if (text) return { text, of };
+  }
+  return undefined;
+}
+
+/** The list of a subsystem that behaviours without one of their own have. */
+export function listAround({ yaml }: Structure, subsystem: Subsystem, key: "send" | "receive"): string {
+  const text = yaml.valueText([...subsystem.yaml, key]) ?? "";
+  return text === "first" || text === "last" ? "" : text;
+}
+
+/** The behaviour to which `on_error` leads the failures of one that no entry of its `next` names. */
+export function leadsFailures(structure: Structure, subsystem: Subsystem, behaviour: Behaviour): Default | undefined {
+  const found = onError(structure, subsystem.yaml);
+  const isNamed = behaviour.next.some(({ when }) => when === "error");
+  return !found || found.text === "stop" || found.text === behaviour.name || isNamed ? undefined : found;
+}
+
 /** The entries of `next` in the file: it is one entry, or a list of them. */
 export function nextPaths(yaml: YamlText, behaviour: YamlPath): YamlPath[] {
   const at = [...behaviour, "next"];

@@ -1,5 +1,5 @@
 import * as edits from "../../model/text/edits";
-import type { Behaviour, Structure, Subsystem } from "../../model/structure/structure";
+import { leadsFailures, listAround, type Behaviour, type Structure, type Subsystem } from "../../model/structure/structure";
 import { CodeForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
@@ -16,6 +16,10 @@ export function BehaviourForm({
   const edit = useEdit();
   const field = (key: string) => structure.yaml.valueText([...behaviour.yaml, key]) ?? "";
   const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
+  const list = (key: "send" | "receive", all: string) => {
+    const around = listAround(structure, subsystem, key);
+    return around ? `${around}, as the subsystem` : all;
+  };
   return (
     <>
       <Field
@@ -30,13 +34,27 @@ export function BehaviourForm({
         mono
         value={behaviour.terminal}
         placeholder="never"
-        hint="C++ over in, out, memory, parameters"
+        hint="C++ over in, out, memory, parameters; or the name of a condition of the subsystem"
         onChange={set("terminal")}
       />
       <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
-      <NextForm behaviour={behaviour} subsystem={subsystem} />
-      <Field label="Sends" mono value={field("send")} placeholder="all outputs" onChange={set("send")} />
-      <Field label="Receives" mono value={field("receive")} placeholder="all inputs" onChange={set("receive")} />
+      <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
+      <Field
+        label="Sends"
+        mono
+        value={field("send")}
+        placeholder={list("send", "all outputs")}
+        hint="[a, b] in this order; [+a, -b] changes the list of the subsystem"
+        onChange={set("send")}
+      />
+      <Field
+        label="Receives"
+        mono
+        value={field("receive")}
+        placeholder={list("receive", "all inputs")}
+        hint="[a, b] in this order; [+a, -b] changes the list of the subsystem"
+        onChange={set("receive")}
+      />
       <Choice
         label="Transfer"
         value={field("transfer") === "parallel" ? "parallel" : "sequential"}
@@ -55,15 +73,21 @@ export function BehaviourForm({
   );
 }
 
-function NextForm({ behaviour, subsystem }: { behaviour: Behaviour; subsystem: Subsystem }) {
+function NextForm({ structure, behaviour, subsystem }: { structure: Structure; behaviour: Behaviour; subsystem: Subsystem }) {
   const edit = useEdit();
   const { next } = behaviour;
+  const failures = leadsFailures(structure, subsystem, behaviour);
   const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
   const change = (at: number, part: Partial<Behaviour["next"][number]>) => edit(edits.changeNext(behaviour, at, part));
   const other = targets.find((name) => name !== behaviour.name) ?? "end";
   return (
     <fieldset className="next">
       <legend>Then</legend>
+      {failures && (
+        <p className="faint">
+          {failures.text}, after a failure that no entry names: on_error of the {failures.of}
+        </p>
+      )}
       {next.length === 0 && <p className="faint">the subsystem ends</p>}
       {next.map((entry, at) => (
         <div key={at} className="next-entry">

@@ -22,6 +22,7 @@ import { schema } from "./schema";
 import { changed, MemoryFields, TypeInputs } from "./type_fields";
 import { AddSubsystem, TemplateForm, TemplateLink } from "./templates_form";
 import { MapForm } from "./map_form";
+import { OnErrorField } from "./on_error_field";
 import { OwnProblem } from "./use_problems";
 
 export function EditForm({ structure, thing }: { structure: Structure; thing: Thing }) {
@@ -42,7 +43,8 @@ export function EditForm({ structure, thing }: { structure: Structure; thing: Th
 }
 
 /** Keys of a subsystem that have fields of their own. Every other one is shown as the schema describes it. */
-const shownAlone = "rate start stale inputs outputs real behaviours memory parameters safe limits".split(" ");
+const shownAlone =
+  "rate start stale inputs outputs real behaviours memory parameters safe limits send receive on_error conditions".split(" ");
 
 function AgentForm({ structure, agent }: { structure: Structure; agent: Agent }) {
   const edit = useEdit();
@@ -83,6 +85,11 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
           onChange={(text) => edit(edits.set(agent.yaml, "ring", text))}
         />
       )}
+      <OnErrorField
+        structure={structure}
+        at={agent.body}
+        behaviours={agent.subsystems.flatMap(({ behaviours }) => behaviours.map((one) => one.name))}
+      />
       <SharedNote structure={structure} agent={agent} />
       {agent.template && <TemplateLink name={agent.template} />}
       <div className="buttons">
@@ -132,6 +139,26 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
           onChange={set("start")}
         />
       )}
+      <OnErrorField structure={structure} at={subsystem.yaml} behaviours={subsystem.behaviours.map((one) => one.name)} />
+      <Field
+        label="Behaviours send"
+        mono
+        value={structure.yaml.valueText([...subsystem.yaml, "send"]) ?? ""}
+        placeholder="all outputs"
+        hint="[a, b]: the outputs that a behaviour without a list sends, in this order"
+        onChange={set("send")}
+      />
+      {subsystem.buffers.some(({ direction }) => direction === "input") && (
+        <Field
+          label="Behaviours receive"
+          mono
+          value={structure.yaml.valueText([...subsystem.yaml, "receive"]) ?? ""}
+          placeholder="all inputs, last"
+          hint="first or last: before or after the function; [a, b]: these inputs; { first: [a, b] }: both"
+          choices={["last", "first"]}
+          onChange={set("receive")}
+        />
+      )}
       {subsystem.kind === "effector" && (
         <Field
           label="Inputs are stale after"
@@ -148,6 +175,14 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <Remove what="subsystem" at={subsystem.yaml} select={agent.name} />
       </div>
       <ObjectFields structure={structure} at={subsystem.yaml} shapes={optionsOf[subsystem.kind]} />
+      <MapForm
+        structure={structure}
+        at={[...subsystem.yaml, "conditions"]}
+        title="Conditions"
+        one="condition"
+        fresh={{ name: "late", value: "elapsed > 1 s" }}
+        hint="Named once, for the terminal and error conditions of several behaviours"
+      />
       <MapForm
         structure={structure}
         at={[...subsystem.yaml, "memory"]}

@@ -10,6 +10,7 @@ import { WorldForm } from "./world_form";
 import { deployHelp, modelHelp } from "./form_help";
 import { MapForm } from "./map_form";
 import { ObjectFields } from "./object_fields";
+import { OnErrorField } from "./on_error_field";
 import { schema } from "./schema";
 import { useTargets } from "./targets";
 import { TemplatesForm } from "./templates_form";
@@ -30,6 +31,13 @@ export function SystemForm({ structure }: { structure: Structure }) {
     <div className="inspect">
       <h2>System</h2>
       <Field label="Name" value={structure.system} onChange={(name) => edit(set([], "system", name))} />
+      <OnErrorField
+        structure={structure}
+        at={[]}
+        behaviours={structure.agents.flatMap(({ subsystems }) =>
+          subsystems.flatMap(({ behaviours }) => behaviours.map((one) => one.name)),
+        )}
+      />
       <MapForm
         structure={structure}
         at={["types"]}

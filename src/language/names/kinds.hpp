@@ -1,0 +1,24 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+
+#include "language/names/index.hpp"
+
+/// Questions of the builder of the index about one name.
+namespace tessera::language {
+
+/// The kind of the third word of a path.
+enum class Place : std::uint8_t { agent, from, to, real, formula };
+
+[[nodiscard]] bool is_nothing(const Node& node);
+
+/// The type of a name as the file has it: "float64 m/s"; empty: it has none.
+[[nodiscard]] std::string type_of(Kind kind, const Node& value);
+
+/// The names of a subsystem among which the third word of a path is. A formula names behaviours, and buffers that have
+/// no behaviour of their name: `robot.control.line.full`.
+[[nodiscard]] const NamesOf& members(const UnitNames& unit, Place place, std::string_view name);
+
+}  // namespace tessera::language

@@ -1,0 +1,249 @@
+#include "spec/agents/defaults.hpp"
+
+#include <algorithm>
+
+#include "diagnostics/utf8.hpp"
+#include "spec/model/endings.hpp"
+#include "tessera/nearest.hpp"
+
+namespace tessera::spec {
+namespace {
+
+using diagnostics::in_quotes;
+
+constexpr std::string_view stop = "stop";
+
+std::vector<std::string> names_of(const Numbered<BehaviourId, Behaviour>& behaviours) {
+  std::vector<std::string> names;
+  for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
+  return names;
+}
+
+std::string line_of(Span span) { return "line " + std::to_string(span.line); }
+
+/// Reads one list of buffers.
+class ListReader {
+ public:
+  ListReader(const Entry& at, const ListScope& scope, ListDefault& around, Diagnostics& out)
+      : at_(at), scope_(scope), around_(around), out_(out) {}
+
+  std::vector<BufferId> read(const std::vector<const Node*>& items) {
+    std::vector<const Node*> texts;
+    for (const Node* item : items)
+      if (const Node* text = text_of(*item, at_.span, "an " + std::string(scope_.what), out_))
+        texts.push_back(text);
+    const auto changes =
+        std::count_if(texts.begin(), texts.end(), [](const Node* one) { return sign(*one) != 0; });
+    if (changes == 0) {
+      for (const Node* text : texts) read_name(*text);
+      return std::move(list_);
+    }
+    around_.used = true;
+    if (static_cast<std::size_t>(changes) < texts.size()) {
+      complain_about_mixture(texts);
+      return std::move(list_);
+    }
+    list_ = around_.list.value_or(all());
+    for (const Node* text : texts) read_change(*text);
+    return std::move(list_);
+  }
+
+ private:
+  static char sign(const Node& text) {
+    return text.text.starts_with('+') || text.text.starts_with('-') ? text.text.front() : '\0';
+  }
+
+  [[nodiscard]] std::vector<BufferId> all() const {
+    std::vector<BufferId> ids;
+    for (std::uint32_t at = 0; at < scope_.buffers.size(); ++at) ids.push_back({at});
+    return ids;
+  }
+
+  /// The buffer of that name; none after an error.
+  BufferId find(const Node& text, std::string_view name) {
+    const auto found = std::find_if(scope_.buffers.begin(), scope_.buffers.end(),
+                                    [name](const Field& field) { return field.name == name; });
+    if (found != scope_.buffers.end()) return {static_cast<std::uint32_t>(found - scope_.buffers.begin())};
+    std::vector<std::string> names;
+    for (const Field& field : scope_.buffers) names.push_back(field.name);
+    const bool other = std::any_of(scope_.others.begin(), scope_.others.end(),
+                                   [name](const Field& field) { return field.name == name; });
+    const std::string what(scope_.what);
+    out_.error("E101", text.span,
+               other ? in_quotes(name) + " is no " + what : "unknown " + what + " " + in_quotes(name),
+               other ? std::string("list it under '") + (what == "output" ? "receive" : "send") + "'"
+                     : did_you_mean(std::string(name), names));
+    return {};
+  }
+
+  [[nodiscard]] bool is_listed(BufferId buffer) const {
+    return std::find(list_.begin(), list_.end(), buffer) != list_.end();
+  }
+
+  void read_name(const Node& text) {
+    const BufferId buffer = find(text, text.text);
+    if (!buffer.valid()) return;
+    if (is_listed(buffer))
+      out_.error("E107", text.span,
+                 std::string(scope_.what) + " " + in_quotes(text.text) + " is listed twice");
+    else
+      list_.push_back(buffer);
+  }
+
+  void read_change(const Node& text) {
+    const std::string name = text.text.substr(1);
+    const BufferId buffer = find(text, name);
+    if (!buffer.valid()) return;
+    const std::string subject = std::string(scope_.what) + " " + in_quotes(name);
+    if (std::find(changed_.begin(), changed_.end(), buffer) != changed_.end()) {
+      out_.error("E107", text.span, subject + " is listed twice");
+      return;
+    }
+    changed_.push_back(buffer);
+    if (sign(text) == '+' && is_listed(buffer)) {
+      out_.error("E272", text.span, subject + " is " + done() + " already",
+                 source() + "; leave +" + name + " out");
+    } else if (sign(text) == '-' && !is_listed(buffer)) {
+      out_.error("E273", text.span, subject + " is not " + done(), source() + "; leave -" + name + " out");
+    } else if (sign(text) == '+') {
+      list_.push_back(buffer);
+    } else {
+      std::erase(list_, buffer);
+    }
+  }
+
+  [[nodiscard]] std::string done() const { return scope_.what == "output" ? "sent" : "received"; }
+
+  /// The origin of the list around this one.
+  [[nodiscard]] std::string source() const {
+    const std::string all = "all " + std::string(scope_.what) + "s";
+    if (around_.entry == nullptr)
+      return scope_.what == "output" ? "a subsystem without 'send' sends " + all
+                                     : "a subsystem without 'receive' receives " + all;
+    return "the list of the subsystem is on " + line_of(around_.entry->span);
+  }
+
+  void complain_about_mixture(const std::vector<const Node*>& texts) {
+    const Node* plain =
+        *std::find_if(texts.begin(), texts.end(), [](const Node* one) { return sign(*one) == 0; });
+    out_.error("E274", plain->span, in_quotes(plain->text) + " stands beside changes by + and -",
+               "write +" + plain->text +
+                   " to add it to the list of the subsystem, or every name without a sign "
+                   "to replace that list");
+  }
+
+  const Entry& at_;
+  const ListScope& scope_;
+  ListDefault& around_;
+  Diagnostics& out_;
+  std::vector<BufferId> list_, changed_;
+};
+
+}  // namespace
+
+std::optional<OnError> read_on_error(const Section& section, Diagnostics& out) {
+  const Entry* entry = section.find("on_error");
+  if (entry == nullptr) return std::nullopt;
+  OnError on_error{.behaviour = {}, .span = entry->span};
+  const Node* text = text_of(*entry->value, entry->span, "on_error", out, "name a behaviour, or write stop");
+  if (text == nullptr) {
+    on_error.used = true;
+    return on_error;
+  }
+  on_error.span = text->span;
+  if (text->text != stop) on_error.behaviour = text->text;
+  return on_error;
+}
+
+BehaviourId resolve_on_error(OnError& on_error, bool own, const Subsystem& subsystem, Diagnostics& out) {
+  const std::vector<std::string> names = names_of(subsystem.behaviours);
+  const std::string wanted = on_error.behaviour.empty() ? std::string(stop) : on_error.behaviour;
+  const auto found = std::find(names.begin(), names.end(), wanted);
+  const bool is_there = found != names.end();
+  if (on_error.behaviour.empty()) {
+    const bool was_unreadable = on_error.used;
+    on_error.used = true;
+    if (is_there && !was_unreadable)
+      out.error("E275", own ? on_error.span : subsystem.span,
+                own ? "'stop' is a behaviour here, and stands for the end of the subsystem"
+                    : "subsystem " + in_quotes(subsystem.name) +
+                          " has a behaviour 'stop', and 'on_error: stop' on " + line_of(on_error.span) +
+                          " stands for its end",
+                "rename the behaviour; or leave 'on_error: stop' out, which is the default");
+    return {};
+  }
+  if (is_there) return {static_cast<std::uint32_t>(found - names.begin())};
+  on_error.used = true;
+  if (own) {
+    std::vector<std::string> known = names;
+    known.emplace_back(stop);
+    const Hint guess = wanted == "end" ? Hint("write on_error: stop: the subsystem ends, and the run fails")
+                                       : did_you_mean(wanted, known);
+    out.error("E101", on_error.span, "unknown behaviour " + in_quotes(wanted), guess);
+  } else {
+    out.error("E271", subsystem.span,
+              "subsystem " + in_quotes(subsystem.name) + " has no behaviour " + in_quotes(wanted) +
+                  ", to which 'on_error' on " + line_of(on_error.span) + " leads its failures",
+              "give it a behaviour " + in_quotes(wanted) + ", or write on_error: stop in it");
+  }
+  return {};
+}
+
+void check_used(const OnError& on_error, Diagnostics& out) {
+  if (on_error.used) return;
+  const std::string name = on_error.behaviour.empty() ? std::string(stop) : on_error.behaviour;
+  out.warning("W361", on_error.span, "no failure leads to " + in_quotes(name) + " by this 'on_error'",
+              "every behaviour, or every subsystem, says itself where its failures lead; remove it");
+}
+
+std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at, const ListScope& scope,
+                                       ListDefault& around, Diagnostics& out) {
+  return ListReader(at, scope, around, out).read(items_of(value, at.span, in_quotes(at.key), out));
+}
+
+void check_used(const ListDefault& list, Diagnostics& out) {
+  if (list.entry == nullptr || list.used) return;
+  out.warning("W361", list.entry->span, "no behaviour uses this list",
+              "each has a '" + list.entry->key + "' of its own; +x and -x there change this list");
+}
+
+const Expression* SharedConditions::use(std::string_view name) {
+  const auto found =
+      std::find_if(all.begin(), all.end(), [name](const Expression& one) { return one.name == name; });
+  if (found == all.end()) return nullptr;
+  used[static_cast<std::size_t>(found - all.begin())] = true;
+  return &*found;
+}
+
+std::vector<std::string> SharedConditions::names() const {
+  std::vector<std::string> names;
+  for (const Expression& one : all) names.push_back(one.name);
+  return names;
+}
+
+void check_used(const SharedConditions& conditions, Diagnostics& out) {
+  for (std::size_t at = 0; at < conditions.all.size(); ++at) {
+    if (conditions.used[at]) continue;
+    const Expression& one = conditions.all[at];
+    out.warning("W361", one.span, "no behaviour names condition " + in_quotes(one.name),
+                "write terminal: " + one.name + ", or error: " + one.name + ", in a behaviour");
+  }
+}
+
+bool lead_failures(Behaviour& behaviour, const Next& entry) {
+  if (!behaviour.next_given) {
+    // Its default entry `end` is for a terminal ending alone.
+    Behaviour alone = behaviour;
+    alone.next.clear();
+    if (!Endings(alone).possible(Ending::terminal)) behaviour.next.clear();
+  }
+  const Endings endings(behaviour);
+  if (!endings.unrouted(Ending::error) && !endings.unrouted(Ending::failure)) return false;
+  // In front, as most write it; but behind the entries that name an error themselves.
+  std::size_t at = behaviour.next.size();
+  while (at > 0 && !names_error(behaviour.next[NextId{static_cast<std::uint32_t>(at - 1)}])) --at;
+  behaviour.next.insert(behaviour.next.begin() + static_cast<std::ptrdiff_t>(at), entry);
+  return true;
+}
+
+}  // namespace tessera::spec

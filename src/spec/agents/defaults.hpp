@@ -1,0 +1,91 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "spec/document/section.hpp"
+#include "spec/model/model.hpp"
+
+/// A specification, an agent and a subsystem may say something for all behaviours in it. After reading, the model is that of
+/// the same specification with everything written out.
+namespace tessera::spec {
+
+/// `on_error`: where a failure leads that no entry of `next` names.
+struct OnError {
+  std::string behaviour;  ///< empty: `stop`, or it could not be read
+  Span span{};            ///< of that word
+  /// Some behaviour has taken it, or some subsystem has taken `stop`, or there was an error about it.
+  bool used = false;
+};
+
+/// nullopt: the section does not say it. Errors: E104.
+[[nodiscard]] std::optional<OnError> read_on_error(const Section& section, Diagnostics& out);
+
+/// The behaviour of the subsystem that it means; none: `stop`.
+///
+/// own: whether the subsystem itself says it, not its agent or the system.
+/// Errors: E101 its own `on_error` names no behaviour; E271 an inherited one does; E275 `stop` is the name of a
+///         behaviour, too.
+[[nodiscard]] BehaviourId resolve_on_error(OnError& on_error, bool own, const Subsystem& subsystem,
+                                           Diagnostics& out);
+
+/// Warnings: W361 nothing uses it.
+void check_used(const OnError& on_error, Diagnostics& out);
+
+/// The buffers that a behaviour sends or receives; nullopt: all, in the order of the channels.
+using BufferList = std::optional<std::vector<BufferId>>;
+
+/// `send` or `receive` of a subsystem, for the behaviours that have no list, or change it by `+` and `-`.
+struct ListDefault {
+  BufferList list;
+  const Entry* entry = nullptr;  ///< the key; null: the subsystem does not say it
+  bool used = false;
+};
+
+/// The buffers that lists of one subsystem may name, and those of the other direction.
+struct ListScope {
+  const std::vector<Field>& buffers;
+  const std::vector<Field>& others;
+  std::string_view what;  ///< "output", "input"
+};
+
+/// The list of `send` or `receive`: names, or changes of the list around it such as [+request, -grip].
+///
+/// value:  a list; `at` is its key.
+/// around: `-x` and `+x` change it; without a list all buffers, as declared. Its `used` is set then.
+/// Errors: E101 unknown buffer; E104 no list; E107 one twice; E272 `+x` of what is listed; E273 `-x` of what is not;
+///         E274 changes beside names.
+[[nodiscard]] std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at,
+                                                     const ListScope& scope, ListDefault& around,
+                                                     Diagnostics& out);
+
+/// Warnings: W361 every behaviour has a list of its own.
+void check_used(const ListDefault& list, Diagnostics& out);
+
+/// `conditions` of a subsystem: expressions that `terminal` and `error` of its behaviours name.
+struct SharedConditions {
+  std::vector<Expression> all;
+  std::vector<bool> used;
+
+  /// The expression of that name, which is then used; or nullptr.
+  [[nodiscard]] const Expression* use(std::string_view name);
+  [[nodiscard]] std::vector<std::string> names() const;
+};
+
+/// Warnings: W361 no behaviour names it.
+void check_used(const SharedConditions& conditions, Diagnostics& out);
+
+/// The defaults of one subsystem for all its behaviours, besides `on_error`.
+struct SubsystemDefaults {
+  ListDefault send, receive;
+  SharedConditions conditions;
+};
+
+/// Leads the errors and failures that no entry of `next` names to this one, which is for every error. Whether there was
+/// one.
+/// Precondition: `next` has been read, and complete_next has not been called.
+bool lead_failures(Behaviour& behaviour, const Next& entry);
+
+}  // namespace tessera::spec

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "diagnostics/utf8.hpp"
 #include "layers/net_paths.hpp"
 #include "tessera/nearest.hpp"
 
@@ -14,9 +15,8 @@ namespace tessera::layers {
 namespace {
 
 using diagnostics::Diagnostics;
+using diagnostics::in_quotes;
 using Compared = spec::Comparison::Kind;
-
-std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
 bool is_order(Compared kind) { return kind != Compared::equal && kind != Compared::unequal; }
 
@@ -53,7 +53,7 @@ std::optional<std::vector<std::uint32_t>> fitting(const spec::Field& cell, const
   std::optional<std::int64_t> other = number_in(compared.value.name);
   if (!few.counts) {
     if (is_order(compared.kind)) {
-      out.error("E263", compared.at, quoted(name) + " has values without an order",
+      out.error("E263", compared.at, in_quotes(name) + " has values without an order",
                 "compare it with == or !=");
       return std::nullopt;
     }
@@ -64,7 +64,7 @@ std::optional<std::vector<std::uint32_t>> fitting(const spec::Field& cell, const
     Hint hint = did_you_mean(compared.value.name, few.names);
     if (hint.empty()) hint.text = "it is " + few.in_words();
     out.error("E261", compared.value.span,
-              "unknown value " + quoted(compared.value.name) + " of " + quoted(name), std::move(hint));
+              "unknown value " + in_quotes(compared.value.name) + " of " + in_quotes(name), std::move(hint));
     return std::nullopt;
   }
   std::vector<std::uint32_t> positions;
@@ -73,7 +73,7 @@ std::optional<std::vector<std::uint32_t>> fitting(const spec::Field& cell, const
       positions.push_back(value);
   if (!positions.empty() && positions.size() < few.names.size()) return positions;
   out.error("E264", compared.value.span,
-            quoted(name) + (positions.empty() ? " never fits this" : " always fits this"),
+            in_quotes(name) + (positions.empty() ? " never fits this" : " always fits this"),
             "it is " + few.in_words());
   return std::nullopt;
 }
@@ -111,19 +111,19 @@ std::optional<net::Statement> NetPaths::of_memory(net::PageId id, const spec::St
     for (const spec::Field& one : memory)
       if (one.few) names.push_back(one.name);
     out.error("E101", parts[2].span,
-              "unknown memory " + quoted(parts[2].name) + " in " + quoted(pages_.path(id)),
+              "unknown memory " + in_quotes(parts[2].name) + " in " + in_quotes(pages_.path(id)),
               did_you_mean(parts[2].name, names));
     return std::nullopt;
   }
   if (!cell->few) {
     out.error(
-        "E265", parts[2].span, quoted("memory." + cell->name) + " has a type, so it is no part of the net",
+        "E265", parts[2].span, in_quotes("memory." + cell->name) + " has a type, so it is no part of the net",
         "declare its values instead: " + cell->name + ": { values: [nobody, a, b] }, or { counts: 0..4 }");
     return std::nullopt;
   }
   if (!token.compared) {
     out.error("E112", parts[2].span,
-              quoted("memory." + cell->name) + " is " + cell->few->in_words() + ": which?",
+              in_quotes("memory." + cell->name) + " is " + cell->few->in_words() + ": which?",
               "write " + pages_.path(id) + ".memory." + cell->name + " == " + cell->few->names.front());
     return std::nullopt;
   }

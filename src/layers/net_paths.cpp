@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "diagnostics/utf8.hpp"
 #include "tessera/nearest.hpp"
 #include "tessera/net_words.hpp"
 
@@ -10,11 +11,10 @@ namespace tessera::layers {
 namespace {
 
 using diagnostics::Diagnostics;
+using diagnostics::in_quotes;
 using net::PageId;
 using net::PlaceId;
 using Found = std::optional<net::Statement>;
-
-std::string quoted(const std::string& word) { return "'" + word + "'"; }
 
 net::Statement marked(PlaceId place) {
   net::Statement statement;
@@ -82,7 +82,7 @@ Found NetPaths::find(const spec::Statement& token, Diagnostics& out) const {
   const auto agent = agents_.find(token.path.agent);
   if (agent != agents_.end()) return in_page(agent->second, token.path, 0, out);
   if (const auto place = places_.find(token.path.agent); place != places_.end()) return marked(place->second);
-  out.error("E101", token.path.span, "the net has no " + quoted(token.path.agent));
+  out.error("E101", token.path.span, "the net has no " + in_quotes(token.path.agent));
   return std::nullopt;
 }
 
@@ -116,13 +116,13 @@ Found NetPaths::of_buffer(net::SubsystemId subsystem, const spec::NetPath& path,
       names.push_back(model_.channel_name(channel));
   }
   if (path.parts.size() == 2 || path.parts.size() > 3) {
-    out.error("E112", buffer.span, quoted(buffer.name) + " is a buffer: which state of its channel?",
+    out.error("E112", buffer.span, in_quotes(buffer.name) + " is a buffer: which state of its channel?",
               "write " + path.agent + "." + joined(path.parts, 0) + ".full, .empty, .ack or .channel");
     return std::nullopt;
   }
   if (names.size() == 1) return state(names.front(), path.parts[2], out);
   const std::string none = names.empty() ? "no channel" : std::to_string(names.size()) + " channels";
-  out.error("E112", buffer.span, quoted(buffer.name) + " belongs to " + none,
+  out.error("E112", buffer.span, in_quotes(buffer.name) + " belongs to " + none,
             names.empty() ? "" : "name one: " + names.front() + "." + path.parts[2].name);
   return std::nullopt;
 }
@@ -140,7 +140,7 @@ Found NetPaths::of_channel(const spec::NetPath& from, const spec::NetPath& to, D
     if (model_.channel_name(one) == channel) return state(channel, to.parts[2], out);
   std::vector<std::string> names;
   for (const spec::Channel& one : model_.channels) names.push_back(model_.channel_name(one));
-  out.error("E101", from.span, "unknown channel " + quoted(channel), did_you_mean(channel, names));
+  out.error("E101", from.span, "unknown channel " + in_quotes(channel), did_you_mean(channel, names));
   return std::nullopt;
 }
 
@@ -151,7 +151,7 @@ Found NetPaths::state(const std::string& channel, const spec::PathPart& part, Di
   for (const std::string_view other : {words::full, words::empty, words::acknowledged, words::lock})
     if (places_.contains(channel + "." + std::string(other)))
       others += (others.empty() ? "" : ", ") + std::string(other);
-  out.error("E101", part.span, "channel " + quoted(channel) + " has no state " + quoted(part.name),
+  out.error("E101", part.span, "channel " + in_quotes(channel) + " has no state " + in_quotes(part.name),
             others.empty() ? "no behaviour uses it" : "it has " + others);
   return std::nullopt;
 }
@@ -198,8 +198,8 @@ void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& ou
     for (const std::string& name : names) hint.text += (&name == &names.front() ? "" : ", ") + name;
   }
   out.error("E101", part.span,
-            std::string("unknown ") + what_is_in(layer) + " " + quoted(part.name) + " in " +
-                quoted(pages_.path(page)),
+            std::string("unknown ") + what_is_in(layer) + " " + in_quotes(part.name) + " in " +
+                in_quotes(pages_.path(page)),
             hint);
 }
 

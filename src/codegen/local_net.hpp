@@ -33,7 +33,7 @@ struct LocalNet {
     std::string role{};                            ///< C++: "{tessera::Step::go_on, 1}"
     std::string in_words{};                        ///< "follow.snd.in, motion/empty -> follow.snd.motion.2"
   };
-  /// What the net knows, as tessera::Fact.
+  /// A fact that the net knows, as tessera::Fact.
   struct Fact {
     net::FactId id;
     std::string kind, name;  ///< C++: "tessera::Fact::Kind::received", "grant"

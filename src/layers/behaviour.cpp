@@ -48,7 +48,7 @@ struct Ending {
   Condition go_on, terminal, error;
 };
 
-/// What is known of the conditions of a behaviour.
+/// The knowledge about the conditions of a behaviour.
 struct EndingTruths {
   Truth terminal, error;
   EndingTruths(const spec::Behaviour& behaviour, const spec::TruthOf& truths)

@@ -95,8 +95,7 @@ class BlockPen {
     return nodes;
   }
 
-  /// What the net knows after a transition that ends the block: whether a value was taken, or acknowledged in
-  /// time.
+  /// The facts after a transition that ends the block: whether a value was taken, or acknowledged in time.
   [[nodiscard]] KnownFacts::Values outcome(const ModelSide& side, const ModelSide::Transition& transition,
                                            const Block& block) const {
     const net::FactId fact = facts_.set_by(block.channel, direction_);

@@ -61,7 +61,7 @@ struct Drawn {
   Condition condition;
 };
 
-/// What is known of the list with certain values: without and with failures.
+/// The knowledge about the list with certain values: without and with failures.
 struct Knowledge {
   spec::Endings certain, failing;
 };

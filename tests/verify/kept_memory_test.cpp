@@ -232,7 +232,7 @@ class Random {
   std::size_t unknowns_ = 0;
 };
 
-/// What follows what: "a_is p 0" -> "b_is q 1", "end", "none".
+/// Pairs of neighbours in time: "a_is p 0" -> "b_is q 1", "end", "none".
 using Steps = std::set<std::pair<std::string, std::string>>;
 
 /// The rule, as docs/reference/specification.md states it, tried with everything that is not known.

@@ -12,7 +12,7 @@ namespace tessera::spec {
 enum class Truth : std::uint8_t { free, always, never };
 
 [[nodiscard]] Truth truth_of(const Expression& expression);
-/// What is known of expressions: their constants, or more at a certain marking of the net (layers/known_facts.hpp).
+/// The knowledge about expressions: their constants, or more at a certain marking of the net (layers/known_facts.hpp).
 using TruthOf = std::function<Truth(const Expression&)>;
 /// A condition holds if one of its expressions holds.
 [[nodiscard]] Truth truth_of(const Condition& condition);

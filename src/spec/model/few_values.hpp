@@ -27,7 +27,7 @@ struct FewValues {
   [[nodiscard]] std::string in_words() const;
 };
 
-/// What a behaviour that begins, or an entry of `next` that is taken, does to a cell with few values.
+/// A change of a cell with few values by a behaviour that begins, or by an entry of `next` that is taken.
 struct Change {
   std::uint32_t cell = 0;   ///< into Subsystem::memory
   std::int32_t step = 0;    ///< +1 or -1; 0: the cell gets `value`

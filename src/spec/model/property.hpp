@@ -24,7 +24,7 @@ struct NetPath {
   diagnostics::Span span;
 };
 
-/// What a memory cell with few values is compared with.
+/// The other side of a comparison with a memory cell with few values.
 struct Comparison {
   enum class Kind : std::uint8_t {
     equal,

@@ -20,7 +20,7 @@ using net::TransitionId;
 /// with which values. The first place is that of the behaviour.
 using ExitPlaces = std::vector<PlaceId>;
 
-/// What is known about leaving through it.
+/// The knowledge about leaving through it.
 struct Exit {
   bool certain = false;  ///< one of its conditions holds
   bool entered = false;  ///< something leads to it

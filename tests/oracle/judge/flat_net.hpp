@@ -58,7 +58,7 @@ struct FlatNet {
     std::vector<int> reads;                            // transitions that begin to read
     bool received = false;                             // some behaviour has its receiving block
   };
-  /// What the net of a subsystem knows about the last communication of a buffer: one place per value.
+  /// The knowledge of the net of a subsystem about the last communication of a buffer: one place per value.
   struct FactInfo {
     int subsystem = -1;
     std::string buffer;

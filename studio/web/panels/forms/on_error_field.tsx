@@ -4,7 +4,7 @@ import type { YamlPath } from "../../model/text/yaml_text";
 import { Field } from "./field";
 import { useEdit } from "./form_parts";
 
-/** The behaviour to which failures lead that no entry of `next` names. What is said around shows as the placeholder. */
+/** The behaviour to which failures lead that no entry of `next` names. The default of the agent or system shows as the placeholder. */
 export function OnErrorField({ structure, at, behaviours }: { structure: Structure; at: YamlPath; behaviours: string[] }) {
   const edit = useEdit();
   const around = onError(structure, at, true);

@@ -1,0 +1,87 @@
+// Paths of agents, subsystems and buffers: in channels, drivers, properties.
+
+#include "language/questions/completer.hpp"
+
+namespace tessera::language {
+
+void Completer::words_of_formulas() {
+  if (!chain().empty()) return;
+  for (const char* word : {"and", "or", "not"}) add(Proposal::Kind::word, word);
+}
+
+const NamesOf& Completer::ends(const UnitNames& unit, PathEnd end) {
+  switch (end) {
+    case PathEnd::output:
+      return unit.outputs;
+    case PathEnd::input:
+      return unit.inputs;
+    case PathEnd::real:
+      return unit.real;
+    default:
+      return unit.behaviours;
+  }
+}
+
+void Completer::paths(PathEnd end, const std::string& fleet) {
+  const std::vector<std::string> names = place_.key != nullptr ? chain_of_key() : chain();
+  if (names.empty()) return whole_paths(end, fleet);
+  const DefinitionNames* definition = index_.definition_of(names[0]);
+  if (definition == nullptr || end == PathEnd::agent) return;
+  for (const UnitNames& unit : definition->units) {
+    if (names.size() == 1 && (end == PathEnd::behaviour || !ends(unit, end).empty()))
+      add(Proposal::Kind::name, unit.name, "subsystem");
+    if (names.size() == 2 && unit.name == names[1]) {
+      add_names(ends(unit, end));
+      if (end == PathEnd::behaviour) add_names(unit.outputs);
+    }
+    if (names.size() > 2 && end == PathEnd::real && unit.name == names[1]) fields_of_path(unit, names);
+  }
+}
+
+void Completer::fields_of_path(const UnitNames& unit, const std::vector<std::string>& names) {
+  const auto buffer = unit.real.find(names[2]);
+  if (buffer == unit.real.end()) return;
+  const NamesOf* fields = index_.fields_of(index_[buffer->second].type);
+  for (std::size_t at = 3; fields != nullptr && at < names.size(); ++at) {
+    const auto field = fields->find(names[at]);
+    fields = field == fields->end() ? nullptr : index_.fields_of(index_[field->second].type);
+  }
+  if (fields != nullptr) add_names(*fields);
+}
+
+std::vector<std::string> Completer::chain_of_key() const {
+  std::vector<std::string> names;
+  const std::size_t from = std::min(place_.key->extent.begin, begin_);
+  for (const DottedPath& path : paths_in(std::string_view(marked_).substr(from, begin_ - from)))
+    for (const PathWord& word : path.words) names.emplace_back(word.name);
+  return names;
+}
+
+void Completer::whole_paths(PathEnd end, const std::string& fleet) {
+  for (const auto& [agent, id] : index_.agents()) {
+    const std::string name = agent + (index_.is_fleet(agent) ? fleet : "");
+    if (end == PathEnd::agent) {
+      add_path(name, "agent");
+      continue;
+    }
+    const DefinitionNames* definition = index_.definition_of(agent);
+    if (definition == nullptr) continue;
+    for (const UnitNames& unit : definition->units)
+      for (const auto& [part, symbol] : ends(unit, end)) {
+        if (proposals_.size() >= most_proposals) return;
+        add_path(name + "." + unit.name + "." + part, index_[symbol].type);
+      }
+  }
+}
+
+void Completer::add_path(const std::string& path, const std::string& detail) {
+  const bool starts = place_.key != nullptr || place_.scalar->extent.begin >= begin_;
+  const bool quoted = place_.scalar != nullptr && place_.scalar->quoted;
+  const bool flow = place_.parent != nullptr && place_.parent->flow;
+  const bool needs = path.find('[') != std::string::npos && starts && !quoted && flow;  // brackets of YAML
+  std::string insert = needs ? '"' + path + '"' : path;
+  if (place_.key != nullptr && !colon_follows()) insert += ": ";
+  add(Proposal::Kind::name, path, detail, std::move(insert));
+}
+
+}  // namespace tessera::language

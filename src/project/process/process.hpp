@@ -24,7 +24,7 @@ struct Exit {
 
 /// Thrown in place of a result: a signal has asked this process to stop while a program ran for it.
 struct Interrupted : std::runtime_error {
-  Interrupted(int signal, const std::string& what) : std::runtime_error(what), signal(signal) {}
+  Interrupted(int by, const std::string& what) : std::runtime_error(what), signal(by) {}
   int signal;
 };
 

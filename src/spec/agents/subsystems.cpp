@@ -90,7 +90,8 @@ ListDefault read_list(const Entry* entry, const ListScope& scope, Diagnostics& o
   ListDefault none;
   const Entry* list = entry == nullptr ? nullptr : list_of(*entry);
   if (list == nullptr) return none;
-  ListDefault read{.entry = entry};
+  ListDefault read;
+  read.entry = entry;
   read.list = read_buffer_list(*list->value, *list, scope, none, out);
   return read;
 }

@@ -48,7 +48,7 @@ std::string goal(const spec::Subsystem& subsystem, const spec::Next& next) {
 /// The expression at a column; further lines of a block text at the same one.
 std::string at_column(const spec::Expression& expression, std::uint32_t column) {
   const std::string indent(column - 1, ' ');
-  const std::string text = spec::with_cpp_durations(expression.text);
+  const std::string text = condition_text(expression);
   std::string out;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());

@@ -5,6 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
+
+#include "spec/conditions/tokens.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -15,6 +18,15 @@ constexpr std::string_view on = "// clang-format on\n";
 constexpr std::array scalar_names{"bool",          "std::int8_t",  "std::int16_t",  "std::int32_t",
                                   "std::int64_t",  "std::uint8_t", "std::uint16_t", "std::uint32_t",
                                   "std::uint64_t", "float",        "double"};
+
+/// The period of std::chrono::duration for a unit of time.
+constexpr auto periods =
+    std::to_array<std::pair<std::string_view, std::string_view>>({{"h", "std::ratio<3600>"},
+                                                                  {"min", "std::ratio<60>"},
+                                                                  {"s", "std::ratio<1>"},
+                                                                  {"ms", "std::milli"},
+                                                                  {"us", "std::micro"},
+                                                                  {"ns", "std::nano"}});
 
 std::string element_name(const spec::Model& model, const spec::Type& type,
                          const std::set<std::string_view>& hidden) {
@@ -113,6 +125,18 @@ std::string string_literal(std::string_view text) {
       out += character;
   }
   return out += '"';
+}
+
+std::string condition_text(const spec::Expression& expression) {
+  std::string text = spec::with_cpp_durations(expression.text);
+  for (std::size_t at = expression.times.size(); at-- > 0;) {  // from the back, so that positions stay
+    const spec::Expression::TimeNumber& number = expression.times[at];
+    const auto* const period =
+        std::ranges::find(periods, number.unit, [](const auto& one) { return one.first; });
+    text.insert(number.end, ")");
+    text.insert(number.begin, fmt::format("std::chrono::duration<double, {}>(", period->second));
+  }
+  return text;
 }
 
 std::string comment_text(std::string_view text) {

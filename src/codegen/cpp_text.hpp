@@ -31,6 +31,10 @@ void add_headers(const spec::Type& type, std::set<std::string>& headers);
 /// "\"text\"", escaped.
 [[nodiscard]] std::string string_literal(std::string_view text);
 
+/// The expression of a condition in C++, line by line as in the file: durations have no blank, and a number in a
+/// unit of time that stands beside a duration is a duration of floating-point numbers.
+[[nodiscard]] std::string condition_text(const spec::Expression& expression);
+
 /// `text` as it may stand in a one-line comment.
 [[nodiscard]] std::string comment_text(std::string_view text);
 

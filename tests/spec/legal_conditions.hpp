@@ -29,7 +29,7 @@ agents:
       inputs: { line: Line, scan: Scan, go: bool, level: float64, name: string, numbers: "int32[4]", large: "uint8[8192]" }
       outputs: { motion: float64 m/s }
       memory: { count: uint32, seconds: float64 s, last: Line, flag: bool, text: string<=8 }
-      parameters: { gap: 0.1 m, tries: { type: int32, default: 3 } }
+      parameters: { gap: 0.1 m, tries: { type: int32, default: 3 }, pause: { type: uint32, default: 250, unit: ms } }
       behaviours:
         work: { terminal: )" +
          terminal + R"(, next: work }
@@ -79,6 +79,15 @@ inline constexpr auto legal_conditions = std::to_array<const char*>({
     "elapsed >= 1 min && in.line.fresh",
     "elapsed.count() % 2 == 0",
     "tessera::seconds(elapsed) > parameters.hold",
+    "elapsed > parameters.hold",
+    "parameters.hold <= in.line.age",
+    "in.line.age > memory.seconds && memory.seconds < 2 s",
+    "elapsed - 1 s > 2 * parameters.hold + 500 ms",
+    "elapsed + parameters.hold / 4 > (parameters.hold + memory.seconds) * 1.5",
+    "in.line.age > (in.go ? parameters.hold : 500 ms)",
+    "elapsed / parameters.hold > 0.5",
+    "in.line.stamp + parameters.hold < in.scan.stamp",
+    "elapsed > parameters.pause || elapsed == -parameters.pause",
     "index == 0",
     "memory.count % 10 == index",
     "memory.count > 100",

@@ -18,8 +18,15 @@ void check_expression(Expression& expression, const Node& text, const ConditionS
   const std::size_t errors = out.error_count();
   const ConditionNames names(tokens, positions, scope, others, out);
   expression.references = names.references();
-  if (!names.declares_names() && out.error_count() == errors)
-    ConditionOperators(tokens, positions, scope, names, text.text, out).check();
+  if (names.declares_names() || out.error_count() != errors) return;
+  ConditionOperators operators(tokens, positions, scope, names, text.text, out);
+  operators.check();
+  expression.times = operators.times();
+  const std::size_t blanks = text.text.find_first_not_of(" \t\r\n");  // which the expression is without
+  for (Expression::TimeNumber& number : expression.times) {
+    number.begin -= blanks;
+    number.end -= blanks;
+  }
 }
 
 }  // namespace tessera::spec

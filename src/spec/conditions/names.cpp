@@ -263,6 +263,7 @@ Value ConditionNames::value_of(const Type& type) const {
     value.kind = Is::text;
   else
     value.kind = type.scalar == Scalar::boolean ? Is::boolean : Is::number;
+  if (value.kind == Is::number && is_duration_unit(type.unit)) value.time_unit = type.unit;
   return value;
 }
 

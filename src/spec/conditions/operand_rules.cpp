@@ -108,14 +108,10 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
     if (one.kind == Is::unknown || other.kind == Is::unknown) return result;
     if (one.kind == other.kind) continue;
     if (one.kind == Is::duration && other.is_plain()) {
-      std::string hint = "compare it with a duration such as 500 ms";
-      if (other.literal)
-        hint = unit_hint(text_of(other));
-      else if (other.declared && other.type.unit == "s")
-        hint = fmt::format("write tessera::seconds({})", text_of(one));
-      if (one.literal && other.declared && !other.type.unit.empty())
-        hint = fmt::format("{} is in {}: write the number alone", text_of(other), other.type.unit);
-      mistake("E212", other, described(one) + ", " + described(other), hint);
+      if (other.time_unit.empty())
+        mistake("E212", other, described(one) + ", " + described(other), hint_for_duration(one, other));
+      else
+        as_duration(other);
       return result;
     }
     if (one.kind == Is::time) {
@@ -145,6 +141,30 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
   }
   if (check_signs(mark, left, right)) check_units(mark, left, right);
   return result;
+}
+
+/// A number in a unit of time is a duration beside one.
+void ConditionOperators::as_duration(const Value& number) {
+  times_.push_back({number.begin, number.end, number.time_unit});
+}
+
+std::vector<Expression::TimeNumber> ConditionOperators::times() const {
+  std::vector<Expression::TimeNumber> sorted = times_;
+  std::ranges::sort(sorted, {}, &Expression::TimeNumber::begin);
+  return sorted;
+}
+
+/// For a number that measures no time, beside a duration.
+std::string ConditionOperators::hint_for_duration(const Value& duration, const Value& number) const {
+  if (number.literal) return unit_hint(text_of(number));
+  if (number.kind == Is::number && number.declared && number.few == nullptr) {
+    const std::string& unit = number.type.unit;
+    if (unit.empty()) return "declare " + text_of(number) + " with a unit of time: h, min, s, ms, us or ns";
+    if (duration.literal) return fmt::format("{} is in {}: write the number alone", text_of(number), unit);
+    return fmt::format("{} is in {}, which is no unit of time; compare it with a duration such as 500 ms",
+                       text_of(number), unit);
+  }
+  return "compare it with a duration such as 500 ms";
 }
 
 /// A memory cell with values is equal to one of its values, or not. mark: none if it is not compared.
@@ -224,8 +244,19 @@ Value ConditionOperators::add(const Token& mark, const Value& left, const Value&
   const bool durations = left.kind == Is::duration || right.kind == Is::duration;
   if (durations && (left.is_plain() || right.is_plain())) {
     const Value& plain = left.is_plain() ? left : right;
-    mistake("E212", plain, described(left.is_plain() ? right : left) + ", " + described(plain),
-            plain.literal ? unit_hint(text_of(plain)) : "");
+    const Value& duration = left.is_plain() ? right : left;
+    if (plain.time_unit.empty()) {
+      mistake("E212", plain, described(duration) + ", " + described(plain),
+              hint_for_duration(duration, plain));
+      return result;
+    }
+    as_duration(plain);
+    result.kind = Is::duration;
+    return result;
+  }
+  if (left.kind == Is::time && !right.time_unit.empty()) {
+    as_duration(right);
+    result.kind = Is::time;
     return result;
   }
   if (left.kind == Is::time && right.kind == Is::time) {
@@ -237,6 +268,7 @@ Value ConditionOperators::add(const Token& mark, const Value& left, const Value&
     if (!durations && !check_units(mark, left, right)) return result;
     result.declared = result.kind == Is::number && left.declared && right.declared;
     if (result.declared) result.type = left.type;
+    if (left.time_unit == right.time_unit) result.time_unit = left.time_unit;
   }
   return result;
 }
@@ -249,7 +281,20 @@ Value ConditionOperators::multiply(const Token& mark, const Value& left, const V
     mistake("E212", compound, in_quotes(mark.text) + " needs numbers; " + described(compound));
     return result;
   }
-  if (left.is_plain() && right.is_plain()) result.kind = Is::number;
+  if (left.is_plain() && right.is_plain()) {
+    result.kind = Is::number;
+    const auto is_pure = [](const Value& value) {
+      return value.time_unit.empty() && !(value.declared && !value.type.unit.empty());
+    };
+    if (is_pure(right) && !mark.is("%")) result.time_unit = left.time_unit;
+    if (is_pure(left) && mark.is("*")) result.time_unit = right.time_unit;
+    return result;
+  }
+  if (left.kind == Is::duration && mark.is("/") && !right.time_unit.empty()) {
+    as_duration(right);
+    result.kind = Is::number;
+    return result;
+  }
   if (left.kind == Is::duration && right.is_plain()) result.kind = Is::duration;
   if (left.kind == Is::duration && right.kind == Is::duration && mark.is("/")) result.kind = Is::number;
   if (left.is_plain() && right.kind == Is::duration && mark.is("*")) result.kind = Is::duration;

@@ -123,6 +123,12 @@ Value ConditionOperators::choose(const Value& condition) {
   ++at_;
   const Value second = read(assignment);
   Value chosen = first.kind == second.kind ? first : Value{};
+  if (first.time_unit != second.time_unit) chosen.time_unit.clear();
+  for (const auto& [one, other] : {std::pair{first, second}, std::pair{second, first}}) {
+    if (one.kind != Is::duration || other.time_unit.empty()) continue;
+    as_duration(other);
+    chosen.kind = Is::duration;
+  }
   chosen.declared = false;
   chosen.begin = condition.begin;
   chosen.end = second.end;

@@ -22,6 +22,8 @@ class ConditionOperators {
                      Diagnostics& out);
 
   void check();
+  /// The numbers that are durations where they stand.
+  [[nodiscard]] std::vector<Expression::TimeNumber> times() const;
 
  private:
   struct Mistake {
@@ -52,6 +54,8 @@ class ConditionOperators {
   Value add(const Token& mark, const Value& left, const Value& right);
   Value multiply(const Token& mark, const Value& left, const Value& right);
   bool check_signs(const Token& mark, const Value& left, const Value& right);
+  void as_duration(const Value& number);
+  [[nodiscard]] std::string hint_for_duration(const Value& duration, const Value& number) const;
   void hint_at_minutes(const Value& left, const Value& right);
   void warn_of_truth(const Value& value, std::string message, std::string hint);
   bool check_units(const Token& mark, const Value& left, const Value& right);
@@ -73,6 +77,7 @@ class ConditionOperators {
   int depth_ = 0;
   bool given_up_ = false;
   std::vector<Mistake> mistakes_;
+  std::vector<Expression::TimeNumber> times_;
 };
 
 }  // namespace tessera::spec

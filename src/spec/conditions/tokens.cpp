@@ -23,10 +23,6 @@ bool begins_name(char c) {
 }
 bool continues_name(char c) { return begins_name(c) || is_decimal(c); }
 
-bool is_duration_unit(std::string_view unit) {
-  return std::find(duration_units.begin(), duration_units.end(), unit) != duration_units.end();
-}
-
 /// Cuts an expression into tokens.
 class Cutter {
  public:
@@ -125,6 +121,10 @@ class Cutter {
 };
 
 }  // namespace
+
+bool is_duration_unit(std::string_view unit) {
+  return std::find(duration_units.begin(), duration_units.end(), unit) != duration_units.end();
+}
 
 std::vector<Token> tokens_of(std::string_view expression) { return Cutter(expression).run(); }
 

@@ -32,6 +32,9 @@ struct Token {
   }
 };
 
+/// Whether std::chrono has literals for the unit: h, min, s, ms, us and ns.
+[[nodiscard]] bool is_duration_unit(std::string_view unit);
+
 /// The tokens of an expression whose brackets and quotes match; the last one is `end`.
 [[nodiscard]] std::vector<Token> tokens_of(std::string_view expression);
 

@@ -28,6 +28,7 @@ struct Value {
   Type type{};
   std::size_t begin = 0, end = 0;  ///< in the text, in bytes
   const Field* few = nullptr;      ///< the memory cell with few values that it is, or whose value it is
+  std::string time_unit{};         ///< of a number that measures a time: "s"; empty: it measures none
 
   [[nodiscard]] bool is_compound() const {
     return kind == Kind::array || kind == Kind::structure || kind == Kind::text || kind == Kind::choice;

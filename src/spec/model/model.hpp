@@ -107,6 +107,12 @@ struct Expression {
   std::string text;
   Span span;
   std::vector<Reference> references{};  ///< in the order of the text; what could not be understood is absent
+  /// A number in a unit of time that stands beside a duration, and is one there.
+  struct TimeNumber {
+    std::size_t begin = 0, end = 0;  ///< in `text`, in bytes
+    std::string unit;                ///< "h", "min", "s", "ms", "us" or "ns"
+  };
+  std::vector<TimeNumber> times{};  ///< in the order of the text; none contains another
 };
 [[nodiscard]] inline const std::vector<Reference>& references(const Expression& expression) {
   return expression.references;

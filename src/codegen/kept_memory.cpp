@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cctype>
 #include <set>
 #include <vector>
 
@@ -11,18 +10,6 @@
 
 namespace tessera::codegen {
 namespace {
-
-/// "LentTo" of "lent_to".
-std::string upper_camel(std::string_view name) {
-  std::string out;
-  bool upper = true;
-  for (const char letter : name) {
-    if (letter != '_')
-      out += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(letter))) : letter;
-    upper = letter == '_';
-  }
-  return out;
-}
 
 bool has_enumeration(const spec::Field& cell) { return cell.few && !cell.few->counts; }
 
@@ -34,8 +21,7 @@ std::string enumeration_of(const spec::Model& model, const spec::Subsystem& subs
   for (const spec::Field& other : subsystem.memory) taken.insert(other.name);
   for (const spec::Field& other : subsystem.memory) {
     if (!has_enumeration(other)) continue;
-    std::string name = upper_camel(other.name);
-    while (taken.contains(name) || name == "Memory") name += "Value";
+    std::string name = spec::enumeration_name(other.name, taken);
     if (&other == &cell) return name;
     taken.insert(std::move(name));
   }

@@ -26,6 +26,8 @@ int symbol_kind(Kind kind) {
       return 14;  // Constant
     case Kind::memory:
       return 13;  // Variable
+    case Kind::value:
+      return 22;  // EnumMember
     case Kind::input:
     case Kind::output:
     case Kind::real:

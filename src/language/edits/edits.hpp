@@ -15,15 +15,15 @@ namespace tessera::language {
 
 struct Edit {
   enum class Kind : std::uint8_t {
-    set,            ///< `key` of the map `at` to `text`; an empty text removes it
-    insert,         ///< `key: value` into the map `at`
-    append,         ///< `value` to the list `at`
-    replace,        ///< the value `at` by `value`, in one line
-    remove,         ///< what is `at`, and what needs it
-    rename,         ///< what is `at` to `text`
-    connect,        ///< a channel with `fields`: from, to, send, receive, timeout
-    channel,        ///< some of the same fields, or model, of the channel `at`
-    next,           ///< `fields` to and when of the entry `key` of the behaviour `at`; no key: a new one
+    set,      ///< `key` of the map `at` to `text`; an empty text removes it
+    insert,   ///< `key: value` into the map `at`
+    append,   ///< `value` to the list `at`
+    replace,  ///< the value `at` by `value`, in one line
+    remove,   ///< what is `at`, and what needs it
+    rename,   ///< what is `at` to `text`
+    connect,  ///< a channel with `fields`: from, to, send, receive, timeout
+    channel,  ///< some of the same fields, or model, of the channel `at`
+    next,     ///< `fields` to, when and sets of the entry `key` of the behaviour `at`; no key: a new one
     make_template,  ///< of the agent `at`
   } kind = Kind::set;
   Path at;

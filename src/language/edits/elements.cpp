@@ -81,16 +81,23 @@ class Dependents {
   std::vector<Path> found_;
 };
 
-std::string entry_text(const std::string& to, const std::string& when) {
-  return when.empty() ? scalar_text(to) : "{ to: " + scalar_text(to) + ", when: " + scalar_text(when) + " }";
+struct NextEntry {
+  std::string to, when, sets;
+
+  [[nodiscard]] bool is_name() const { return when.empty() && sets.empty(); }
+};
+
+std::string entry_text(const NextEntry& entry) {
+  if (entry.is_name()) return scalar_text(entry.to);
+  std::string text = "{ to: " + scalar_text(entry.to);
+  if (!entry.when.empty()) text += ", when: " + scalar_text(entry.when);
+  if (!entry.sets.empty()) text += ", sets: " + scalar_text(entry.sets);
+  return text + " }";
 }
 
-struct NextEntry {
-  std::string to, when;
-};
 NextEntry read_entry(const TextEditor& editor, const Path& at) {
-  if (editor.map(at) == nullptr) return {editor.value_text(at), ""};
-  return {editor.value_text(at / "to"), editor.value_text(at / "when")};
+  if (editor.map(at) == nullptr) return {editor.value_text(at), "", ""};
+  return {editor.value_text(at / "to"), editor.value_text(at / "when"), editor.value_text(at / "sets")};
 }
 
 void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector<Path>& paths) {
@@ -148,6 +155,23 @@ bool is_last_of_list(const TextEditor& editor, const Path& path) {
   return node != nullptr && node->items.size() == 1;
 }
 
+/// The changes of a memory cell in one `sets`, which goes with the last of them.
+void add_changes(const TextEditor& editor, const Path& at, const std::string& cell,
+                 std::vector<Path>& paths) {
+  const std::vector<std::string> cells = editor.keys(at);
+  if (std::ranges::find(cells, cell) != cells.end()) paths.push_back(cells.size() == 1 ? at : at / cell);
+}
+
+/// The changes of a memory cell in its subsystem. Conditions that ask it stay: only their author knows what holds then.
+void add_all_changes(const TextEditor& editor, const Path& at, std::vector<Path>& paths) {
+  const Path behaviours = without_last(without_last(at)) / "behaviours";
+  for (const std::string& behaviour : editor.keys(behaviours)) {
+    add_changes(editor, behaviours / behaviour / "sets", *key_of(at.back()), paths);
+    for (const Path& entry : next_entries(editor, behaviours / behaviour))
+      add_changes(editor, entry / "sets", *key_of(at.back()), paths);
+  }
+}
+
 /// The safe command and the limits of a real buffer.
 void add_device_entries(const TextEditor& editor, const Path& at, std::vector<Path>& paths) {
   const Path unit = without_last(without_last(at));
@@ -177,6 +201,9 @@ std::vector<Path> to_remove(const Document& document, const TextEditor& editor, 
       if (kind == Kind::output) add_lists(editor, at, "send", paths);
       break;
     }
+    case Kind::memory:
+      add_all_changes(editor, at, paths);
+      break;
     case Kind::behaviour:
       add_uses_of_behaviour(editor, at, paths);
       break;
@@ -264,11 +291,11 @@ bool change_channel(TextEditor& editor, const Path& at, Fields change) {
 
 bool add_next(TextEditor& editor, const Path& behaviour, const Fields& entry) {
   const Path at = behaviour / "next";
-  const std::string when = field(entry, "when");
-  const std::string text = entry_text(field(entry, "to"), when);
+  const NextEntry added{field(entry, "to"), field(entry, "when"), field(entry, "sets")};
+  const std::string text = entry_text(added);
   if (editor.list(at) == nullptr) {
     if (next_entries(editor, behaviour).empty())
-      return editor.set(behaviour, "next", when.empty() ? text : "[" + text + "]", Writing::as_is);
+      return editor.set(behaviour, "next", added.is_name() ? text : "[" + text + "]", Writing::as_is);
     editor.make_list(at);
   }
   return editor.append(at, text);
@@ -283,19 +310,20 @@ bool change_next(TextEditor& editor, const Path& behaviour, std::size_t at, cons
   NextEntry entry = read_entry(editor, path);
   if (change.contains("to")) entry.to = change.at("to");
   if (change.contains("when")) entry.when = change.at("when");
+  if (change.contains("sets")) entry.sets = change.at("sets");
   const Node* map = editor.map(path);
-  // A map in one line becomes a name again when it loses its condition.
+  // A map in one line becomes a name again when it loses its condition and its changes.
   const bool one_line =
       map != nullptr && map->flow &&
       editor.text().substr(map->extent.begin, map->extent.end - map->extent.begin).find('\n') ==
           std::string::npos;
-  if (map != nullptr && (!entry.when.empty() || !one_line)) {
+  if (map != nullptr && (!entry.is_name() || !one_line)) {
     for (const auto& [key, value] : change) editor.set(path, key, value, Writing::scalar);
     return true;
   }
-  const std::string text = entry_text(entry.to, entry.when);
+  const std::string text = entry_text(entry);
   const bool is_item = key_of(path.back()) == nullptr;
-  return editor.replace(path, !entry.when.empty() && !is_item ? "[" + text + "]" : text);
+  return editor.replace(path, !entry.is_name() && !is_item ? "[" + text + "]" : text);
 }
 
 // ------------------------------------------------------------------------------------------------ templates

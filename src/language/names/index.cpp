@@ -10,10 +10,11 @@ namespace {
 struct Words {
   std::string_view words, prefix;
 };
-constexpr std::array<Words, 14> words_of_kinds{{{"structure", "type"},
+constexpr std::array<Words, 15> words_of_kinds{{{"structure", "type"},
                                                 {"field", "field"},
                                                 {"parameter", "parameter"},
                                                 {"memory cell", "memory"},
+                                                {"value", "value"},
                                                 {"input buffer", "input"},
                                                 {"output buffer", "output"},
                                                 {"real buffer", "real"},
@@ -81,6 +82,11 @@ const NamesOf* Index::fields_of(std::string_view type) const {
   if (structure == types_.end()) return nullptr;
   const auto fields = fields_.find(structure->second);
   return fields == fields_.end() ? nullptr : &fields->second;
+}
+
+std::string Index::enumeration_of(SymbolId cell) const {
+  const auto found = enumerations_.find(cell);
+  return found == enumerations_.end() ? std::string() : found->second;
 }
 
 }  // namespace tessera::language

@@ -23,6 +23,7 @@ enum class Kind : std::uint8_t {
   field,
   parameter,
   memory,
+  value,
   input,
   output,
   real,
@@ -67,7 +68,8 @@ struct UnitNames {
   std::string name;
   Way way;
   NamesOf inputs, outputs, memory, real, parameters, behaviours;
-  NamesOf shared;  ///< `conditions`, which several behaviours may name
+  NamesOf shared;                                      ///< `conditions`, which several behaviours may name
+  std::map<std::string, NamesOf, std::less<>> values;  ///< by memory cell with values
   std::map<std::string, NamesOf, std::less<>>
       conditions;  ///< by behaviour: named expressions, also shared ones
 };
@@ -108,6 +110,8 @@ class Index {
   [[nodiscard]] const NamesOf& parameters() const { return parameters_; }
   /// The fields of the structure that a type such as "Pose[3]" names; or nullptr.
   [[nodiscard]] const NamesOf* fields_of(std::string_view type) const;
+  /// The name in C++ of the enumeration of a memory cell with values: "LentTo"; empty: it has none.
+  [[nodiscard]] std::string enumeration_of(SymbolId cell) const;
   /// Whether an agent is a fleet, so that paths need an index.
   [[nodiscard]] bool is_fleet(std::string_view agent) const { return fleets_.contains(agent); }
 
@@ -124,6 +128,7 @@ class Index {
   std::vector<DefinitionNames> definitions_;
   NamesOf types_, agents_, templates_, models_, parameters_, fleets_;
   std::map<SymbolId, NamesOf> fields_;
+  std::map<SymbolId, std::string> enumerations_;
   std::map<std::string, std::string, std::less<>> use_of_;  ///< agent or template -> template
 };
 
@@ -134,5 +139,8 @@ using FoundUse = std::function<void(Extent, SymbolId)>;
 /// base: what the names `in`, `out`, `memory` and `parameters` mean; tokens: of the code, or a part of it.
 void resolve_members(const Index& index, const UnitNames& unit, const std::vector<Token>& tokens,
                      const FoundUse& found);
+
+/// The values of memory cells in a condition: `memory.lent_to == nobody`. Parameters: as for resolve_members.
+void resolve_values(const UnitNames& unit, const std::vector<Token>& tokens, const FoundUse& found);
 
 }  // namespace tessera::language

@@ -4,6 +4,23 @@ namespace tessera::language {
 
 bool is_nothing(const Node& node) { return node.kind == Node::Kind::null; }
 
+namespace {
+
+/// "{ values: [nobody, a, b] }", "{ counts: 0..4 }"; empty: the cell has a type.
+std::string few_values(const Node& cell) {
+  constexpr std::size_t most_shown = 10;
+  if (const Entry* counts = cell.find("counts")) return "{ counts: " + counts->value->text + " }";
+  const Entry* values = cell.find("values");
+  if (values == nullptr) return {};
+  std::string text;
+  const std::vector<Entry>& items = values->value->items;
+  for (std::size_t at = 0; at < items.size() && at < most_shown; ++at)
+    text += (at == 0 ? "" : ", ") + items[at].value->text;
+  return "{ values: [" + text + (items.size() > most_shown ? ", ..." : "") + "] }";
+}
+
+}  // namespace
+
 std::string type_of(Kind kind, const Node& value) {
   if (kind == Kind::parameter) {
     if (value.is_scalar()) return value.text;
@@ -12,7 +29,10 @@ std::string type_of(Kind kind, const Node& value) {
   }
   if (kind == Kind::model || kind == Kind::process || kind == Kind::behaviour || kind == Kind::condition)
     return {};
-  return value.is_map() ? value["type"].text : value.text;
+  if (!value.is_map()) return value.text;
+  if (kind == Kind::memory)
+    if (const std::string few = few_values(value); !few.empty()) return few;
+  return value["type"].text;
 }
 
 const NamesOf& members(const UnitNames& unit, Place place, std::string_view name) {

@@ -69,4 +69,30 @@ void resolve_members(const Index& index, const UnitNames& unit, const std::vecto
   }
 }
 
+void resolve_values(const UnitNames& unit, const std::vector<Token>& tokens, const FoundUse& found) {
+  const auto is_name = [&](std::size_t at) {
+    return at < tokens.size() && tokens[at].kind == Token::Kind::name && !is_access(tokens, at + 1) &&
+           (at == 0 || !is_access(tokens, at - 1));
+  };
+  // "==" and "!=" are two tokens each.
+  const auto compares = [&](std::size_t at) {
+    return (token_is(tokens, at, "=") || token_is(tokens, at, "!")) && token_is(tokens, at + 1, "=");
+  };
+  for (std::size_t at = 0; at + 2 < tokens.size(); ++at) {
+    if (tokens[at].text != "memory" || tokens[at + 1].text != "." || (at > 0 && is_access(tokens, at - 1)))
+      continue;
+    const auto cell = unit.values.find(tokens[at + 2].text);
+    if (cell == unit.values.end()) continue;
+    const auto use = [&](std::size_t word) {
+      if (!is_name(word)) return;
+      const auto value = cell->second.find(tokens[word].text);
+      if (value != cell->second.end()) found(tokens[word].extent, value->second);
+    };
+    if (token_is(tokens, at + 3, "not_eq")) use(at + 4);
+    if (compares(at + 3)) use(at + 5);
+    if (at > 1 && token_is(tokens, at - 1, "not_eq")) use(at - 2);
+    if (at > 2 && compares(at - 2)) use(at - 3);
+  }
+}
+
 }  // namespace tessera::language

@@ -43,9 +43,9 @@ class CodeReader {
   }
   [[nodiscard]] bool follows_access() const { return is(at_ - 1, ".") || is(at_ - 1, "->"); }
 
-  void add(Extent extent, SymbolId symbol, bool defines = false, bool sure = true) {
+  void add(Extent extent, SymbolId symbol, bool defines = false, bool enumeration = false) {
     if (symbol.valid() && known_.insert(extent.begin).second)
-      found_.push_back({extent, symbol, defines, sure});
+      found_.push_back({extent, symbol, defines, true, enumeration});
   }
 
   void enter_namespace() {
@@ -126,6 +126,7 @@ class CodeReader {
     if (const auto type = index_.types().find(token.text);
         type != index_.types().end() && !spaces_.empty() && spaces_[0] == index_.system())
       add(token.extent, type->second);
+    if (unit_ != nullptr && token.text == "Memory") in_memory(*unit_);
     if (unit_ == nullptr || !is(at_ + 1, "(")) return;
     const auto behaviour = unit_->behaviours.find(token.text);
     if (behaviour == unit_->behaviours.end()) return;
@@ -161,8 +162,22 @@ class CodeReader {
     name_of_space(token.extent, path);
     const UnitNames* inside = path.size() == 4 ? unit(definition(path[1]), path[2]) : nullptr;
     if (inside == nullptr) return;
+    if (token.text == "Memory") in_memory(*inside);
     if (const auto behaviour = inside->behaviours.find(token.text); behaviour != inside->behaviours.end())
       add(token.extent, behaviour->second);
+  }
+
+  /// Memory::LentTo::nobody, from `Memory` on.
+  void in_memory(const UnitNames& unit) {
+    if (!is(at_ + 1, "::") || at_ + 2 >= tokens_.size()) return;
+    for (const auto& [cell, values] : unit.values) {
+      const SymbolId symbol = unit.memory.find(cell)->second;
+      if (index_.enumeration_of(symbol) != tokens_[at_ + 2].text) continue;
+      add(tokens_[at_ + 2].extent, symbol, false, true);
+      if (!is(at_ + 3, "::") || at_ + 4 >= tokens_.size()) return;
+      if (const auto value = values.find(tokens_[at_ + 4].text); value != values.end())
+        add(tokens_[at_ + 4].extent, value->second);
+    }
   }
 
   /// #include "robot/control.hpp"
@@ -183,14 +198,30 @@ class CodeReader {
     }
   }
 
+  /// LentTo::nobody, where only a compiler knows whose LentTo it is.
+  void value_of_others(std::size_t at) {
+    if (at < 2 || !is(at - 1, "::") || tokens_[at - 2].kind != Token::Kind::name) return;
+    for (const DefinitionNames& definition : index_.definitions())
+      for (const UnitNames& unit : definition.units)
+        for (const auto& [cell, values] : unit.values) {
+          const SymbolId symbol = unit.memory.find(cell)->second;
+          const auto value = values.find(tokens_[at].text);
+          if (value == values.end() || index_.enumeration_of(symbol) != tokens_[at - 2].text) continue;
+          found_.push_back({tokens_[at].extent, value->second, false, false});
+          if (!known_.contains(tokens_[at - 2].extent.begin))
+            found_.push_back({tokens_[at - 2].extent, symbol, false, false, true});
+        }
+  }
+
   /// `.left` of something that only a compiler knows. Only where the system is used at all.
   void members_of_others() {
     if (std::none_of(tokens_.begin(), tokens_.end(),
                      [this](const Token& one) { return one.text == index_.system(); }))
       return;
     for (std::size_t at = 1; at < tokens_.size(); ++at) {
-      if (tokens_[at].kind != Token::Kind::name || !(is(at - 1, ".") || is(at - 1, "->"))) continue;
-      if (known_.contains(tokens_[at].extent.begin)) continue;
+      if (tokens_[at].kind != Token::Kind::name || known_.contains(tokens_[at].extent.begin)) continue;
+      value_of_others(at);
+      if (!is(at - 1, ".") && !is(at - 1, "->")) continue;
       for (const auto& [name, type] : index_.types()) {
         const NamesOf* fields = index_.fields_of(name);
         if (fields == nullptr) continue;

@@ -48,6 +48,15 @@ class Completer {
   void expression();
   void states_of_buffer(bool input);
 
+  // completion_memory.cpp
+  /// The memory cells with few values.
+  [[nodiscard]] NamesOf kept_cells(const UnitNames& unit) const;
+  void values_of_cell(const UnitNames& unit, const std::string& cell);
+  /// Behind `sets: { lent_to:`. false: the cursor is elsewhere.
+  bool value_of_change();
+  /// Behind `memory.lent_to ==`, in a condition or a property. false: the cursor is elsewhere.
+  bool value_after_comparison();
+
   // completion_paths.cpp
   void words_of_formulas();
   static const NamesOf& ends(const UnitNames& unit, PathEnd end);

@@ -101,6 +101,8 @@ void Completer::key_names(const Way& way) {
   if (unit_ == nullptr) return;
   Way inside(way.begin() + static_cast<std::ptrdiff_t>(unit_->way.size()), way.end());
   if (inside == Way{"safe"} || inside == Way{"limits"}) return add_names(unit_->real);
+  if (inside.size() > 2 && inside[0] == "behaviours" && inside.back() == "sets")
+    return add_names(kept_cells(*unit_));
   if (inside.size() == 3 && inside[0] == "behaviours" && (inside[2] == "terminal" || inside[2] == "error"))
     return add_names(unit_->shared);
   if (inside.size() < 2) return;
@@ -140,6 +142,7 @@ bool Completer::special_value() {
   if (last == "on_error" && (size == 1 || (size == 3 && (way[0] == "agents" || way[0] == "templates"))))
     return on_error(), true;
   if (size >= 2 && way[0] == "channels") return channel_value(last);
+  if (size >= 2 && way[0] == "properties" && last != "name" && value_after_comparison()) return true;
   if (size >= 2 && way[0] == "properties" && last != "name")
     return paths(PathEnd::behaviour, "[*]"), words_of_formulas(), true;
   if (size >= 3 && way[0] == "simulation" && way[1] == "script" && last == "set")
@@ -184,9 +187,11 @@ bool Completer::value_in_unit() {
   if ((step(0) == "send" || step(0) == "receive") && inside_.back().empty()) return buffers(step(0)), true;
   if (step(0) == "conditions" && inside_.size() == 2) return expression(), true;
   if (step(0) != "behaviours" || inside_.size() < 3) return false;
+  if (value_of_change()) return true;
   const std::string& key = inside_[2];
   const std::string& last = inside_.back();
   if (last == "when") {
+    if (value_after_comparison()) return true;
     if (const auto names = unit_->conditions.find(inside_[1]); names != unit_->conditions.end())
       add_names(names->second);
     if (chain().empty()) add(Proposal::Kind::word, "error", "the behaviour failed");
@@ -246,6 +251,7 @@ std::vector<std::string> Completer::chain() const {
 }
 
 void Completer::expression() {
+  if (value_after_comparison()) return;
   const std::vector<std::string> names = chain();
   if (names.empty()) {
     for (const char* base : {"in", "out", "memory", "parameters"})

@@ -33,7 +33,11 @@ void Completer::paths(PathEnd end, const std::string& fleet) {
     if (names.size() == 2 && unit.name == names[1]) {
       add_names(ends(unit, end));
       if (end == PathEnd::behaviour) add_names(unit.outputs);
+      if (end == PathEnd::behaviour && !kept_cells(unit).empty())
+        add(Proposal::Kind::word, "memory", "memory cells that the net knows", "memory.");
     }
+    if (names.size() == 3 && end == PathEnd::behaviour && unit.name == names[1] && names[2] == "memory")
+      add_names(kept_cells(unit));
     if (names.size() > 2 && end == PathEnd::real && unit.name == names[1]) fields_of_path(unit, names);
   }
 }

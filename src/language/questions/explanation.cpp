@@ -98,6 +98,43 @@ std::string inherited(const Document& document, const Symbol& symbol, const Unit
   return text;
 }
 
+/// Where `sets` changes a memory cell, or gives it a value: "Changed on lines 12, 17."
+std::string changes_of(const Document& document, SymbolId id) {
+  constexpr std::size_t most_shown = 8;
+  std::string lines;
+  std::size_t count = 0;
+  for (const Use& use : document.index().uses()) {
+    const auto place = use.symbol == id && !use.defines ? place_at(document.outline(), use.extent.begin)
+                                                        : std::optional<PlaceInText>();
+    const std::size_t above = place && place->key != nullptr ? 1 : 2;
+    if (!place || place->way.size() < above || place->way[place->way.size() - above] != "sets") continue;
+    if (++count <= most_shown)
+      lines += fmt::format("{}{}", lines.empty() ? "" : ", ",
+                           document.lines().position(use.extent.begin).line + 1);
+  }
+  const bool is_cell = document.index()[id].kind == Kind::memory;
+  const char* const does = is_cell ? "Changed" : "Set";
+  if (count == 0) return is_cell ? "\n\nNothing changes it." : "\n\nNothing sets it.";
+  return fmt::format("\n\n{} on line{} {}{}.", does, count == 1 ? "" : "s", lines,
+                     count > most_shown ? " ..." : "");
+}
+
+/// A memory cell with few values, or one of its values.
+std::string about_memory(const Document& document, SymbolId id) {
+  const Index& index = document.index();
+  const Symbol& symbol = index[id];
+  const bool is_value = symbol.kind == Kind::value;
+  const std::string name = index.enumeration_of(is_value ? symbol.owner : id);
+  if (!is_value && !symbol.type.starts_with('{')) return {};
+  std::string text;
+  if (is_value)
+    text += "\n\nIn C++: " + code("Memory::" + name + "::" + symbol.name);
+  else
+    text += name.empty() ? "\n\nIn C++: `int`, at the start the lowest count"
+                         : "\n\nIn C++: " + code("Memory::" + name) + ", at the start the first value";
+  return text + changes_of(document, id);
+}
+
 std::string about(const Document& document, SymbolId id) {
   const Index& index = document.index();
   const Symbol& symbol = index[id];
@@ -116,6 +153,7 @@ std::string about(const Document& document, SymbolId id) {
     const Node& expression = node_at(document.outline(), symbol.way);
     if (expression.is_scalar()) text += "\n\n" + code(expression.text);
   }
+  if (symbol.kind == Kind::memory || symbol.kind == Kind::value) text += about_memory(document, id);
   if (symbol.kind == Kind::input || symbol.kind == Kind::output) text += channels_of(document, id);
   return text;
 }

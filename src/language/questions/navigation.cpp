@@ -21,6 +21,7 @@ struct AtCursor {
   SymbolId symbol;
   Range range;
   bool defines = false;
+  bool enumeration = false;  ///< in C++, the enumeration of the memory cell
 };
 
 std::optional<AtCursor> at_cursor(const Document& document, const Source* in, Position position) {
@@ -33,7 +34,7 @@ std::optional<AtCursor> at_cursor(const Document& document, const Source* in, Po
   const std::size_t offset = lines.offset(position);
   for (const CodeUse& use : uses_in(document.index(), *in))
     if (use.sure && use.extent.touches(offset))
-      return AtCursor{use.symbol, lines.range(use.extent), use.defines};
+      return AtCursor{use.symbol, lines.range(use.extent), use.defines, use.enumeration};
   return std::nullopt;
 }
 
@@ -154,7 +155,7 @@ std::vector<Location> references(const Document& document, const Source* in, Pos
 
 std::optional<Range> renameable(const Document& document, const Source* in, Position position) {
   const std::optional<AtCursor> here = at_cursor(document, in, position);
-  if (!here) return std::nullopt;
+  if (!here || here->enumeration) return std::nullopt;
   // The control subsystem has its name from the format.
   const Symbol& symbol = document.index()[here->symbol];
   if (symbol.kind == Kind::subsystem && symbol.name == "control") return std::nullopt;
@@ -167,6 +168,9 @@ Renaming rename(const Document& document, const Source* in, Position position,
   if (!here) return {{}, "there is no name of the specification here"};
   const Index& index = document.index();
   const Symbol& symbol = index[here->symbol];
+  if (here->enumeration)
+    return {{},
+            fmt::format("this enumeration has its name from the memory cell '{}'; rename that", symbol.name)};
   if (!renameable(document, in, position))
     return {{}, "'control' is the name that every control subsystem has"};
   if (name == symbol.name) return {};
@@ -186,11 +190,15 @@ Renaming rename(const Document& document, const Source* in, Position position,
       renaming.edits.push_back({"", document.lines().range(use.extent), name, true});
   if (std::optional<std::string> problem = new_error(document, renaming.edits))
     return {{}, std::move(problem)};
+  const Document after(edited(document, renaming.edits), document.grammar());
   for (const Source& source : sources) {
     const Lines lines(source.text);
-    for (const CodeUse& use : uses_in(index, source))
-      if (use.symbol == here->symbol)
-        renaming.edits.push_back({source.path, lines.range(use.extent), name, use.sure});
+    for (const CodeUse& use : uses_in(index, source)) {
+      const std::string old = index.enumeration_of(use.symbol);
+      const std::string text = use.enumeration ? after.index().enumeration_of(use.symbol) : name;
+      if (use.enumeration ? text != old : use.symbol == here->symbol)
+        renaming.edits.push_back({source.path, lines.range(use.extent), text, use.sure});
+    }
   }
   return renaming;
 }

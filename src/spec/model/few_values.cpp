@@ -1,8 +1,30 @@
 #include "spec/model/few_values.hpp"
 
 #include <algorithm>
+#include <cctype>
 
 namespace tessera::spec {
+namespace {
+
+/// "LentTo" of "lent_to".
+std::string upper_camel(std::string_view name) {
+  std::string out;
+  bool upper = true;
+  for (const char letter : name) {
+    if (letter != '_')
+      out += upper ? static_cast<char>(std::toupper(static_cast<unsigned char>(letter))) : letter;
+    upper = letter == '_';
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string enumeration_name(std::string_view cell, const std::set<std::string>& taken) {
+  std::string name = upper_camel(cell);
+  while (taken.contains(name) || name == "Memory") name += "Value";
+  return name;
+}
 
 std::optional<std::uint32_t> FewValues::find(std::string_view name) const {
   const auto found = std::ranges::find(names, name);

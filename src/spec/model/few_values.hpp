@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -45,5 +46,10 @@ struct Allowed {
 };
 [[nodiscard]] std::optional<Allowed> allowed(const FewValues& values, std::uint32_t cell,
                                              const std::vector<Change>& changes);
+
+/// The enumeration of a cell with values in C++: "LentTo" of "lent_to".
+///
+/// taken: the names that it may not equal: structures, memory cells, the enumerations of cells before it.
+[[nodiscard]] std::string enumeration_name(std::string_view cell, const std::set<std::string>& taken);
 
 }  // namespace tessera::spec

@@ -1,0 +1,176 @@
+// The first walk of an index: what has a name.
+
+#include <algorithm>
+#include <set>
+
+#include "language/names/index_builder.hpp"
+#include "spec/model/few_values.hpp"
+
+namespace tessera::language {
+
+void IndexBuilder::build() {
+  index_.system_ = root_["system"].text;
+  define_types();
+  define_all(root_["parameters"], Kind::parameter, {}, {"parameters"}, "", index_.parameters_);
+  define_agents("templates", Kind::agent_template, index_.templates_);
+  define_agents("agents", Kind::agent, index_.agents_);
+  define_all(root_["models"], Kind::model, {}, {"models"}, "", index_.models_);
+  NamesOf processes;
+  define_all(root_["deploy"]["processes"], Kind::process, {}, {"deploy", "processes"}, "", processes);
+  use_types();
+  for (DefinitionNames& definition : index_.definitions_)
+    for (UnitNames& unit : definition.units) use_in_unit(unit);
+  use_on_errors();
+  use_in_channels();
+  use_in_drivers(root_["drivers"]);
+  use_in_drivers(root_["simulation"]["drivers"]);
+  for (const Entry& input : root_["simulation"]["script"].items) paths((*input.value)["set"], Place::real);
+  for (const Entry& placed : root_["simulation"]["models"].entries) paths(placed.extent, Place::agent);
+  use_in_deployment();
+  use_in_formulas();
+  use_in_world(root_["simulation"]);
+  sort_uses();
+}
+
+SymbolId IndexBuilder::define(Kind kind, const Entry& entry, SymbolId owner, Way way,
+                              const std::string& above) {
+  Symbol symbol;
+  symbol.kind = kind;
+  symbol.name = entry.key.substr(0, entry.key.find_first_of(" ["));  // the index of a process is no name
+  symbol.path = above.empty() ? symbol.name : above + "." + symbol.name;
+  symbol.definition = {entry.extent.begin,
+                       std::min(entry.extent.end, entry.extent.begin + symbol.name.size())};
+  symbol.whole = {entry.extent.begin, std::max(entry.extent.end, entry.value->extent.end)};
+  symbol.owner = owner;
+  symbol.way = std::move(way);
+  symbol.way.push_back(entry.key);
+  const SymbolId id = index_.symbols_.next_id();
+  if (const auto [same, added] = defined_at_.emplace(entry.extent.begin, id); !added) return same->second;
+  index_.symbols_.push_back(std::move(symbol));
+  index_.uses_.push_back({index_.symbols_[id].definition, id, true});
+  return id;
+}
+
+void IndexBuilder::define_all(const Node& map, Kind kind, SymbolId owner, const Way& way,
+                              const std::string& above, NamesOf& names) {
+  for (const Entry& entry : map.entries) {
+    if (entry.key.empty() || names.contains(entry.key)) continue;
+    const SymbolId id = define(kind, entry, owner, way, above);
+    index_.symbols_[id].type = type_of(kind, *entry.value);
+    names.emplace(entry.key, id);
+  }
+}
+
+void IndexBuilder::define_types() {
+  for (const Entry& type : root_["types"].entries) {
+    if (type.key.empty() || index_.types_.contains(type.key)) continue;
+    const SymbolId id = define(Kind::type, type, {}, {"types"}, "");
+    index_.types_.emplace(type.key, id);
+    define_all(*type.value, Kind::field, id, {"types", type.key}, type.key, index_.fields_[id]);
+  }
+}
+
+void IndexBuilder::define_agents(const char* section, Kind kind, NamesOf& names) {
+  for (const Entry& agent : root_[section].entries) {
+    if (agent.key.empty() || names.contains(agent.key)) continue;
+    const Node& body = *agent.value;
+    const SymbolId id = define(kind, agent, {}, {section}, "");
+    names.emplace(agent.key, id);
+    if (body.find("count") != nullptr) index_.fleets_.emplace(agent.key, id);
+    if (const Entry* use = body.find("use")) {
+      index_.use_of_[std::string(section) + "." + agent.key] = use->value->text;
+      continue;
+    }
+    DefinitionNames definition;
+    definition.symbol = id;
+    definition.name = agent.key;
+    const Way way{section, agent.key};
+    if (const Entry* control = body.find("control"))
+      define_unit(definition, *control, SubsystemRole::control, way);
+    for (const auto& [key, role] :
+         {std::pair{"receptors", SubsystemRole::receptor}, {"effectors", SubsystemRole::effector}}) {
+      Way inside = way;
+      inside.emplace_back(key);
+      for (const Entry& entry : body[key].entries) define_unit(definition, entry, role, inside);
+    }
+    index_.definitions_.push_back(std::move(definition));
+  }
+}
+
+void IndexBuilder::define_unit(DefinitionNames& definition, const Entry& entry, SubsystemRole role,
+                               const Way& above) {
+  UnitNames unit;
+  unit.role = role;
+  unit.name = entry.key;
+  unit.symbol = define(Kind::subsystem, entry, definition.symbol, above, definition.name);
+  unit.way = above;
+  unit.way.push_back(entry.key);
+  const Node& body = *entry.value;
+  const std::string path = definition.name + "." + entry.key;
+  const auto part = [&](const char* key, Kind kind, NamesOf& names) {
+    Way way = unit.way;
+    way.emplace_back(key);
+    define_all(body[key], kind, unit.symbol, way, path, names);
+  };
+  part("inputs", Kind::input, unit.inputs);
+  part("outputs", Kind::output, unit.outputs);
+  part("memory", Kind::memory, unit.memory);
+  define_values(unit, body["memory"], path);
+  part("real", Kind::real, unit.real);
+  part("parameters", Kind::parameter, unit.parameters);
+  part("behaviours", Kind::behaviour, unit.behaviours);
+  part("conditions", Kind::condition, unit.shared);
+  for (const Entry& behaviour : body["behaviours"].entries) define_conditions(unit, behaviour, path);
+  nodes_.push_back(&body);
+  definition.units.push_back(std::move(unit));
+}
+
+void IndexBuilder::define_values(UnitNames& unit, const Node& memory, const std::string& path) {
+  std::set<std::string> taken;
+  for (const auto& [name, id] : index_.types_) taken.insert(name);
+  for (const auto& [name, id] : unit.memory) taken.insert(name);
+  for (const Entry& cell : memory.entries) {
+    const auto owner = unit.memory.find(cell.key);
+    const Entry* list = cell.value->find("values");
+    if (list == nullptr || owner == unit.memory.end() || unit.values.contains(cell.key)) continue;
+    index_.enumerations_[owner->second] = *taken.insert(spec::enumeration_name(cell.key, taken)).first;
+    NamesOf& values = unit.values[cell.key];
+    Way way = index_.symbols_[owner->second].way;
+    way.emplace_back("values");
+    for (const Entry& item : list->value->items) {
+      const Node& text = *item.value;
+      if (!text.is_scalar() || !text.verbatim || text.text.empty() || values.contains(text.text)) continue;
+      const Entry named{.key = text.text, .extent = text.extent, .value = &text};
+      values.emplace(text.text, define(Kind::value, named, owner->second, way, path + "." + cell.key));
+    }
+  }
+}
+
+void IndexBuilder::define_conditions(UnitNames& unit, const Entry& behaviour, const std::string& path) {
+  const auto owner = unit.behaviours.find(behaviour.key);
+  if (owner == unit.behaviours.end()) return;
+  for (const char* key : {"terminal", "error"}) {
+    Way way = unit.way;
+    way.insert(way.end(), {"behaviours", behaviour.key, key});
+    const Node& condition = (*behaviour.value)[key];
+    NamesOf& names = unit.conditions[behaviour.key];
+    const auto share = [&](const std::string& name) {
+      const auto shared = unit.shared.find(name);
+      if (shared != unit.shared.end()) names.insert(*shared);
+      return shared != unit.shared.end();
+    };
+    if (condition.is_scalar()) share(condition.text);
+    for (const Entry& named : condition.entries) {
+      if (named.key.empty() || (is_nothing(*named.value) && share(named.key)) || names.contains(named.key))
+        continue;
+      names.emplace(named.key,
+                    define(Kind::condition, named, owner->second, way, path + "." + behaviour.key));
+    }
+  }
+}
+
+Index::Index(std::string_view text, const Outline& outline) {
+  IndexBuilder(text, outline.root(), *this).build();
+}
+
+}  // namespace tessera::language

@@ -1,0 +1,77 @@
+#pragma once
+
+#include <cstddef>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "language/names/code.hpp"
+#include "language/names/index.hpp"
+#include "language/names/kinds.hpp"
+
+namespace tessera::language {
+
+/// Walks the outline twice: first the definitions, then the uses.
+class IndexBuilder {
+ public:
+  IndexBuilder(std::string_view text, const Node& root, Index& index)
+      : text_(text), root_(root), index_(index) {}
+  void build();
+
+ private:
+  // definitions.cpp
+  SymbolId define(Kind kind, const Entry& entry, SymbolId owner, Way way, const std::string& above);
+  void define_all(const Node& map, Kind kind, SymbolId owner, const Way& way, const std::string& above,
+                  NamesOf& names);
+  void define_types();
+  void define_agents(const char* section, Kind kind, NamesOf& names);
+  void define_unit(DefinitionNames& definition, const Entry& entry, SubsystemRole role, const Way& above);
+  /// The values of the memory cells of a unit, and the names of their enumerations.
+  void define_values(UnitNames& unit, const Node& memory, const std::string& path);
+  void define_conditions(UnitNames& unit, const Entry& behaviour, const std::string& path);
+
+  // uses.cpp
+  void use(Extent extent, const NamesOf& names, std::string_view name);
+  void use(const Node& scalar, const NamesOf& names);
+  /// Buffers of `send` or `receive`, or changes of the list of the subsystem: [+request, -grip].
+  void use_list(const Node& list, const NamesOf& names);
+  void use_type(const Node& value);
+  void use_types();
+  void use_in_unit(UnitNames& unit);
+  /// `on_error` of the system and of agents: the behaviour of the first subsystem that does not say it itself.
+  void use_on_errors();
+  /// The keys of a map that is a value of a structure.
+  void use_fields(const Node& value, const std::string& type);
+  void use_limit(const UnitNames& unit, const Entry& limit);
+  /// The bytes of the file: several lines and escapes as they stand there.
+  [[nodiscard]] std::string_view written(Extent extent) const;
+  static Extent moved(Extent extent, std::size_t by);
+  void use_in_behaviour(const UnitNames& unit, const Entry& behaviour);
+  /// `sets: { lent_to: a }`
+  void use_sets(const UnitNames& unit, const Node& sets);
+  void use_expression(const UnitNames& unit, const Node& text);
+
+  // uses_in_paths.cpp
+  void paths(Extent extent, Place place);
+  void paths(const Node& scalar, Place place);
+  /// The values with which the path can be compared; nullptr: it leads to no memory cell with values.
+  const NamesOf* use_path(const DottedPath& path, std::size_t base, Place place);
+  const NamesOf* use_memory_path(const UnitNames& unit, const DottedPath& path, std::size_t base);
+  void use_in_channels();
+  void use_in_drivers(const Node& drivers);
+  void use_in_deployment();
+  void use_in_formulas();
+  /// Objects that are models placed in the world; others are bodies of its file.
+  void use_in_world(const Node& simulation);
+  void sort_uses();
+
+  std::string_view text_;
+  const Node& root_;
+  Index& index_;
+  std::map<std::size_t, SymbolId> defined_at_;  ///< an alias repeats definitions of its anchor
+  std::vector<const Node*> nodes_;              ///< the bodies of the units, in their order
+  std::size_t next_node_ = 0;
+};
+
+}  // namespace tessera::language

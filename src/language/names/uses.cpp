@@ -1,0 +1,153 @@
+// The second walk of an index: uses inside of subsystems.
+
+#include <algorithm>
+
+#include "language/names/index_builder.hpp"
+
+namespace tessera::language {
+
+void IndexBuilder::use(Extent extent, const NamesOf& names, std::string_view name) {
+  if (const auto found = names.find(name); found != names.end())
+    index_.uses_.push_back({extent, found->second, false});
+}
+
+void IndexBuilder::use(const Node& scalar, const NamesOf& names) {
+  if (scalar.is_scalar() && scalar.verbatim) use(scalar.extent, names, scalar.text);
+}
+
+void IndexBuilder::use_list(const Node& list, const NamesOf& names) {
+  for (const Entry& order : list.entries) use_list(*order.value, names);
+  for (const Entry& item : list.items) {
+    const Node& text = *item.value;
+    if (!text.is_scalar() || !text.verbatim) continue;
+    const std::size_t sign = text.text.starts_with('+') || text.text.starts_with('-') ? 1 : 0;
+    use({text.extent.begin + sign, text.extent.end}, names, std::string_view(text.text).substr(sign));
+  }
+}
+
+void IndexBuilder::use_type(const Node& value) {
+  const Node& text = value.is_map() ? value["type"] : value;
+  if (!text.is_scalar() || !text.verbatim) return;
+  const std::size_t end = std::min(text.text.find_first_of(" \t[<"), text.text.size());
+  use({text.extent.begin, text.extent.begin + end}, index_.types_,
+      std::string_view(text.text).substr(0, end));
+}
+
+void IndexBuilder::use_types() {
+  for (const Entry& type : root_["types"].entries)
+    for (const Entry& field : type.value->entries) use_type(*field.value);
+  for (const char* section : {"templates", "agents"})
+    for (const Entry& agent : root_[section].entries) use((*agent.value)["use"], index_.templates_);
+}
+
+void IndexBuilder::use_in_unit(UnitNames& unit) {
+  const Node& body = *nodes_[next_node_++];
+  for (const char* key : {"inputs", "outputs", "memory", "real"})
+    for (const Entry& field : body[key].entries) use_type(*field.value);
+  for (const Entry& cell : body["memory"].entries)
+    if (const auto symbol = unit.memory.find(cell.key); symbol != unit.memory.end() && cell.value->is_map())
+      use_fields((*cell.value)["initial"], index_.symbols_[symbol->second].type);
+  for (const Entry& command : body["safe"].entries) {
+    use(command.extent, unit.real, command.key);
+    if (const auto symbol = unit.real.find(command.key); symbol != unit.real.end())
+      use_fields(*command.value, index_.symbols_[symbol->second].type);
+  }
+  for (const Entry& limit : body["limits"].entries) use_limit(unit, limit);
+  use(body["start"], unit.behaviours);
+  use(body["on_error"], unit.behaviours);
+  use_list(body["send"], unit.outputs);
+  use_list(body["receive"], unit.inputs);
+  for (const Entry& shared : body["conditions"].entries) use_expression(unit, *shared.value);
+  for (const Entry& behaviour : body["behaviours"].entries) use_in_behaviour(unit, behaviour);
+}
+
+void IndexBuilder::use_on_errors() {
+  std::size_t at = 0;
+  for (const DefinitionNames& definition : index_.definitions_) {
+    const Way& way = index_.symbols_[definition.symbol].way;
+    const Node& agent = root_[way[0]][way[1]];
+    for (const UnitNames& unit : definition.units)
+      if (nodes_[at++]->find("on_error") == nullptr)
+        use(agent.find("on_error") != nullptr ? agent["on_error"] : root_["on_error"], unit.behaviours);
+  }
+}
+
+void IndexBuilder::use_fields(const Node& value, const std::string& type) {
+  const NamesOf* fields = index_.fields_of(type);
+  for (const Entry& item : value.items) use_fields(*item.value, type);
+  if (fields == nullptr) return;
+  for (const Entry& field : value.entries) {
+    use(field.extent, *fields, field.key);
+    if (const auto symbol = fields->find(field.key); symbol != fields->end())
+      use_fields(*field.value, index_.symbols_[symbol->second].type);
+  }
+}
+
+void IndexBuilder::use_limit(const UnitNames& unit, const Entry& limit) {
+  const NamesOf* names = &unit.real;
+  for (const DottedPath& path : paths_in(written(limit.extent)))
+    for (const PathWord& word : path.words) {
+      if (names == nullptr) return;
+      const auto symbol = names->find(word.name);
+      if (symbol == names->end()) return;
+      use(moved(word.extent, limit.extent.begin), *names, word.name);
+      names = index_.fields_of(index_.symbols_[symbol->second].type);
+    }
+}
+
+std::string_view IndexBuilder::written(Extent extent) const {
+  return text_.substr(extent.begin, extent.end - std::min(extent.begin, extent.end));
+}
+
+Extent IndexBuilder::moved(Extent extent, std::size_t by) { return {extent.begin + by, extent.end + by}; }
+
+void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviour) {
+  const Node& body = *behaviour.value;
+  static const NamesOf nothing;
+  const auto found = unit.conditions.find(behaviour.key);
+  const NamesOf& conditions = found == unit.conditions.end() ? nothing : found->second;
+  for (const char* key : {"terminal", "error"}) {
+    use_expression(unit, body[key]);
+    use(body[key], unit.shared);
+    for (const Entry& named : body[key].entries) {
+      use_expression(unit, *named.value);
+      if (is_nothing(*named.value)) use(named.extent, unit.shared, named.key);
+    }
+  }
+  use(body["send"], unit.outputs);
+  use(body["receive"], unit.inputs);
+  use_list(body["send"], unit.outputs);
+  use_list(body["receive"], unit.inputs);
+  use_sets(unit, body["sets"]);
+  const auto step = [&](const Node& next) {
+    use(next, unit.behaviours);
+    use(next["to"], unit.behaviours);
+    const Node& when = next["when"];
+    use(when, conditions);
+    use_expression(unit, when);
+    use_sets(unit, next["sets"]);
+  };
+  const Node& next = body["next"];
+  step(next);
+  for (const Entry& item : next.items) step(*item.value);
+}
+
+void IndexBuilder::use_sets(const UnitNames& unit, const Node& sets) {
+  for (const Entry& change : sets.entries) {
+    use(change.extent, unit.memory, change.key);
+    if (const auto values = unit.values.find(change.key); values != unit.values.end())
+      use(*change.value, values->second);
+  }
+}
+
+void IndexBuilder::use_expression(const UnitNames& unit, const Node& text) {
+  if (!text.is_scalar()) return;
+  const std::vector<Token> tokens = tokens_of(written(text.extent));
+  const auto found = [&](Extent extent, SymbolId symbol) {
+    index_.uses_.push_back({moved(extent, text.extent.begin), symbol, false});
+  };
+  resolve_members(index_, unit, tokens, found);
+  resolve_values(unit, tokens, found);
+}
+
+}  // namespace tessera::language

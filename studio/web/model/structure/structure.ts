@@ -25,7 +25,9 @@ export interface Behaviour {
   line: number;
   terminal: string;
   error: string;
-  next: { to: string; when: string }[];
+  /** Changes of memory when it begins: "{ lent_to: a }"; empty: none. */
+  sets: string;
+  next: { to: string; when: string; sets: string }[];
 }
 export type SubsystemKind = "control" | "receptor" | "effector";
 export interface Subsystem {
@@ -192,14 +194,14 @@ function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: Y
 
 function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behaviour {
   const name = String(at.at(-1));
-  const field = (key: string) => yaml.valueText([...at, key]) ?? "";
   return {
     name,
     path: `${subsystem}.${name}`,
     yaml: at,
     line: yaml.line(at),
-    terminal: field("terminal"),
-    error: field("error"),
+    terminal: yaml.lineText([...at, "terminal"]),
+    error: yaml.lineText([...at, "error"]),
+    sets: yaml.lineText([...at, "sets"]),
     next: nextPaths(yaml, at).map((entry) => readNext(yaml, entry)),
   };
 }
@@ -224,8 +226,38 @@ export function onError({ yaml }: Structure, at: YamlPath, around = false): Defa
 
 /** The list of a subsystem that behaviours without one of their own have. */
 export function listAround({ yaml }: Structure, subsystem: Subsystem, key: "send" | "receive"): string {
-  const text = yaml.valueText([...subsystem.yaml, key]) ?? "";
+  const text = yaml.lineText([...subsystem.yaml, key]);
   return text === "first" || text === "last" ? "" : text;
+}
+
+/** A memory cell that is part of the net. */
+export interface KeptCell {
+  name: string;
+  /** Of a counter its range: "0..4". */
+  counts: string;
+  values: string[];
+}
+
+/** The memory of a subsystem that `sets` changes. */
+export function keptCells({ yaml }: Structure, subsystem: Subsystem): KeptCell[] {
+  const memory = [...subsystem.yaml, "memory"];
+  return yaml.keys(memory).flatMap((name) => {
+    const cell = keptCell(yaml, [...memory, name]);
+    return cell ? [cell] : [];
+  });
+}
+
+/** The memory cell at a path; undefined: it has a type. */
+export function keptCell(yaml: YamlText, at: YamlPath): KeptCell | undefined {
+  if (!yaml.pair([...at, "values"]) && !yaml.pair([...at, "counts"])) return undefined;
+  const values = (yaml.seq([...at, "values"])?.items ?? []).map((_, index) => yaml.valueText([...at, "values", index]) ?? "");
+  return { name: String(at.at(-1)), counts: yaml.valueText([...at, "counts"]) ?? "", values };
+}
+
+/** `sets` that fits the cells: "{ lent_to: a, served: +1 }". */
+export function exampleOf(cells: readonly KeptCell[]): string {
+  const changes = cells.slice(0, 2).map((one) => `${one.name}: ${one.counts ? "+1" : (one.values[1] ?? one.values[0] ?? "a")}`);
+  return `{ ${changes.join(", ")} }`;
 }
 
 /** The behaviour to which `on_error` leads the failures of one that no entry of its `next` names. */
@@ -244,9 +276,10 @@ export function nextPaths(yaml: YamlText, behaviour: YamlPath): YamlPath[] {
 }
 
 /** An entry is a name, or a map. */
-function readNext(yaml: YamlText, at: YamlPath): { to: string; when: string } {
+function readNext(yaml: YamlText, at: YamlPath): Behaviour["next"][number] {
   const field = (path: YamlPath) => yaml.valueText(path) ?? "";
-  return yaml.map(at) ? { to: field([...at, "to"]), when: field([...at, "when"]) } : { to: field(at), when: "" };
+  if (!yaml.map(at)) return { to: field(at), when: "", sets: "" };
+  return { to: field([...at, "to"]), when: field([...at, "when"]), sets: yaml.lineText([...at, "sets"]) };
 }
 
 function readChannel(yaml: YamlText, index: number): Channel {

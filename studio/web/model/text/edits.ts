@@ -118,14 +118,14 @@ export const setChannel = ({ index }: Channel, fields: Partial<ChannelFields>): 
   fields,
 });
 
-export const addNext = (behaviour: Behaviour, fields: Behaviour["next"][number]): Edit => ({
+export const addNext = (behaviour: Behaviour, fields: Partial<Behaviour["next"][number]>): Edit => ({
   do: "next",
   at: path(behaviour.yaml),
   fields: { ...fields },
 });
-/** An empty `to` removes the entry, an empty `when` its condition. */
+/** An empty `to` removes the entry, an empty `when` its condition, an empty `sets` its changes of memory. */
 export const changeNext = (behaviour: Behaviour, entry: number, fields: Partial<Behaviour["next"][number]>): Edit => ({
-  ...addNext(behaviour, { to: "", when: "" }),
+  ...addNext(behaviour, {}),
   key: String(entry),
   fields,
 });

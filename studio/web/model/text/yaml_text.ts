@@ -62,6 +62,30 @@ export class YamlText {
     return this.text.slice(node.range[0], node.range[1]).trim();
   }
 
+  /** valueText in one line: lists and maps as [a, b] and { a: b }. */
+  lineText(path: YamlPath): string {
+    const text = this.valueText(path) ?? "";
+    const node = this.node(path);
+    const isLine = !(isMap(node) || isSeq(node)) || (node.flow && !text.includes("\n"));
+    return isLine ? text : this.flow(node);
+  }
+
+  private flow(node: unknown): string {
+    if (isSeq(node)) return `[${node.items.map((item) => this.flow(item)).join(", ")}]`;
+    if (isMap(node)) {
+      const entries = node.items.map(({ key, value }) => {
+        const text = this.flow(value);
+        return this.flow(key) + (text && `: ${text}`);
+      });
+      return `{ ${entries.join(", ")} }`;
+    }
+    if (isAlias(node)) return `*${node.source}`;
+    if (!isScalar(node) || node.value === null) return "";
+    const source = node.source ?? String(node.value);
+    const isPlain = node.type === "PLAIN" || node.type === undefined;
+    return isPlain && !/[[\]{},]/.test(source) ? source : JSON.stringify(String(node.value));
+  }
+
   pair(path: YamlPath): PairOf | undefined {
     const map = this.map(path.slice(0, -1));
     return map?.items.find((pair) => keyText(pair) === path.at(-1));

@@ -1,5 +1,13 @@
 import * as edits from "../../model/text/edits";
-import { leadsFailures, listAround, type Behaviour, type Structure, type Subsystem } from "../../model/structure/structure";
+import {
+  exampleOf,
+  keptCells,
+  leadsFailures,
+  listAround,
+  type Behaviour,
+  type Structure,
+  type Subsystem,
+} from "../../model/structure/structure";
 import { CodeForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
@@ -14,7 +22,8 @@ export function BehaviourForm({
   subsystem: Subsystem;
 }) {
   const edit = useEdit();
-  const field = (key: string) => structure.yaml.valueText([...behaviour.yaml, key]) ?? "";
+  const field = (key: string) => structure.yaml.lineText([...behaviour.yaml, key]);
+  const kept = keptCells(structure, subsystem);
   const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
   const list = (key: "send" | "receive", all: string) => {
     const around = listAround(structure, subsystem, key);
@@ -38,6 +47,16 @@ export function BehaviourForm({
         onChange={set("terminal")}
       />
       <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
+      {(kept.length > 0 || behaviour.sets) && (
+        <Field
+          label="Sets"
+          mono
+          value={behaviour.sets}
+          placeholder="no memory"
+          hint={`Memory when the behaviour begins: ${exampleOf(kept)}`}
+          onChange={set("sets")}
+        />
+      )}
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
       <Field
         label="Sends"
@@ -79,6 +98,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
   const failures = leadsFailures(structure, subsystem, behaviour);
   const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
   const change = (at: number, part: Partial<Behaviour["next"][number]>) => edit(edits.changeNext(behaviour, at, part));
+  const kept = keptCells(structure, subsystem);
   const other = targets.find((name) => name !== behaviour.name) ?? "end";
   return (
     <fieldset className="next">
@@ -105,6 +125,16 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
             choices={["error"]}
             onChange={(when) => change(at, { when })}
           />
+          {(kept.length > 0 || entry.sets) && (
+            <Field
+              label="sets"
+              mono
+              value={entry.sets}
+              placeholder="no memory"
+              hint={`Memory when this entry is taken: ${exampleOf(kept)}`}
+              onChange={(sets) => change(at, { sets })}
+            />
+          )}
         </div>
       ))}
       <button onClick={() => void edit(edits.addNext(behaviour, { to: other, when: "" }))}>Add what follows</button>

@@ -143,7 +143,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
       <Field
         label="Behaviours send"
         mono
-        value={structure.yaml.valueText([...subsystem.yaml, "send"]) ?? ""}
+        value={structure.yaml.lineText([...subsystem.yaml, "send"])}
         placeholder="all outputs"
         hint="[a, b]: the outputs that a behaviour without a list sends, in this order"
         onChange={set("send")}
@@ -152,7 +152,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <Field
           label="Behaviours receive"
           mono
-          value={structure.yaml.valueText([...subsystem.yaml, "receive"]) ?? ""}
+          value={structure.yaml.lineText([...subsystem.yaml, "receive"])}
           placeholder="all inputs, last"
           hint="first or last: before or after the function; [a, b]: these inputs; { first: [a, b] }: both"
           choices={["last", "first"]}

@@ -1,7 +1,7 @@
 import { insert, remove, rename, replace, set } from "../../model/text/edits";
 import { keysNow, named, type Now } from "../../live/editor";
-import type { Edit } from "../../model/protocol";
-import type { Structure } from "../../model/structure/structure";
+import type { Edit, EditValue } from "../../model/protocol";
+import { keptCell, type Structure } from "../../model/structure/structure";
 import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
 import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
@@ -103,8 +103,48 @@ export function StructureFields({ structure, at }: { structure: Structure; at: Y
   );
 }
 
-/** A field of a subsystem's memory: its type, and its value at the start. */
+/** Kinds of memory, and a fresh cell of each. */
+const memoryKinds = [
+  { value: "type", title: "any value, by functions", fresh: "int32" },
+  { value: "values", title: "few values, by the net", fresh: { values: ["nobody", "a"] } },
+  { value: "counts", title: "a counter, by the net", fresh: { counts: "0..4" } },
+] as const;
+
+/** A field of a subsystem's memory: its type and its value at the start, or the values that the net keeps. */
 export function MemoryFields({ structure, at }: { structure: Structure; at: YamlPath }) {
+  const edit = useEdit();
+  const cell = keptCell(structure.yaml, at);
+  const name = String(at.at(-1));
+  const kind = !cell ? "type" : cell.counts ? "counts" : "values";
+  return (
+    <>
+      <Choice
+        label="Holds"
+        of={`of ${name}`}
+        value={kind}
+        choices={memoryKinds}
+        onChange={(to) => to !== kind && edit(replace(at, memoryKinds.find((one) => one.value === to)!.fresh as EditValue))}
+      />
+      {!cell && <TypedMemory structure={structure} at={at} />}
+      {cell && (
+        <Field
+          label={cell.counts ? "Counts" : "Values"}
+          of={`of ${name}`}
+          mono
+          value={structure.yaml.lineText([...at, kind])}
+          hint={
+            cell.counts
+              ? "From 0 to 4: 0..4. The lowest count is there at the start; sets changes it"
+              : "[nobody, a, b]: the first value is there at the start; sets changes it"
+          }
+          onChange={(text) => edit(set(at, kind, text))}
+        />
+      )}
+    </>
+  );
+}
+
+function TypedMemory({ structure, at }: { structure: Structure; at: YamlPath }) {
   const edit = useEdit();
   const { yaml } = structure;
   const isMap = ({ structure, at: present }: Now) => structure.yaml.map(present(at)) !== undefined;

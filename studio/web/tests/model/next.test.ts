@@ -23,15 +23,15 @@ describe("`next`", () => {
   it("is a name, a map, or a list of these", () => {
     expect(nextOf(withNext(""))).toEqual([]);
     expect(nextOf(withNext("          next:\n"))).toEqual([]);
-    expect(nextOf(withNext("          next: rest\n"))).toEqual([{ to: "rest", when: "" }]);
-    expect(nextOf(withNext("          next: { to: rest, when: error }\n"))).toEqual([{ to: "rest", when: "error" }]);
+    expect(nextOf(withNext("          next: rest\n"))).toEqual([{ to: "rest", when: "", sets: "" }]);
+    expect(nextOf(withNext("          next: { to: rest, when: error }\n"))).toEqual([{ to: "rest", when: "error", sets: "" }]);
     expect(nextOf(withNext("          next:\n            to: rest\n            when: error\n"))).toEqual([
-      { to: "rest", when: "error" },
+      { to: "rest", when: "error", sets: "" },
     ]);
     expect(nextOf(withNext(list))).toEqual([
-      { to: "run", when: "error" },
-      { to: "rest", when: "" },
-      { to: "run", when: "in.x" },
+      { to: "run", when: "error", sets: "" },
+      { to: "rest", when: "", sets: "" },
+      { to: "run", when: "in.x", sets: "" },
     ]);
   });
 });

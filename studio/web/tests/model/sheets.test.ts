@@ -24,7 +24,14 @@ function manyAgents(count: number): FoldedNet {
     nodes: [node("in", null), ...inside.map((name, at) => node(name, at + 1)), node("out", null)],
     transitions: [
       { name: "t_in", inputs: [0], outputs: inside.map((_, at) => at + 1), condition: null, role: "start_system", span },
-      { name: "t_out", inputs: inside.map((_, at) => at + 1), outputs: [inside.length + 1], condition: null, role: "end_system", span },
+      {
+        name: "t_out",
+        inputs: inside.map((_, at) => at + 1),
+        outputs: [inside.length + 1],
+        condition: null,
+        role: "end_system",
+        span,
+      },
     ],
   });
   const names = Array.from({ length: count }, (_, at) => `robot[${at}]`);

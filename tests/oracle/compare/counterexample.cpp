@@ -210,8 +210,10 @@ class Checker {
 
   bool left_with_none(int subsystem) const {
     for (const int b : net_.subsystems[static_cast<std::size_t>(subsystem)].behaviours) {
-      const auto none = net_.place_of.find(net_.behaviours[static_cast<std::size_t>(b)].path + ".out.none");
-      if (none != net_.place_of.end() && has_token(end(), none->second)) return true;
+      // One place for all values of the facts that decide, or one for each.
+      const std::string none = net_.behaviours[static_cast<std::size_t>(b)].path + ".out.none";
+      for (const auto& [name, place] : net_.place_of)
+        if ((name == none || name.starts_with(none + ".")) && has_token(end(), place)) return true;
     }
     return false;
   }

@@ -69,15 +69,34 @@ class Compiler {
  private:
   std::vector<int> lookup(const std::string& written) const {
     const std::string path = replaced(written, " ", "");
+    if (path.find(".memory.") != std::string::npos) return lookup_memory(path);
     std::vector<int> places;
     for (std::size_t p = 0; p < net_.places.size(); ++p) {
       const auto& place = net_.places[p];
-      if (place.name.ends_with(".none"))
+      if (place.name.find(".out.none") != std::string::npos)
         continue;  // it has left the behaviour, says docs/theory/verification.md, and does nothing any more
       if (place.name != path && (place.fused || !place.name.starts_with(path + "."))) continue;
       places.push_back(static_cast<int>(p));
     }
     if (places.empty()) throw std::logic_error("no place " + path);
+    return places;
+  }
+
+  /// "a.control.memory.c0==v1": the places of the values that fit.
+  std::vector<int> lookup_memory(const std::string& path) const {
+    const std::size_t at = path.find_first_of("=!<>"), behind = path.find_first_not_of("=!<>", at);
+    const std::string comparison = path.substr(at, behind - at), other = path.substr(behind);
+    std::vector<int> places;
+    for (const FlatNet::FactInfo& fact : net_.facts) {
+      const FlatNet::SubsystemInfo& owner = net_.subsystems[static_cast<std::size_t>(fact.subsystem)];
+      if (fact.cell < 0 || owner.path + "." + fact.buffer != path.substr(0, at)) continue;
+      const bool counts = owner.of->memory[static_cast<std::size_t>(fact.cell)].least >= 0;
+      for (std::size_t value = 0; value < fact.values.size(); ++value)
+        if (counts ? compares(comparison, std::stoi(fact.values[value]), std::stoi(other))
+                   : (fact.values[value] == other) == (comparison == "=="))
+          places.push_back(fact.places[value]);
+    }
+    if (places.empty()) throw std::logic_error("no memory " + path);
     return places;
   }
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "memory.hpp"
+
 namespace oracle {
 namespace {
 
@@ -58,8 +60,11 @@ std::size_t first_unconditional(const std::vector<Entry>& next) {
 }
 
 /// Walks `next` in order after a terminal ending: the first entry that holds is taken.
-void follow_terminal(const std::vector<Entry>& next, const Held& held, Following& following) {
+/// blocked: entries that would take a counter out of its range count as if their condition did not hold.
+void follow_terminal(const std::vector<Entry>& next, const std::vector<bool>& blocked, const Held& held,
+                     Following& following) {
   for (std::size_t k = 0; k < next.size(); ++k) {
+    if (blocked[k]) continue;
     Truth truth = Truth::yes;
     if (next[k].when == Entry::When::error) truth = Truth::no;
     if (next[k].when == Entry::When::name) truth = held.contains(next[k].name) ? Truth::yes : Truth::no;
@@ -72,11 +77,12 @@ void follow_terminal(const std::vector<Entry>& next, const Held& held, Following
 
 /// After an error only the entries that name it count; if there is none, the subsystem ends.
 /// end: the entry by which it then does.
-void follow_error(const std::vector<Entry>& next, const Held& held, std::size_t end, Following& following) {
+void follow_error(const std::vector<Entry>& next, const std::vector<bool>& blocked, const Held& held,
+                  std::size_t end, Following& following) {
   for (std::size_t k = 0; k < next.size(); ++k) {
     const bool names = next[k].when == Entry::When::error ||
                        (next[k].when == Entry::When::name && held.contains(next[k].name));
-    if (!names) continue;
+    if (!names || blocked[k]) continue;
     following.entries[k] = true;
     return;
   }
@@ -109,13 +115,15 @@ class Knowledge {
     for (const auto& [fact, value] : values_) {
       const FlatNet::FactInfo& info = net_.facts[static_cast<std::size_t>(fact)];
       if (info.buffer == asked.buffer && info.sends == (asked.kind == Kind::late_output))
-        return of(asked, info, value == 0);
+        return of(asked, info, value);
     }
     return Truth::open;
   }
 
  private:
-  Truth of(const Asked& asked, const FlatNet::FactInfo& fact, bool well) const {
+  Truth of(const Asked& asked, const FlatNet::FactInfo& fact, int value) const {
+    if (fact.cell >= 0) return asked.holds[static_cast<std::size_t>(value)] ? Truth::yes : Truth::no;
+    const bool well = value == 0;
     if (asked.kind == Asked::Kind::fresh) return !well ? Truth::no : exceptions_ ? Truth::open : Truth::yes;
     if (well) return Truth::no;
     if (fact.sends) return Truth::yes;
@@ -161,16 +169,21 @@ void find_facts(const FlatNet& net, int subsystem, const Asked& asked, std::vect
   for (const Asked& part : asked.parts) find_facts(net, subsystem, part, facts);
 }
 
+/// counters: facts that are asked for after those of the formulas.
 std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
-                                          const std::vector<const Asked*>& all) {
+                                          const std::vector<const Asked*>& all,
+                                          const std::vector<int>& counters = {}) {
   std::vector<int> facts;
   for (const Asked* asked : all)
     find_facts(net, net.behaviours[static_cast<std::size_t>(behaviour)].subsystem, *asked, facts);
-  facts.resize(std::min<std::size_t>(facts.size(), 12));  // 4096 assignments at most
-  std::vector<std::map<int, int>> values(std::size_t{1} << facts.size());
-  for (std::size_t a = 0; a < values.size(); ++a)
-    for (std::size_t f = 0; f < facts.size(); ++f)
-      values[a][facts[f]] = static_cast<int>(a >> (facts.size() - 1 - f) & 1U);
+  for (const int fact : counters)
+    if (std::find(facts.begin(), facts.end(), fact) == facts.end()) facts.push_back(fact);
+  std::vector<std::map<int, int>> values{{}};
+  for (const int fact : facts) {
+    const std::size_t count = net.facts[static_cast<std::size_t>(fact)].values.size();
+    if (values.size() * count > 4096) break;  // those that are asked last stay open
+    values = with_all_values(net, fact, values);
+  }
   return values;
 }
 
@@ -207,7 +220,16 @@ std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour
     if (entry.when != Entry::When::name) continue;
     add_asked(has(of.terminal, entry.name) ? of.terminal : of.error, all);
   }
-  return values_of(net, behaviour, all);
+  const int number = net.behaviours[static_cast<std::size_t>(behaviour)].subsystem;
+  const Subsystem& subsystem = *net.subsystems[static_cast<std::size_t>(number)].of;
+  std::vector<int> counters;
+  for (const Entry& entry : of.next) {
+    const std::vector<Change> changes = changes_of(subsystem, entry);
+    if (!may_be_blocked(subsystem, changes)) continue;
+    for (const Change& change : changes)
+      if (change.step != 0) counters.push_back(fact_of_cell(net, number, change.cell));
+  }
+  return values_of(net, behaviour, all, counters);
 }
 
 std::string suffix(const FlatNet& net, const std::map<int, int>& values) {
@@ -219,20 +241,27 @@ std::string suffix(const FlatNet& net, const std::map<int, int>& values) {
   return text;
 }
 
-std::vector<Entry> next_of(const Behaviour& behaviour) {
+std::vector<Entry> next_of(const Subsystem& subsystem, const Behaviour& behaviour) {
   std::vector<Entry> next = behaviour.next;
   if (next.empty()) next = {{"end", Entry::When::always, "", Truth::open}};
   for (const Entry& entry : next)
-    if (entry.when == Entry::When::error) return next;
+    if (entry.when == Entry::When::error && !may_be_blocked(subsystem, changes_of(subsystem, entry)))
+      return next;
   const std::size_t k = first_unconditional(next);
-  if (k == next.size() || next[k].to != "end") next.push_back({"end", Entry::When::error, "", Truth::open});
+  if (k == next.size() || next[k].to != "end" || !next[k].sets.empty())
+    next.push_back({"end", Entry::When::error, "", Truth::open});
   return next;
 }
 
 Ways ways_of(const FlatNet& net, int number, bool exceptions, const std::map<int, int>& values) {
   const Knowledge knowledge(net, number, exceptions, values);
   Behaviour behaviour = *net.behaviours[static_cast<std::size_t>(number)].of;
-  std::vector<Entry> next = next_of(behaviour);
+  const int owner = net.behaviours[static_cast<std::size_t>(number)].subsystem;
+  const Subsystem& subsystem = *net.subsystems[static_cast<std::size_t>(owner)].of;
+  std::vector<Entry> next = next_of(subsystem, behaviour);
+  std::vector<bool> blocked;
+  for (const Entry& entry : next)
+    blocked.push_back(!changed(net, owner, changes_of(subsystem, entry), values));
   const std::size_t end = first_unconditional(next);
   resolve(behaviour.terminal, knowledge);
   resolve(behaviour.error, knowledge);
@@ -247,10 +276,12 @@ Ways ways_of(const FlatNet& net, int number, bool exceptions, const std::map<int
   ways.after_terminal.entries.resize(next.size());
   ways.after_error.entries.resize(next.size());
   if (ways.terminal)
-    for (const Held& held : held_sets(behaviour.terminal)) follow_terminal(next, held, ways.after_terminal);
+    for (const Held& held : held_sets(behaviour.terminal))
+      follow_terminal(next, blocked, held, ways.after_terminal);
   if (fails)
-    for (const Held& held : held_sets(behaviour.error)) follow_error(next, held, end, ways.after_error);
-  if (exceptions) follow_error(next, {}, end, ways.after_error);
+    for (const Held& held : held_sets(behaviour.error))
+      follow_error(next, blocked, held, end, ways.after_error);
+  if (exceptions) follow_error(next, blocked, {}, end, ways.after_error);
   return ways;
 }
 

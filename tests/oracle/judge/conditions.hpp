@@ -17,8 +17,9 @@ struct Following {
 };
 
 /// The entries as they are drawn: `end` is the default. One more leads an error or a failure to the end that no
-/// written entry could take: there is no `when: error`, and the entry without a condition does not end.
-std::vector<Entry> next_of(const Behaviour& behaviour);
+/// written entry could take: there is no `when: error` that is always possible, and the entry without a condition does
+/// not end, or changes memory.
+std::vector<Entry> next_of(const Subsystem& subsystem, const Behaviour& behaviour);
 
 /// The ways that a behaviour may take at the end of an iteration, each decided alone.
 struct Ways {

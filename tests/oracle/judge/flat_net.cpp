@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "conditions.hpp"
+#include "memory.hpp"
 
 namespace oracle {
 namespace {
@@ -112,6 +113,15 @@ class Builder {
               }))
             find_fact(static_cast<int>(s), buffer, sends);
       }
+      const std::vector<Cell>& cells = net_.subsystems[s].of->memory;
+      for (std::size_t c = 0; c < cells.size(); ++c) {
+        FlatNet::FactInfo fact;
+        fact.subsystem = static_cast<int>(s);
+        fact.buffer = "memory." + cells[c].name;
+        fact.cell = static_cast<int>(c);
+        fact.values = cells[c].values;
+        net_.facts.push_back(fact);
+      }
     }
   }
 
@@ -142,7 +152,7 @@ class Builder {
       const std::string path = net_.subsystems[static_cast<std::size_t>(fact.subsystem)].path;
       for (std::size_t value = 0; value < fact.values.size(); ++value)
         fact.places.push_back(add_place(path + "." + fact.buffer + "." + fact.values[value],
-                                        value == (fact.sends ? 0U : 1U), true));
+                                        value == (fact.sends || fact.cell >= 0 ? 0U : 1U), true));
     }
   }
 
@@ -158,6 +168,32 @@ class Builder {
       made.pre.push_back(place);
       made.post.push_back(place);
     }
+  }
+
+  int place_of(int fact, int value) const {
+    return net_.facts[static_cast<std::size_t>(fact)].places[static_cast<std::size_t>(value)];
+  }
+
+  /// An entry of `next`: once for each way in which the memory that it changes may be before. If it cannot be
+  /// taken with these values, it is drawn once, and changes nothing.
+  void add_entry(const std::string& name, int from, int to, int entry, const std::vector<Change>& changes,
+                 const std::map<int, int>& values) {
+    bool drawn = false;
+    for (const std::map<int, int>& before : with_changed(net_, subsystem_, changes, values)) {
+      const auto after = changed(net_, subsystem_, changes, before);
+      if (!after) continue;
+      drawn = true;
+      FlatTransition& made = add_transition(name + suffix(net_, before), {from}, {to});
+      made.role = Role::next;
+      made.entry = entry;
+      made.facts = values;
+      for (const auto& [fact, value] : before) made.pre.push_back(place_of(fact, value));
+      for (const auto& [fact, value] : *after) made.post.push_back(place_of(fact, value));
+      net_.layers["subsystem"].transitions += 1;
+    }
+    if (drawn) return;
+    add_asking(name, from, to, Role::next, entry, values);
+    net_.layers["subsystem"].transitions += 1;
   }
 
   /// A transition that ends a block: one for each value that the fact had before.
@@ -227,7 +263,14 @@ class Builder {
     }
     const std::string& start =
         subsystem.of->start.empty() ? subsystem.of->behaviours[0].name : subsystem.of->start;
-    add_transition(subsystem.path + ".t_in", {subsystem.in}, {in_of.at(start)});
+    FlatTransition& begin = add_transition(subsystem.path + ".t_in", {subsystem.in}, {in_of.at(start)});
+    std::map<int, int> first;  // memory that the first behaviour changes
+    const std::vector<Change> begun =
+        changes_of(*subsystem.of, {start, Entry::When::always, "", Truth::open});
+    for (const Change& change : begun) first[fact_of_cell(net_, s, change.cell)] = 0;
+    for (const auto& [fact, value] : first) begin.pre.push_back(place_of(fact, value));
+    const std::map<int, int> later = changed(net_, s, begun, first).value();
+    for (const auto& [fact, value] : later) begin.post.push_back(place_of(fact, value));
     FlatNet::Counts& counts = net_.layers["subsystem"];
     counts.places += 2;
     counts.transitions += 1;
@@ -235,7 +278,7 @@ class Builder {
       counts.pages += 1;
       behaviour_ = b;
       const FlatNet::BehaviourInfo& info = net_.behaviours[static_cast<std::size_t>(b)];
-      const std::vector<Entry> next = next_of(*info.of);
+      const std::vector<Entry> next = next_of(*subsystem.of, *info.of);
       const std::vector<std::map<int, int>> all = values_of_next(net_, b);
       std::set<std::size_t> has_way;
       for (std::size_t k = 0; k < next.size(); ++k)
@@ -245,9 +288,8 @@ class Builder {
           const bool needed = all[a].empty() || (k + 1 == next.size() && !has_way.contains(a));
           if (!possible && !needed) continue;
           has_way.insert(a);
-          add_asking(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), info.out,
-                     in_of.at(next[k].to), Role::next, static_cast<int>(k), all[a]);
-          counts.transitions += 1;
+          add_entry(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), info.out,
+                    in_of.at(next[k].to), static_cast<int>(k), changes_of(*subsystem.of, next[k]), all[a]);
         }
       behaviour_layer(info, b);
     }

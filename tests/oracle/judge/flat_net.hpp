@@ -58,10 +58,12 @@ struct FlatNet {
     std::vector<int> reads;                            // transitions that begin to read
     bool received = false;                             // some behaviour has its receiving block
   };
-  /// The knowledge of the net of a subsystem about the last communication of a buffer: one place per value.
+  /// The knowledge of the net of a subsystem about the last communication of a buffer, or a memory cell: one place per
+  /// value.
   struct FactInfo {
     int subsystem = -1;
-    std::string buffer;
+    std::string buffer;  // of a cell "memory.c0"
+    int cell = -1;       // of a communication -1
     bool sends = false;
     bool blocks = false;        // a receive; otherwise it skips
     std::vector<int> channels;  // whose blocks set it

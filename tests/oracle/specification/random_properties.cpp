@@ -65,7 +65,8 @@ class Formulas {
     for (const auto& place : net_.places) {
       if (place.fused && place.name.find("->") != std::string::npos)
         channel_states.push_back(place.name);
-      else if (place.name.ends_with(".2") || place.name.ends_with(".wait") || place.name.ends_with(".work"))
+      else if (!place.fused &&
+               (place.name.ends_with(".2") || place.name.ends_with(".wait") || place.name.ends_with(".work")))
         inner.push_back(place.name);
     }
     if (kind < 40 && !channel_states.empty()) {

@@ -26,7 +26,7 @@ namespace {
 
 class Generator {
  public:
-  explicit Generator(std::uint64_t seed) : random_(seed), asks_(~seed) {}
+  explicit Generator(std::uint64_t seed) : random_(seed), asks_(~seed), remembers_(seed + (1ULL << 63U)) {}
 
   Specification make() {
     if (random_.percent(15)) specification_.models = random_models(random_);
@@ -36,8 +36,11 @@ class Generator {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
     time();
+    if (remembers_.percent(55)) remember();
     if (asks_.percent(60)) ask();
     if (random_.percent(60)) specification_.properties = random_properties(random_, specification_);
+    for (Property& property : properties_of_memory(remembers_, specification_))
+      specification_.properties.push_back(std::move(property));
     return std::move(specification_);
   }
 
@@ -249,6 +252,13 @@ class Generator {
             !net.subsystems[static_cast<std::size_t>(behaviour.subsystem)].of->rate;
   }
 
+  /// It has random numbers of its own.
+  void remember() {
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems)
+        if (remembers_.percent(50)) add_memory(remembers_, subsystem);
+  }
+
   /// Lets some open expressions ask how the communication ended, and more sides wait with a timeout. It has
   /// random numbers of its own.
   void ask() {
@@ -279,6 +289,8 @@ class Generator {
     }
     for (const std::string& output : subsystem.outputs)
       questions.push_back({Asked::Kind::late_output, output});
+    for (const Cell& cell : subsystem.memory)
+      for (int times = 0; times < 2; ++times) questions.push_back(random_question(asks_, cell));
     return questions.empty() ? std::nullopt : std::optional(formula(questions, 2));
   }
 
@@ -298,7 +310,7 @@ class Generator {
     return question;
   }
 
-  RandomNumbers random_, asks_;
+  RandomNumbers random_, asks_, remembers_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

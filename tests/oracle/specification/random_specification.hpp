@@ -32,4 +32,11 @@ std::vector<Model> random_models(RandomNumbers& random);
 /// Properties over the places that the net has.
 std::vector<Property> random_properties(RandomNumbers& random, const Specification& specification);
 
+/// Cells with few values, and what behaviours and entries of `next` do to them; none of it is refused.
+void add_memory(RandomNumbers& random, Subsystem& subsystem);
+/// A comparison of a cell with a constant.
+Asked random_question(RandomNumbers& random, const Cell& cell);
+/// Properties about values of cells, and values where behaviours run; none if there are no cells.
+std::vector<Property> properties_of_memory(RandomNumbers& random, const Specification& specification);
+
 }  // namespace oracle

@@ -164,7 +164,12 @@ void simplify_behaviours(const Specification& from, Candidates& into) {
       return true;
     });
   }
+  behaviour_candidate(from, into,
+                      [&](Behaviour& b) { return set(b.sets, std::vector<Change>(), !b.sets.empty()); });
   for (std::size_t k = 0; k < 5; ++k) {
+    behaviour_candidate(from, into, [&](Behaviour& b) {
+      return b.next.size() > k && set(b.next[k].sets, std::vector<Change>(), !b.next[k].sets.empty());
+    });
     behaviour_candidate(from, into, [&](Behaviour& b) {
       if (b.next.size() <= k) return false;
       b.next.erase(b.next.begin() + static_cast<std::ptrdiff_t>(k));

@@ -33,6 +33,7 @@ class Expressions {
     if (asked.kind == Kind::fresh) return "in." + asked.buffer + ".fresh";
     if (asked.kind == Kind::late_input) return "in." + asked.buffer + ".timed_out";
     if (asked.kind == Kind::late_output) return "out." + asked.buffer + ".timed_out";
+    if (asked.kind == Kind::memory) return asked.text;
     if (asked.kind == Kind::negation) return "not (" + formula(asked.parts[0]) + ")";
     const std::string first = "(" + formula(asked.parts[0]) + ")";
     return first + (asked.kind == Kind::both ? " && (" : " || (") + formula(asked.parts[1]) + ")";
@@ -50,29 +51,44 @@ std::string condition(const Condition& of, Expressions& expressions) {
   return map(parts);
 }
 
-std::string entry(const Entry& of, Expressions& expressions) {
-  if (of.when == Entry::When::always) return of.to;
+/// ", sets: { c0: v1, c1: +1 }"
+std::string changes(const std::vector<Change>& sets, const Subsystem& owner) {
+  std::vector<std::string> parts;
+  for (const Change& change : sets) {
+    const Cell& cell = owner.memory[static_cast<std::size_t>(change.cell)];
+    const std::string to = change.step > 0   ? "+1"
+                           : change.step < 0 ? "-1"
+                                             : cell.values[static_cast<std::size_t>(change.value)];
+    parts.push_back(cell.name + ": " + to);
+  }
+  return "sets: " + map(parts);
+}
+
+std::string entry(const Entry& of, const Subsystem& owner, Expressions& expressions) {
+  const std::string sets = of.sets.empty() ? "" : ", " + changes(of.sets, owner);
+  if (of.when == Entry::When::always) return sets.empty() ? of.to : "{ to: " + of.to + sets + " }";
   std::string when = of.name;
   if (of.when == Entry::When::error) when = "error";
   if (of.when == Entry::When::expression) when = expressions.next(of.truth, of.asked ? &*of.asked : nullptr);
-  return "{ to: " + of.to + ", when: " + when + " }";
+  return "{ to: " + of.to + ", when: " + when + sets + " }";
 }
 
-std::string behaviour(const Behaviour& of, Expressions& expressions) {
+std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& expressions) {
   std::vector<std::string> keys;
   if (of.terminal.form != Condition::Form::absent)
     keys.push_back("terminal: " + condition(of.terminal, expressions));
   if (of.error.form != Condition::Form::absent) keys.push_back("error: " + condition(of.error, expressions));
-  if (of.next.size() == 1) keys.push_back("next: " + entry(of.next[0], expressions));
+  if (of.next.size() == 1) keys.push_back("next: " + entry(of.next[0], owner, expressions));
   if (of.next.size() > 1) {
     std::vector<std::string> entries;
-    for (const Entry& one : of.next) entries.push_back(entry(one, expressions));
+    for (const Entry& one : of.next) entries.push_back(entry(one, owner, expressions));
     keys.push_back("next: " + list(entries));
   }
   if (of.send) keys.push_back("send: " + list(*of.send));
   if (of.receive) keys.push_back("receive: " + list(*of.receive));
   if (of.parallel) keys.push_back("transfer: parallel");
   if (of.takes) keys.push_back("takes: 3 ms");
+  if (!of.sets.empty()) keys.push_back(changes(of.sets, owner));
   return of.name + ": " + map(keys);
 }
 
@@ -90,10 +106,15 @@ void subsystem(std::ostream& out, const std::string& indent, const Subsystem& of
   if (of.rate) out << inner << "rate: 50 Hz\n";
   buffers(out, inner, "inputs", of.inputs);
   buffers(out, inner, "outputs", of.outputs);
-  out << inner << "memory: { dice: uint32 }\n";
+  std::vector<std::string> cells{"dice: uint32"};
+  for (const Cell& cell : of.memory)
+    cells.push_back(cell.name + (cell.least < 0 ? ": { values: " + list(cell.values) + " }"
+                                                : ": { counts: " + cell.values.front() + ".." +
+                                                      cell.values.back() + " }"));
+  out << inner << "memory: " << map(cells) << "\n";
   if (!of.start.empty()) out << inner << "start: " << of.start << "\n";
   out << inner << "behaviours:\n";
-  for (const Behaviour& one : of.behaviours) out << inner << "  " << behaviour(one, expressions) << "\n";
+  for (const Behaviour& one : of.behaviours) out << inner << "  " << behaviour(one, of, expressions) << "\n";
 }
 
 void body(std::ostream& out, const std::string& indent, const Agent& of) {
@@ -175,6 +196,14 @@ const std::vector<Subsystem>& subsystems_of(const Specification& specification, 
   for (const Agent& one : specification.templates)
     if (one.name == agent.use) return subsystems_of(specification, one);
   throw std::logic_error("no template " + agent.use);
+}
+
+bool compares(const std::string& comparison, int left, int right) {
+  if (comparison == "==") return left == right;
+  if (comparison == "!=") return left != right;
+  if (comparison == "<") return left < right;
+  if (comparison == "<=") return left <= right;
+  return comparison == ">" ? left > right : left >= right;
 }
 
 std::string written(const End& end) {

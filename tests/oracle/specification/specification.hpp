@@ -11,13 +11,27 @@ namespace oracle {
 /// The static facts about an expression.
 enum class Truth { no, yes, open };
 
-/// An expression that asks how the last communication of a buffer ended, or a formula of such questions. An open
-/// part is an expression that asks for something else.
+/// An expression that asks how the last communication of a buffer ended, or for a memory cell, or a formula of such
+/// questions. An open part is an expression that asks for something else.
 struct Asked {
-  enum class Kind { open, fresh, late_input, late_output, negation, both, either };
+  enum class Kind { open, fresh, late_input, late_output, memory, negation, both, either };
   Kind kind = Kind::open;
-  std::string buffer{};        // of fresh, late_input, late_output
+  std::string buffer{};        // of fresh, late_input, late_output; "memory.c0"
   std::vector<Asked> parts{};  // of negation, both, either
+  std::string text{};          // of memory: "memory.c0 == v1"
+  std::vector<bool> holds{};   // of memory: per value of the cell
+};
+
+/// A memory cell with few values; the first is there at the start.
+struct Cell {
+  std::string name;
+  std::vector<std::string> values;
+  int least = -1;  // of a counter; otherwise the values are names
+};
+
+/// A change of a cell: by one step, or to a value.
+struct Change {
+  int cell = 0, step = 0, value = 0;
 };
 
 /// `terminal` or `error`: absent, a constant, an expression, or a map of named ones.
@@ -41,6 +55,7 @@ struct Entry {
   std::string name;           // of a terminal or error expression
   Truth truth = Truth::open;  // of the expression
   std::optional<Asked> asked{};
+  std::vector<Change> sets{};
 };
 
 struct Behaviour {
@@ -50,6 +65,7 @@ struct Behaviour {
   std::optional<std::vector<std::string>> send, receive;
   bool parallel = false;
   bool takes = false;
+  std::vector<Change> sets{};  // when it begins
 };
 
 struct Subsystem {
@@ -60,6 +76,7 @@ struct Subsystem {
   std::vector<std::string> inputs, outputs;
   std::vector<Behaviour> behaviours;
   std::string start;  // empty: not written
+  std::vector<Cell> memory{};
 };
 
 /// An agent, a template, or a fleet: either `subsystems` or `use`.
@@ -105,7 +122,8 @@ struct Model {
   ModelSide send, receive;
 };
 
-/// A formula over paths. A path holds its index as written: "f[i+1].control.b".
+/// A formula over paths. A path holds its index as written: "f[i+1].control.b"; one of a memory cell also the
+/// comparison: "f[i].control.memory.c0 == v1".
 struct Formula {
   enum class Kind { path, all_of, any_of, negation, any, all };
   Kind kind = Kind::path;
@@ -131,6 +149,9 @@ struct Specification {
 
 /// The subsystems of an agent, its template looked up.
 const std::vector<Subsystem>& subsystems_of(const Specification& specification, const Agent& agent);
+
+/// "<=" of two numbers, and so on.
+bool compares(const std::string& comparison, int left, int right);
 
 /// A path without spaces: `AGENT[INDEX].SUBSYSTEM.BUFFER`.
 std::string written(const End& end);

@@ -66,7 +66,8 @@ struct Knowledge {
   spec::Endings certain, failing;
 };
 
-Condition condition_of(spec::NextId entry, const spec::Behaviour& behaviour, const Knowledge& knowledge) {
+Condition condition_of(spec::NextId entry, const spec::Behaviour& behaviour, const KnownFacts::Values& values,
+                       const Knowledge& knowledge) {
   const Known now = known(knowledge.certain, entry, false);
   const spec::Endings& endings = knowledge.failing;
   Condition made{.kind = Condition::Kind::next,
@@ -78,6 +79,7 @@ Condition condition_of(spec::NextId entry, const spec::Behaviour& behaviour, con
   made.follows =
       after([&](spec::Ending ending) { return endings.taken(entry, ending) != spec::Truth::never; });
   made.none_follows = after([&](spec::Ending ending) { return endings.none_possible(ending); });
+  for (const auto& [fact, value] : values) made.asked.push_back(fact);
   return made;
 }
 
@@ -116,7 +118,7 @@ std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourI
   std::vector<bool> has_way(assignments.size(), false);
   for (const spec::NextId entry : behaviour.next.ids())
     for (std::size_t number = 0; number < assignments.size(); ++number) {
-      Condition condition = condition_of(entry, behaviour, knowledge[number]);
+      Condition condition = condition_of(entry, behaviour, assignments[number], knowledge[number]);
       const bool possible = condition.known(true).truth != Truth::never;
       const bool last = entry.value + 1 == behaviour.next.size();
       if (!assignments[number].empty() && !possible && !(last && !has_way[number])) continue;

@@ -67,6 +67,9 @@ struct Condition {
   };
   /// next: the endings after which the entry can be taken; the endings after which possibly no entry holds.
   After follows{true, true}, none_follows{true, true};
+  /// next: the facts that the entries ask for. The transition takes one token of each, and those of others that it
+  /// changes.
+  std::vector<FactId> asked{};
   bool operator==(const Condition&) const = default;
 
   [[nodiscard]] Known known(bool failures) const {

@@ -30,7 +30,11 @@ struct Exit {
 /// Empty: several tokens leave.
 ExitPlaces exit_of(const net::Net& net, TransitionId id) {
   ExitPlaces places, facts;
-  for (const Arc& arc : net.preset(id)) (net[arc.place].fact.valid() ? facts : places).push_back(arc.place);
+  for (const Arc& arc : net.preset(id)) {
+    const net::FactId fact = net[arc.place].fact;
+    if (!fact.valid()) places.push_back(arc.place);
+    if (fact.valid() && std::ranges::count(net[id].condition.asked, fact) > 0) facts.push_back(arc.place);
+  }
   if (places.size() != 1) return {};
   std::ranges::sort(facts);
   places.insert(places.end(), facts.begin(), facts.end());

@@ -69,6 +69,7 @@ Condition joined(const Condition& a, const Condition& b) {
   both.exhaustive = certain.exhaustive;
   both.with_failures.reset();
   both.set_with_failures(failing);
+  both.asked.clear();
   both.follows = joined(a.follows, b.follows);
   both.none_follows = joined(a.none_follows, b.none_follows);
   if (both.text.empty() || both.text == "never") both.text = b.text;

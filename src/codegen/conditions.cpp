@@ -6,10 +6,10 @@
 #include <optional>
 #include <utility>
 
+#include "codegen/condition_text.hpp"
 #include "codegen/cpp_text.hpp"
 #include "codegen/emit.hpp"
 #include "codegen/kept_memory.hpp"
-#include "spec/conditions/tokens.hpp"
 #include "spec/model/endings.hpp"
 
 namespace tessera::codegen {
@@ -42,34 +42,14 @@ bool decided(const spec::Behaviour& behaviour) {
 }
 
 std::string goal(const spec::Subsystem& subsystem, const spec::Next& next) {
-  return next.behaviour.valid() ? subsystem.behaviours[next.behaviour].name : "end";
+  if (!next.behaviour.valid()) return "end";
+  const spec::Behaviour& to = subsystem.behaviours[next.behaviour];
+  return next.member ? to.member->family + "[i]" : to.name;
 }
 
-/// The expression at a column; further lines of a block text at the same one.
-std::string at_column(const spec::Expression& expression, std::uint32_t column) {
-  const std::string indent(column - 1, ' ');
-  const std::string text = condition_text(expression);
-  std::string out;
-  for (std::size_t begin = 0; begin <= text.size();) {
-    const std::size_t end = std::min(text.find('\n', begin), text.size());
-    if (begin > 0) out += '\n';
-    if (end > begin) out += indent + text.substr(begin, end - begin);
-    begin = end + 1;
-  }
-  return out;
-}
-
-/// Whether a condition names something of the standard library, or calls a function that is no member. Such a
-/// condition gets headers that most do not need.
-bool calls_library(const spec::Expression& expression) {
-  const std::vector<spec::Token> tokens = spec::tokens_of(expression.text);
-  for (std::size_t at = 0; at + 2 < tokens.size(); ++at) {
-    if (tokens[at].kind != spec::Token::Kind::name) continue;
-    if (tokens[at].is("std") && !tokens[at + 2].is("chrono")) return true;
-    const bool is_call = tokens[at + 1].is("(") && !tokens[at].is_one_of({"and", "or", "not"});
-    if (is_call && (at == 0 || !tokens[at - 1].is_one_of({".", "->", "::"}))) return true;
-  }
-  return false;
+/// "lend[i]", which stands for all members.
+std::string subject(const spec::Behaviour& behaviour) {
+  return written_name(behaviour) + (behaviour.member ? "[i]" : "");
 }
 
 bool names(const spec::Expression& expression, spec::Reference::Kind kind) {
@@ -83,6 +63,10 @@ Conditions::Conditions(const Project& project, const Unit& unit)
     : project_(project), unit_(unit), subsystem_(*unit.subsystem) {
   for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
     Asked asked;
+    if (!is_first(behaviour)) {  // the functions of the first are those of all
+      asked_.push_back(std::move(asked));
+      continue;
+    }
     asked.error = add_all(behaviour, behaviour.error, "error");
     if (behaviour.error.kind != spec::Condition::Kind::always)
       asked.terminal = add_all(behaviour, behaviour.terminal, "terminal");
@@ -90,10 +74,11 @@ Conditions::Conditions(const Project& project, const Unit& unit)
     const spec::Endings endings(behaviour);
     for (const spec::NextId entry : behaviour.next.ids()) {
       const spec::Next& next = behaviour.next[entry];
-      if (!endings.can_be_taken(entry)) continue;
+      if (!endings.can_be_taken(entry) || !is_first(next)) continue;
       if (next.when.kind == spec::When::Kind::expression)
-        asked.next[entry] = add(fmt::format("{}_next_{}", behaviour.name, entry.value + 1), next.when.text,
-                                fmt::format("{} -> {}", behaviour.name, goal(subsystem_, next)));
+        asked.next[entry] =
+            add(fmt::format("{}_next_{}", written_name(behaviour), entry.value + 1), next.when.text,
+                fmt::format("{} -> {}", subject(behaviour), goal(subsystem_, next)));
       if (next.when.kind == spec::When::Kind::terminal)
         functions_[asked.terminal[next.when.expression]].remembered = true;
       if (next.when.kind == spec::When::Kind::named_error)
@@ -111,8 +96,8 @@ Numbered<spec::ExpressionId, std::size_t> Conditions::add_all(const spec::Behavi
   for (const spec::Expression& expression : condition.expressions) {
     const std::string suffix = expression.name.empty() ? "" : '_' + expression.name;
     const std::string says =
-        fmt::format("{}, {}{}{}", behaviour.name, kind, suffix.empty() ? "" : " ", expression.name);
-    added.push_back(add(fmt::format("{}_{}{}", behaviour.name, kind, suffix), expression, says));
+        fmt::format("{}, {}{}{}", subject(behaviour), kind, suffix.empty() ? "" : " ", expression.name);
+    added.push_back(add(fmt::format("{}_{}{}", written_name(behaviour), kind, suffix), expression, says));
   }
   return added;
 }
@@ -136,19 +121,19 @@ std::string Conditions::decide() const {
   const bool remembers = std::ranges::any_of(functions_, &Function::remembered);
   return fmt::format(R"(  tessera::Outcome decide(std::uint16_t behaviour, bool failed) override {{
 {}    if (failed) return tessera::Outcome::error;
-    switch (static_cast<Behaviour>(behaviour)) {{
+    switch ({}) {{
 {}      default:
         return tessera::Outcome::go_on;
     }}
   }}
 )",
-                     remembers ? "    held_ = {};\n" : "", cases);
+                     remembers ? "    held_ = {};\n" : "", behaviour_text(subsystem_), cases);
 }
 
 std::string Conditions::decide_case(spec::BehaviourId behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
-  if (!decided(what)) return {};
-  std::string out = fmt::format("      case Behaviour::{}:\n", what.name);
+  if (!decided(what) || !is_first(what)) return {};
+  std::string out = fmt::format("      case Behaviour::{}:\n", written_name(what));
   if (what.error.kind == spec::Condition::Kind::always)
     return out + "        return tessera::Outcome::error;\n";
   out += ask(asked_[behaviour].error, "error");
@@ -178,20 +163,20 @@ std::string Conditions::route() const {
   std::string cases;
   for (const spec::BehaviourId behaviour : asked_.ids()) cases += route_case(behaviour);
   return fmt::format(R"(  int route(std::uint16_t behaviour, [[maybe_unused]] bool failed) override {{
-    switch (static_cast<Behaviour>(behaviour)) {{
+    switch ({}) {{
 {}      default:
         return 0;
     }}
   }}
 )",
-                     cases);
+                     behaviour_text(subsystem_), cases);
 }
 
 /// The entries that an error or a failure can take come first. The others are then only asked after a terminal
 /// ending.
 std::string Conditions::route_case(spec::BehaviourId behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
-  if (!conditional(what)) return {};
+  if (!conditional(what) || !is_first(what)) return {};
   const spec::Endings endings(what);
   const auto taken = [&](spec::NextId entry, spec::Ending ending) {
     return endings.taken(entry, ending) != spec::Truth::never;
@@ -209,12 +194,26 @@ std::string Conditions::route_case(spec::BehaviourId behaviour) const {
   }
   if (last) routes.push_back({"if (failed) ", *last});
   for (const spec::NextId entry : what.next.ids()) {
-    if (!taken(entry, spec::Ending::terminal)) continue;
+    if (!taken(entry, spec::Ending::terminal) || !is_first(what.next[entry])) continue;
     routes.push_back({when_text(behaviour, entry), entry});
     if (routes.back().when.empty()) break;
   }
   if (last && !endings.possible(spec::Ending::terminal)) routes.back().when.clear();
   return route_text(behaviour, std::move(routes));
+}
+
+std::string Conditions::return_text(const Route& route, const spec::Next& entry) {
+  if (!entry.member) return fmt::format("{}return {};", route.when, route.entry.value);
+  return fmt::format(
+      "for (context_.member = 0; context_.member < {}; ++context_.member)\n          {}return {}{};",
+      entry.member->count, route.when, route.entry.value == 0 ? "" : fmt::format("{} + ", route.entry.value),
+      "static_cast<int>(context_.member)");
+}
+
+std::string_view Conditions::behaviour_text(const spec::Subsystem& subsystem) {
+  const bool has_families =
+      std::ranges::any_of(subsystem.behaviours, [](const auto& one) { return one.member.has_value(); });
+  return has_families ? "behaviour_of(behaviour)" : "static_cast<Behaviour>(behaviour)";
 }
 
 std::string Conditions::route_text(spec::BehaviourId behaviour, std::vector<Route> routes) const {
@@ -224,10 +223,9 @@ std::string Conditions::route_text(spec::BehaviourId behaviour, std::vector<Rout
     routes.erase(routes.end() - 2);
   std::vector<Declaration> lines;
   for (const Route& route : routes)
-    lines.push_back({fmt::format("{}return {};", route.when, route.entry.value),
-                     goal(subsystem_, what.next[route.entry])});
+    lines.push_back({return_text(route, what.next[route.entry]), goal(subsystem_, what.next[route.entry])});
   if (!ends) lines.push_back({"return -1;", ""});
-  return fmt::format("      case Behaviour::{}:\n{}", what.name, declarations(lines, 8));
+  return fmt::format("      case Behaviour::{}:\n{}", written_name(what), declarations(lines, 8));
 }
 
 /// "if (held_.tessera_work_error_lost) ", or nothing if the entry has no condition.
@@ -257,6 +255,11 @@ std::string Conditions::question(spec::BehaviourId behaviour, spec::NextId entry
   return {};
 }
 
+bool Conditions::names_member() const {
+  return std::ranges::any_of(
+      functions_, [](const Function& function) { return function.expression->member.has_value(); });
+}
+
 bool Conditions::name(spec::Reference::Kind kind) const {
   return std::ranges::any_of(functions_,
                              [&](const Function& function) { return names(*function.expression, kind); });
@@ -268,9 +271,10 @@ std::string Conditions::members() const {
   for (const Function& function : functions_)
     if (function.remembered) held += fmt::format("    bool {} = false;\n", function.name);
   const std::string conditions =
-      fmt::format("  yours::tessera_Conditions conditions_{{in, out, memory, parameters{}{}}};\n",
+      fmt::format("  yours::tessera_Conditions conditions_{{in, out, memory, parameters{}{}{}}};\n",
                   name(spec::Reference::Kind::elapsed) ? ", context_.in_behaviour" : "",
-                  name(spec::Reference::Kind::index) ? ", context_.index" : "");
+                  name(spec::Reference::Kind::index) ? ", context_.index" : "",
+                  names_member() ? ", context_.member" : "");
   if (held.empty()) return conditions;
   return fmt::format(R"({}
   /// The named conditions that held when the iteration was decided; `route` asks for them.
@@ -289,8 +293,9 @@ File Conditions::header() const {
   for (const Function& function : functions_)
     functions += fmt::format("  [[nodiscard]] bool {}() const;\n", function.name);
   const bool times = name(spec::Reference::Kind::elapsed), index = name(spec::Reference::Kind::index);
+  const bool member = names_member();
   std::set<std::string> headers;
-  if (index) headers.insert("<cstdint>");
+  if (index || member) headers.insert("<cstdint>");
   if (times) headers.insert("<tessera/time.hpp>");
   return {header_name(), fmt::format(R"({}#pragma once
 
@@ -304,7 +309,7 @@ struct tessera_Conditions {{
   const Outputs& out;
   const Memory& memory;
   const Parameters& parameters;
-{}{}{}
+{}{}{}{}
 {}}};
 
 }}  // namespace {}
@@ -312,8 +317,9 @@ struct tessera_Conditions {{
                                      project_.banner(), include_block(headers), subsystem_.name,
                                      unit_namespace(project_.model, unit_),
                                      times ? "  const tessera::Duration& elapsed;\n" : "",
-                                     index ? "  const std::uint32_t& index;\n" : "", values(), functions,
-                                     unit_namespace(project_.model, unit_))};
+                                     index ? "  const std::uint32_t& index;\n" : "",
+                                     member ? "  const std::uint32_t& i;  // the member of the fleet\n" : "",
+                                     values(), functions, unit_namespace(project_.model, unit_))};
 }
 
 std::string Conditions::values() const {
@@ -337,13 +343,15 @@ void Conditions::add_marked(const Function& function, std::string& out) const {
   };
   // There is no line 0 for the head of an expression on line 1.
   out += line > 1 ? marker(line - 1) + head : head + marker(line);
-  out += at_column(*function.expression, std::max(function.expression->span.column, 1U)) + "); }\n";
+  out += at_column(*function.expression, std::max(function.expression->span.column, 1U),
+                   buffer_families(subsystem_)) +
+         "); }\n";
 }
 
 /// Each line of the expression is a line of the file, and begins in column 1.
 void Conditions::add_listed(const Function& function, File& file) const {
   const spec::Span& span = function.expression->span;
-  const std::string text = at_column(*function.expression, 1);
+  const std::string text = at_column(*function.expression, 1, buffer_families(subsystem_));
   file.text +=
       fmt::format("// {}\nbool tessera_Conditions::{}() const {{ return static_cast<bool>(\n{}); }}\n",
                   comment_text(function.says), function.name, text);

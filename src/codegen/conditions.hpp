@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "codegen/project.hpp"
@@ -19,6 +20,8 @@ class Conditions {
   /// tessera::Subsystem::decide and ::route.
   [[nodiscard]] std::string decide() const;
   [[nodiscard]] std::string route() const;
+  /// "static_cast<Behaviour>(behaviour)": the parameter `behaviour` as one of the enumeration.
+  [[nodiscard]] static std::string_view behaviour_text(const spec::Subsystem& subsystem);
   /// Private members of the class that evaluates them: the conditions, and what `decide`
   /// remembers for `route`.
   /// Empty: none.
@@ -50,6 +53,8 @@ class Conditions {
   void add_listed(const Function& function, File& file) const;
   /// Whether some condition names such a thing.
   [[nodiscard]] bool name(spec::Reference::Kind kind) const;
+  /// Whether some condition may name `i`.
+  [[nodiscard]] bool names_member() const;
   /// Constants for the values of memory that conditions name.
   [[nodiscard]] std::string values() const;
   std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);
@@ -63,6 +68,7 @@ class Conditions {
     std::string when;  ///< "if (failed) "; empty: in any case
     spec::NextId entry;
   };
+  [[nodiscard]] static std::string return_text(const Route& route, const spec::Next& entry);
   [[nodiscard]] std::string route_text(spec::BehaviourId behaviour, std::vector<Route> routes) const;
   [[nodiscard]] std::string question(spec::BehaviourId behaviour, spec::NextId entry) const;
   [[nodiscard]] std::string when_text(spec::BehaviourId behaviour, spec::NextId entry) const;

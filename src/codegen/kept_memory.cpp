@@ -41,12 +41,26 @@ std::string kept_enumerations(const spec::Model& model, const spec::Subsystem& s
   for (const spec::Field& cell : subsystem.memory) {
     if (!has_enumeration(cell)) continue;
     const std::string name = enumeration_of(model, subsystem, cell);
-    std::vector<std::string_view> values(cell.few->names.begin(), cell.few->names.end());
-    std::vector<std::string> literals;
-    for (const std::string_view value : values) literals.push_back(string_literal(value));
-    std::string text = enumeration(fmt::format("enum class {} : std::uint8_t", name), values);
+    const spec::FewValues& few = *cell.few;
+    std::vector<std::string> literals, values;
+    for (std::uint32_t value = 0; value < few.names.size(); ++value) {
+      literals.push_back(string_literal(few.names[value]));
+      const bool is_member = value >= few.first_member && value - few.first_member < few.member_count;
+      if (!is_member)
+        values.push_back(few.member_count > 0 && value > few.first_member
+                             ? fmt::format("{} = {}", few.names[value], value)
+                             : few.names[value]);
+    }
+    std::string text =
+        enumeration(fmt::format("enum class {} : std::uint{}_t", name, literals.size() > 256 ? 16 : 8),
+                    {values.begin(), values.end()});
+    if (few.member_count > 0)
+      text += fmt::format(
+          "// The members of {0} are values, too: memory.{1} == tessera::Member{{3}}, memory.{1}.member().\n"
+          "friend constexpr tessera::MemberValues tessera_members_of({2}) {{ return {{{3}, {4}}}; }}\n",
+          few.fleet, cell.name, name, few.first_member, few.member_count);
     text += fmt::format("friend constexpr std::array<std::string_view, {}> tessera_names_of({}) {{\n",
-                        values.size(), name);
+                        literals.size(), name);
     const std::string list = fmt::format("  return {{{}}};\n", fmt::join(literals, ", "));
     text += (list.size() <= column_limit - 2
                  ? list
@@ -64,6 +78,10 @@ std::string kept_enumerations(const spec::Model& model, const spec::Subsystem& s
 
 std::string value_constant(const spec::Model& model, const spec::Subsystem& subsystem,
                            std::string_view value) {
+  const bool is_fleet = std::ranges::any_of(subsystem.memory, [&](const spec::Field& cell) {
+    return has_enumeration(cell) && cell.few->fleet == value;
+  });
+  if (is_fleet) return fmt::format("tessera::Members {}{{}};", value);
   std::vector<std::string> meanings;
   for (const spec::Field& cell : subsystem.memory)
     if (has_enumeration(cell) && cell.few->find(value))

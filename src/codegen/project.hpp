@@ -21,6 +21,18 @@ struct Unit {
   std::vector<spec::InstanceId> instances;  ///< the instances that run it, in the order of the model
 };
 
+/// A part of which there is one for each member of a fleet is one in C++: an array of buffers, or a function that
+/// finds the member in its context. Whether a part stands for its family, or for itself.
+template <class Part>
+[[nodiscard]] bool is_first(const Part& part) {
+  return !part.member || part.member->number == 0;
+}
+/// Its name in C++, which is that in the specification.
+template <class Part>
+[[nodiscard]] const std::string& written_name(const Part& part) {
+  return part.member ? part.member->family : part.name;
+}
+
 /// Every unit, definition by definition, except those that no agent uses. Linear in the instances.
 [[nodiscard]] std::vector<Unit> units_of(const spec::Model& model);
 

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,7 +12,13 @@
 namespace tessera::codegen {
 namespace {
 
-void add_name(const spec::Field& field, std::string_view owner, std::string& out) {
+/// here: the text says request[i]; otherwise it says request, which is all of them.
+void add_name(const spec::Field& field, std::string_view owner, bool here, std::string& out) {
+  if (field.member) {
+    const std::string name = fmt::format("{}.{}{}", owner, field.member->family, here ? "[i]" : "");
+    if (here || field.member->number == 0) out += fmt::format("{}{}", out.empty() ? "" : ", ", name);
+    return;
+  }
   out += fmt::format("{}{}.{}", out.empty() ? "" : ", ", owner, field.name);
 }
 
@@ -19,10 +26,17 @@ void add_name(const spec::Field& field, std::string_view owner, std::string& out
 void add_names(const Numbered<spec::BufferId, spec::Field>& fields,
                const std::optional<std::vector<spec::BufferId>>& used, std::string_view owner,
                std::string& out) {
-  if (used)
-    for (const spec::BufferId buffer : *used) add_name(fields[buffer], owner, out);
-  else
-    for (const spec::Field& field : fields) add_name(field, owner, out);
+  if (!used) {
+    for (const spec::Field& field : fields) add_name(field, owner, false, out);
+    return;
+  }
+  for (const spec::BufferId buffer : *used) {
+    const std::optional<spec::Member>& member = fields[buffer].member;
+    const auto of_family = std::ranges::count_if(*used, [&](spec::BufferId one) {
+      return member && fields[one].member && fields[one].member->family == member->family;
+    });
+    add_name(fields[buffer], owner, member && of_family == 1 && member->count > 1, out);
+  }
 }
 
 /// The subject of the function: its behaviour, and the buffers that this behaviour receives and sends.
@@ -30,12 +44,14 @@ std::string description(const Unit& unit, const spec::Behaviour& behaviour) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   std::string reads, writes;
   if (subsystem.kind == spec::SubsystemKind::receptor)
-    for (const spec::Field& field : subsystem.real) add_name(field, "in", reads);
+    for (const spec::Field& field : subsystem.real) add_name(field, "in", false, reads);
   add_names(subsystem.inputs, behaviour.receive, "in", reads);
   if (subsystem.kind == spec::SubsystemKind::effector)
-    for (const spec::Field& field : subsystem.real) add_name(field, "out", writes);
+    for (const spec::Field& field : subsystem.real) add_name(field, "out", false, writes);
   add_names(subsystem.outputs, behaviour.send, "out", writes);
-  std::string text = fmt::format("/// Behaviour {} of {}.\n", behaviour.name, unit_path(unit));
+  std::string text = fmt::format(
+      "/// Behaviour {} of {}.{}\n", written_name(behaviour), unit_path(unit),
+      behaviour.member ? fmt::format(" One for each {}: i is context.member.", behaviour.member->fleet) : "");
   if (!reads.empty()) text += fmt::format("/// Reads {}.\n", reads);
   if (!writes.empty()) text += fmt::format("/// Writes {}.\n", writes);
   return text;
@@ -49,13 +65,15 @@ std::vector<Stub> stubs(const spec::Model& model) {
   for (const Unit& unit : units) {
     const std::string space = unit_namespace(model, unit);
     for (const spec::Behaviour& behaviour : unit.subsystem->behaviours) {
+      if (!is_first(behaviour)) continue;
       Stub stub;
       stub.file = user_file(units, unit);
-      stub.function = behaviour.name;
+      stub.function = written_name(behaviour);
       stub.subsystem = unit_path(unit);
       stub.space = space;
-      stub.signature = fmt::format(
-          "void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)", behaviour.name);
+      stub.signature =
+          fmt::format("void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)",
+                      written_name(behaviour));
       stub.preamble = fmt::format("#include \"{}\"\n\nnamespace {} {{\n", unit_header(unit), space);
       stub.body = fmt::format("{}{} {{}}\n", description(unit, behaviour), stub.signature);
       stub.closing = fmt::format("}}  // namespace {}\n", space);

@@ -21,12 +21,13 @@ class Header {
         unit_(unit),
         subsystem_(*unit.subsystem),
         parameters_(parameters_of(project.model, unit)) {
-    for (const spec::Behaviour& behaviour : subsystem_.behaviours) hidden_.insert(behaviour.name);
+    for (const spec::Behaviour& behaviour : subsystem_.behaviours) hidden_.insert(written_name(behaviour));
     using Fields = const std::vector<spec::Field>*;
     for (const Fields fields : std::initializer_list<Fields>{&subsystem_.inputs, &subsystem_.outputs,
                                                              &subsystem_.memory, &subsystem_.real})
       for (const spec::Field& field : *fields) {
-        hidden_.insert(field.name);
+        hidden_.insert(written_name(field));
+        if (field.member) headers_.insert("<array>");
         if (!field.few) add_headers(field.type, headers_);
       }
     for (const spec::Parameter* parameter : parameters_) add_headers(parameter->type, headers_);
@@ -94,10 +95,15 @@ struct Context : tessera::Context {{
 
   void add_buffers(const std::vector<spec::Field>& fields, std::string_view template_name,
                    std::vector<Declaration>& members) const {
-    for (const spec::Field& field : fields)
-      members.push_back({fmt::format("tessera::{}<{}> {};", template_name,
-                                     type_name(project_.model, field.type, hidden_), field.name),
+    for (const spec::Field& field : fields) {
+      if (!is_first(field)) continue;
+      const std::string buffer =
+          fmt::format("tessera::{}<{}>", template_name, type_name(project_.model, field.type, hidden_));
+      members.push_back({field.member ? fmt::format("std::array<{}, {}> {};", buffer, field.member->count,
+                                                    field.member->family)
+                                      : fmt::format("{} {};", buffer, field.name),
                          comment_text(field.type.unit)});
+    }
   }
 
   [[nodiscard]] std::string inputs() const {
@@ -150,8 +156,11 @@ struct Context : tessera::Context {{
   [[nodiscard]] std::string functions() const {
     std::string out;
     for (const spec::Behaviour& behaviour : subsystem_.behaviours)
-      out += fmt::format("void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out);\n",
-                         behaviour.name);
+      if (is_first(behaviour))
+        out += fmt::format(
+            "void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out);{}\n",
+            written_name(behaviour),
+            behaviour.member ? fmt::format("  // of each {}: context.member", behaviour.member->fleet) : "");
     return out;
   }
 

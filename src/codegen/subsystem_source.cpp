@@ -83,6 +83,14 @@ std::optional<std::string> bind_non_finite(const Project& project, const spec::S
                      subsystem.real[at].name, fmt::join(parts, " && "));
 }
 
+void bind_buffers(const Numbered<spec::BufferId, spec::Field>& buffers, std::string_view kind,
+                  std::string_view owner, std::vector<std::string>& lines) {
+  for (const spec::Field& field : buffers)
+    if (is_first(field))
+      lines.push_back(fmt::format("bindings.{3}{0}(\"{2}\", {1}.{2});", kind, owner, written_name(field),
+                                  field.member ? "each_" : ""));
+}
+
 std::string bind(const Project& project, const Unit& unit) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   std::vector<std::string> lines;
@@ -96,10 +104,8 @@ std::string bind(const Project& project, const Unit& unit) {
     for (const spec::Limit& limit : subsystem.limits)
       if (limit.real == at) lines.push_back(bind_limit(subsystem, limit));
   }
-  for (const spec::Field& field : subsystem.inputs)
-    lines.push_back(fmt::format("bindings.input(\"{0}\", in.{0});", field.name));
-  for (const spec::Field& field : subsystem.outputs)
-    lines.push_back(fmt::format("bindings.output(\"{0}\", out.{0});", field.name));
+  bind_buffers(subsystem.inputs, "input", "in", lines);
+  bind_buffers(subsystem.outputs, "output", "out", lines);
   for (const spec::Field& field : subsystem.memory)
     lines.push_back(
         fmt::format("bindings.{1}(\"{0}\", memory.{0});", field.name, field.few ? "keep" : "remember"));
@@ -109,32 +115,65 @@ std::string bind(const Project& project, const Unit& unit) {
                          lines);
 }
 
+/// "behaviour" as one of the enumeration; of a family, its first, and the member in the context.
+std::string kind_of_behaviour(const spec::Subsystem& subsystem) {
+  std::string families;
+  std::uint32_t number = 0;
+  for (const spec::Behaviour& behaviour : subsystem.behaviours) {
+    if (behaviour.member && behaviour.member->number == 0)
+      families += fmt::format(
+          "    if ({0}behaviour < {1}) return context_.member = behaviour{2}, Behaviour::{3};\n",
+          number == 0 ? "" : fmt::format("behaviour >= {} && ", number), number + behaviour.member->count,
+          number == 0 ? "" : fmt::format(" - {}", number), behaviour.member->family);
+    ++number;
+  }
+  if (families.empty()) return {};
+  return fmt::format(
+      R"(  /// The behaviour of that number. Of one for each member of a fleet, `context.member` becomes the member.
+  Behaviour behaviour_of(std::uint32_t behaviour) {{
+{}    context_.member = 0;
+    return static_cast<Behaviour>(behaviour);
+  }}
+
+)",
+      families);
+}
+
 std::string call(const spec::Subsystem& subsystem) {
-  if (subsystem.behaviours.size() == 1)
+  if (subsystem.behaviours.size() == 1 && !subsystem.behaviours[0].member)
     return member_function(
         "void call(std::uint16_t) override",
         {fmt::format("yours::{}(context_, in, memory, out);", subsystem.behaviours[0].name)});
   std::string cases;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
-    cases +=
-        fmt::format("      case Behaviour::{0}:\n        return yours::{0}(context_, in, memory, out);\n",
-                    behaviour.name);
+    if (is_first(behaviour))
+      cases +=
+          fmt::format("      case Behaviour::{0}:\n        return yours::{0}(context_, in, memory, out);\n",
+                      written_name(behaviour));
   return fmt::format(R"(  void call(std::uint16_t behaviour) override {{
-    switch (static_cast<Behaviour>(behaviour)) {{
+    switch ({}) {{
 {}    }}
   }}
 )",
-                     cases);
+                     Conditions::behaviour_text(subsystem), cases);
 }
 
 std::string behaviours_enumeration(const spec::Subsystem& subsystem) {
-  std::vector<std::string_view> names;
-  for (const spec::Behaviour& behaviour : subsystem.behaviours) names.push_back(behaviour.name);
-  return enumeration("enum class Behaviour : std::uint16_t", names);
+  std::vector<std::string> names;
+  std::uint32_t number = 0, expected = 0;
+  for (const spec::Behaviour& behaviour : subsystem.behaviours) {
+    if (is_first(behaviour)) {
+      names.push_back(number == expected ? written_name(behaviour)
+                                         : fmt::format("{} = {}", written_name(behaviour), number));
+      expected = number + 1;
+    }
+    ++number;
+  }
+  return enumeration("enum class Behaviour : std::uint16_t", {names.begin(), names.end()});
 }
 
 std::string subsystem_class(const Project& project, const Unit& unit, const Conditions& conditions) {
-  const std::string members = conditions.members();
+  const std::string members = conditions.members(), families = kind_of_behaviour(*unit.subsystem);
   return fmt::format(R"({}
 /// The user's functions and the conditions of {}, by number.
 class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory, yours::Outputs,
@@ -143,11 +182,11 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
 {}
 {}
 {}
-{}{}}};
+{}{}{}{}}};
 )",
                      behaviours_enumeration(*unit.subsystem), unit_path(unit), bind(project, unit),
                      call(*unit.subsystem), conditions.decide(), conditions.route(),
-                     members.empty() ? "" : "\n private:\n" + members);
+                     members.empty() && families.empty() ? "" : "\n private:\n", families, members);
 }
 
 /// Durations stand in the table of behaviours.

@@ -4,6 +4,9 @@
 
 #include "layers/built_in.hpp"
 #include "layers/sheet.hpp"
+#include "spec/conditions/memory_part.hpp"
+#include "spec/conditions/quantified_part.hpp"
+#include "spec/model/member.hpp"
 #include "tessera/net_words.hpp"
 
 namespace tessera::layers {
@@ -40,27 +43,51 @@ void each_part(const spec::Expression& expression, Visit visit) {
   }));
 }
 
-/// "grant" for "in.grant.fresh", if it is of that form.
-std::string_view buffer_in(std::span<const Token> part, std::string_view owner, std::string_view status) {
-  const bool fits = part.size() == 5 && part[0].is(owner) && part[1].is(".") && part[3].is(".") &&
-                    part[4].is(status) && part[2].kind == Token::Kind::name;
-  return fits ? part[2].text : std::string_view{};
+using Index = std::optional<std::uint32_t>;
+
+/// "grant" for "in.grant.fresh", "grant[2]" for "in.grant[i].fresh" with member 2, if it is of that form.
+std::string buffer_in(std::span<const Token> part, std::string_view owner, std::string_view status,
+                      Index member) {
+  const bool fits = (part.size() == 5 || part.size() == 8) && part[0].is(owner) && part[1].is(".") &&
+                    part[part.size() - 2].is(".") && part.back().is(status) &&
+                    part[2].kind == Token::Kind::name;
+  if (!fits) return {};
+  if (part.size() == 5) return std::string(part[2].text);
+  const Index number = spec::index_at_end(part.first(6), member);
+  return number ? spec::name_of_member(std::string(part[2].text), *number) : std::string();
 }
 
 std::uint32_t number_of(const Numbered<spec::BufferId, spec::Field>& buffers, std::string_view name) {
   return static_cast<std::uint32_t>(std::ranges::find(buffers, name, &spec::Field::name) - buffers.begin());
 }
 
-/// The inputs and outputs whose outcome a part asks for.
-struct Buffers {
-  std::string_view fresh, late_input, late_output;
-  explicit Buffers(std::span<const Token> part)
-      : fresh(buffer_in(part, "in", "fresh")),
-        late_input(buffer_in(part, "in", "timed_out")),
-        late_output(buffer_in(part, "out", "timed_out")) {}
-};
+/// The names of the buffers that the part asks for; none: there are more than the net looks at.
+std::vector<std::string> members_of(const spec::Subsystem& subsystem, const spec::QuantifiedPart& part) {
+  std::vector<std::string> names;
+  for (const spec::Field& field : part.owner == "in" ? subsystem.inputs : subsystem.outputs) {
+    if (!field.member || field.member->family != part.family) continue;
+    if (field.member->count > KnownFacts::most_members) return {};
+    names.push_back(field.name);
+  }
+  return names;
+}
 
 }  // namespace
+
+/// The inputs and outputs whose outcome a part asks for.
+struct AskedBuffers {
+  std::string fresh, late_input, late_output;
+  AskedBuffers(std::span<const Token> part, Index member)
+      : fresh(buffer_in(part, "in", "fresh", member)),
+        late_input(buffer_in(part, "in", "timed_out", member)),
+        late_output(buffer_in(part, "out", "timed_out", member)) {}
+  /// name: of the buffer of one member.
+  AskedBuffers(const spec::QuantifiedPart& part, const std::string& name) {
+    if (part.owner == "in" && part.status == "fresh") fresh = name;
+    if (part.owner == "in" && part.status == "timed_out") late_input = name;
+    if (part.owner == "out" && part.status == "timed_out") late_output = name;
+  }
+};
 
 KnownFacts::KnownFacts(const spec::Model& model, const Wiring& wiring, net::SubsystemId subsystem,
                        net::HierarchicalNet& net)
@@ -80,10 +107,16 @@ KnownFacts::Asked KnownFacts::asked() const {
               std::vector<bool>(subsystem_.outputs.size() + 1)};
   each_expression(subsystem_, [&](const spec::Expression& expression) {
     each_part(expression, [&](std::span<const Token> part) {
-      const Buffers asks(part);
-      for (const std::string_view input : {asks.fresh, asks.late_input})
-        if (!input.empty()) found.inputs[number_of(subsystem_.inputs, input)] = true;
-      if (!asks.late_output.empty()) found.outputs[number_of(subsystem_.outputs, asks.late_output)] = true;
+      const auto add = [&](const AskedBuffers& asks) {
+        for (const std::string& input : {asks.fresh, asks.late_input})
+          if (!input.empty()) found.inputs[number_of(subsystem_.inputs, input)] = true;
+        if (!asks.late_output.empty()) found.outputs[number_of(subsystem_.outputs, asks.late_output)] = true;
+      };
+      if (const auto quantified = spec::quantified_part(part))
+        for (const std::string& name : members_of(subsystem_, *quantified))
+          add(AskedBuffers(*quantified, name));
+      else
+        add(AskedBuffers(part, expression.member));
     });
   });
   return found;
@@ -153,14 +186,25 @@ net::FactId KnownFacts::set_by(net::ChannelId channel, Direction direction) cons
   return {};
 }
 
-KnownFacts::Question KnownFacts::question_of(std::span<const Token> part) const {
-  const Buffers asks(part);
-  for (const std::string_view input : {asks.fresh, asks.late_input})
+KnownFacts::Question KnownFacts::question_of(const AskedBuffers& asks) const {
+  for (const std::string& input : {asks.fresh, asks.late_input})
     if (!input.empty())
       return {fact_of(FactKind::received, number_of(subsystem_.inputs, input)), !asks.fresh.empty()};
   if (!asks.late_output.empty())
     return {fact_of(FactKind::sent, number_of(subsystem_.outputs, asks.late_output)), false};
-  return memory_in(part);
+  return {};
+}
+
+std::vector<KnownFacts::Question> KnownFacts::questions_of(std::span<const Token> part, Index member) const {
+  std::vector<Question> all;
+  if (const auto quantified = spec::quantified_part(part)) {
+    for (const std::string& name : members_of(subsystem_, *quantified))
+      all.push_back(question_of(AskedBuffers(*quantified, name)));
+    return all;
+  }
+  all.push_back(question_of(AskedBuffers(part, member)));
+  if (!all.front().fact.valid()) all.front() = memory_in(part, member);
+  return all;
 }
 
 std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expressions,
@@ -170,8 +214,9 @@ std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expre
   std::vector<net::FactId> asked;
   for (const spec::Expression* expression : expressions)
     each_part(*expression, [&](std::span<const Token> part) {
-      const net::FactId fact = question_of(part).fact;
-      if (fact.valid() && std::ranges::find(asked, fact) == asked.end()) asked.push_back(fact);
+      for (const Question& question : questions_of(part, expression->member))
+        if (question.fact.valid() && std::ranges::find(asked, question.fact) == asked.end())
+          asked.push_back(question.fact);
     });
   for (const spec::Next* entry : counted)
     for (const spec::Change& change : entry->sets) {
@@ -215,7 +260,12 @@ spec::TruthOf KnownFacts::truths(spec::BehaviourId behaviour, const Values& valu
     const spec::Truth constant = spec::truth_of(expression);
     if (constant != spec::Truth::free || values.empty() || !may_ask(expression)) return constant;
     return spec::truth_of(expression.text, [&](std::span<const Token> part) {
-      return answer(question_of(part), behaviour, values, failures);
+      std::vector<spec::Truth> answers;
+      for (const Question& question : questions_of(part, expression.member))
+        answers.push_back(answer(question, behaviour, values, failures));
+      if (answers.empty()) return spec::Truth::free;
+      const auto quantified = spec::quantified_part(part);
+      return quantified ? quantified->truth(answers) : answers.front();
     });
   };
 }

@@ -2,6 +2,7 @@
 
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
@@ -16,6 +17,7 @@
 namespace tessera::layers {
 
 class Sheet;
+struct AskedBuffers;
 
 /// The knowledge of the net of one subsystem while it runs: facts, each with a few values. A fact has one place per
 /// value; these places hold one token together. A transition reads a fact by taking the token of one value and
@@ -46,6 +48,8 @@ class KnownFacts {
   [[nodiscard]] std::vector<Values> assignments(const Expressions& expressions,
                                                 const std::vector<const spec::Next*>& counted = {}) const;
   static constexpr std::size_t most_assignments = 4096;
+  /// The net knows the answers of any(...), all(...) and count(...) over at most so many members of a fleet.
+  static constexpr std::uint32_t most_members = 4;
 
   /// The truths of the conditions of a behaviour, if facts have these values.
   /// failures: any iteration, also of others, may end with a failure; then the value that came may be invalid, and
@@ -106,13 +110,18 @@ class KnownFacts {
   [[nodiscard]] bool is_known(const spec::Channel& channel, Direction direction) const;
   void find_memory();
   [[nodiscard]] net::FactId fact_of(net::Parts::Fact::Kind kind, std::uint32_t subject) const;
-  [[nodiscard]] Question memory_in(std::span<const spec::Token> part) const;
+  /// member: the value of `i`.
+  [[nodiscard]] Question memory_in(std::span<const spec::Token> part,
+                                   std::optional<std::uint32_t> member) const;
   [[nodiscard]] bool apply(const std::vector<spec::Change>& changes, Values& values) const;
   void find(const Wiring& wiring, Direction direction, const std::vector<bool>& asked);
   void add(Fact fact, const std::string& name, std::vector<std::string> values, net::Span span);
   [[nodiscard]] const Fact& of(net::FactId fact) const { return facts_[fact.value - first_.value]; }
-  /// Without a fact: the part asks for none.
-  [[nodiscard]] Question question_of(std::span<const spec::Token> part) const;
+  /// Without a fact: they are none that the net knows.
+  [[nodiscard]] Question question_of(const AskedBuffers& asks) const;
+  /// The questions of a part of a condition: one, or those of all members for any(...), all(...) and count(...).
+  [[nodiscard]] std::vector<Question> questions_of(std::span<const spec::Token> part,
+                                                   std::optional<std::uint32_t> member) const;
   [[nodiscard]] spec::Truth answer(const Question& question, spec::BehaviourId behaviour,
                                    const Values& values, bool failures) const;
 

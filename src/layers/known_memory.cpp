@@ -28,8 +28,9 @@ net::FactId KnownFacts::fact_of(FactKind kind, std::uint32_t subject) const {
   return {};
 }
 
-KnownFacts::Question KnownFacts::memory_in(std::span<const spec::Token> part) const {
-  std::optional<spec::MemoryPart> found = spec::memory_part(part, subsystem_.memory);
+KnownFacts::Question KnownFacts::memory_in(std::span<const spec::Token> part,
+                                           std::optional<std::uint32_t> member) const {
+  std::optional<spec::MemoryPart> found = spec::memory_part(part, subsystem_.memory, member);
   if (!found) return {};
   return {.fact = fact_of(FactKind::memory, found->cell), .holds = std::move(found->holds)};
 }

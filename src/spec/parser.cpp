@@ -57,7 +57,8 @@ Model read_model(const Document& document, Diagnostics& out) {
   model.parameters = read_parameters(file.find("parameters"), types, out);
   const Entry* agents = file.require("agents", "a system is made of agents");
   std::optional<OnError> on_error = read_on_error(file, out);
-  const SystemScope scope{types, model.parameters, on_error ? &*on_error : nullptr};
+  const FleetSizes fleets(agents);
+  const SystemScope scope{types, model.parameters, on_error ? &*on_error : nullptr, &fleets};
   const AgentGroups groups = read_agents(file.find("templates"), agents, scope, model, out);
   if (on_error) check_used(*on_error, out);
   CommunicationModels models;

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <type_traits>
 
 #include "tessera/time.hpp"
@@ -96,5 +97,32 @@ template <class T>
 using Input = Buffer<T, Arrival>;
 template <class T>
 using Output = Buffer<T, Departure>;
+
+/// Questions about the buffers of which there is one for each member of a fleet (`request: "Request[each robot]"`).
+/// holds: a function of one of them: `tessera::which(in.request, [](const auto& one) { return one.fresh; })`.
+template <class Buffers, class Holds>
+[[nodiscard]] constexpr std::uint32_t count(const Buffers& buffers, Holds holds) {
+  std::uint32_t number = 0;
+  for (const auto& one : buffers) number += holds(one) ? 1U : 0U;
+  return number;
+}
+/// The number of the first member for which it holds; without one the number of members.
+template <class Buffers, class Holds>
+[[nodiscard]] constexpr std::uint32_t which(const Buffers& buffers, Holds holds) {
+  std::uint32_t member = 0;
+  for (const auto& one : buffers) {
+    if (holds(one)) return member;
+    ++member;
+  }
+  return member;
+}
+template <class Buffers, class Holds>
+[[nodiscard]] constexpr bool any(const Buffers& buffers, Holds holds) {
+  return which(buffers, holds) < buffers.size();
+}
+template <class Buffers, class Holds>
+[[nodiscard]] constexpr bool all(const Buffers& buffers, Holds holds) {
+  return count(buffers, holds) == buffers.size();
+}
 
 }  // namespace tessera

@@ -50,7 +50,8 @@ class Context {
   /// Time since the first call of the behaviour's transition function; zero in that call. A behaviour that
   /// follows itself by `next` begins again. Measured by the clock of the run, as `now`.
   Duration in_behaviour{};
-  std::uint32_t index = 0;  ///< of the agent in its fleet, from 0; 0 if it is in none
+  std::uint32_t index = 0;   ///< of the agent in its fleet, from 0; 0 if it is in none
+  std::uint32_t member = 0;  ///< for which the behaviour is (`for: each robot`), from 0; 0 if it is for none
 
   /// Writes to the terminal and the recording, with time and path. Allocates nothing; cuts text at 512 bytes.
   template <class... Args>

@@ -3,11 +3,25 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 namespace tessera {
 
 struct Bindings;
+
+/// A member of a fleet, by its number, as a value of memory (`values: [nobody, each robot]`).
+struct Member {
+  std::uint32_t number = 0;
+};
+/// The fleet in conditions: `memory.lent_to == robot[i]`.
+struct Members {
+  constexpr Member operator[](std::uint32_t number) const { return {number}; }
+};
+/// The positions of the values that are members.
+struct MemberValues {
+  std::uint32_t first = 0, count = 0;
+};
 
 /// A value of memory that is part of the net (`values` in the specification). The net changes it, with its
 /// firings: transition functions and conditions read it as the enumeration.
@@ -25,6 +39,17 @@ class Kept {
 
   constexpr operator Value() const { return value_; }  // NOLINT(google-explicit-constructor)
   friend constexpr bool operator==(const Kept& kept, Value value) { return kept.value_ == value; }
+
+  friend constexpr bool operator==(const Kept& kept, Member member) { return kept.member() == member.number; }
+  /// The number of the member of the fleet that the value is; nullopt: another value.
+  [[nodiscard]] constexpr std::optional<std::uint32_t> member() const {
+    if constexpr (requires { tessera_members_of(Value{}); }) {
+      constexpr MemberValues members = tessera_members_of(Value{});
+      const auto number = static_cast<std::uint32_t>(value_) - members.first;
+      if (static_cast<std::uint32_t>(value_) >= members.first && number < members.count) return number;
+    }
+    return std::nullopt;
+  }
 
   /// The name of the value. Recordings keep it as a text.
   [[nodiscard]] std::string_view view() const {

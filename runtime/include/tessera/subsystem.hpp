@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
@@ -9,6 +10,7 @@
 #include <new>
 #include <optional>
 #include <span>
+#include <string>
 #include <string_view>
 #include <tuple>
 #include <type_traits>
@@ -209,6 +211,11 @@ struct Bindings {
   void input(std::string_view name, Input<T>& buffer) {
     inputs.push_back(incoming(name, buffer));
   }
+  /// One for each member of a fleet: "request[0]", "request[1]" ...
+  template <class T, std::size_t Count>
+  void each_input(std::string_view name, std::array<Input<T>, Count>& buffers) {
+    for (std::size_t member = 0; member < Count; ++member) input(name_of(name, member), buffers[member]);
+  }
   template <class T>
   void real_input(std::string_view name, Input<T>& buffer, T* part = nullptr) {
     real_inputs.push_back(incoming(name, buffer));
@@ -217,6 +224,10 @@ struct Bindings {
   template <class T>
   void output(std::string_view name, Output<T>& buffer) {
     outputs.push_back(outgoing(name, buffer));
+  }
+  template <class T, std::size_t Count>
+  void each_output(std::string_view name, std::array<Output<T>, Count>& buffers) {
+    for (std::size_t member = 0; member < Count; ++member) output(name_of(name, member), buffers[member]);
   }
   template <class T>
   void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
@@ -292,6 +303,13 @@ struct Bindings {
   }
 
  private:
+  std::vector<std::shared_ptr<const std::string>> names_;  // of the buffers of members
+
+  std::string_view name_of(std::string_view family, std::size_t member) {
+    names_.push_back(
+        std::make_shared<const std::string>(std::string(family) + '[' + std::to_string(member) + ']'));
+    return *names_.back();
+  }
   template <class T>
   static Incoming incoming(std::string_view name, Input<T>& buffer) {
     return {name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>(), value_encoding_of<T>()};

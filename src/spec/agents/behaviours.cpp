@@ -6,6 +6,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
+#include "spec/agents/families.hpp"
 #include "spec/agents/few_values.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
@@ -33,54 +34,104 @@ const Entry* entry_of(const Entry& behaviour, std::string_view key) {
 class BehaviourReader {
  public:
   BehaviourReader(const std::vector<Entry>& entries, const ConditionScope& scope, SubsystemDefaults& defaults,
-                  Diagnostics& out)
-      : entries_(entries), scope_(scope), defaults_(defaults), out_(out) {
-    for (std::uint32_t i = 0; i < entries_.size(); ++i) {
-      check(entries_[i]);
-      by_name_.emplace(entries_[i].key, BehaviourId{i});
+                  const FleetSizes* fleets, Diagnostics& out)
+      : scope_(scope), defaults_(defaults), out_(&out) {
+    for (const Entry& entry : entries) {
+      check(entry);
+      Written written{&entry, {count_}, std::nullopt, {}};
+      if (const Entry* each = entry_of(entry, "for")) written.each = read_for(*each, fleets);
+      count_ += written.each ? written.each->count : 1;
+      by_name_.emplace(entry.key, written_.size());
+      written_.push_back(std::move(written));
     }
   }
 
   std::vector<Behaviour> read() {
-    for (const Entry& entry : entries_)
-      sets_.push_back(read_changes(entry_of(entry, "sets"), scope_.memory, out_));
+    for (Written& one : written_) {
+      const Entry* sets = entry_of(*one.entry, "sets");
+      each_member(one, [&](const Member* member) {
+        one.sets.push_back(read_changes(sets, scope_.memory, member, *out_));
+      });
+    }
     std::vector<Behaviour> behaviours;
-    behaviours.reserve(entries_.size());
-    for (const Entry& entry : entries_) behaviours.push_back(read_one(entry));
+    behaviours.reserve(count_);
+    for (const Written& one : written_)
+      each_member(one, [&](const Member* member) { behaviours.push_back(read_one(one, member)); });
     return behaviours;
   }
 
  private:
+  /// A behaviour as the file has it.
+  struct Written {
+    const Entry* entry;
+    BehaviourId first;                      ///< of its members
+    std::optional<EachMember> each;         ///< `for: each robot`
+    std::vector<std::vector<Change>> sets;  ///< per member
+  };
+
+  EachMember read_for(const Entry& entry, const FleetSizes* fleets) {
+    const Node* text = text_of(*entry.value, entry.span, "for", *out_, "for example for: each robot");
+    const auto each = text == nullptr ? std::nullopt : read_each(*text, 0, text->text.size(), fleets, *out_);
+    return each.value_or(EachMember{});  // without a fleet: nothing more is said about indices
+  }
+
+  /// Calls `read` for every member of a behaviour, or once with null. All members are written by the same text: its
+  /// mistakes are those of the first.
+  template <class Read>
+  void each_member(const Written& one, Read read) {
+    if (!one.each) {
+      read(nullptr);
+      return;
+    }
+    Diagnostics* const all = out_;
+    Diagnostics ignored(all->file(), all->text());
+    for (std::uint32_t number = 0; number < one.each->count; ++number) {
+      const Member member = one.each->member(one.entry->key, number);
+      if (number == 1) out_ = &ignored;
+      read(&member);
+    }
+    out_ = all;
+  }
+
+  [[nodiscard]] ConditionScope scope_for(const Member* member) const {
+    ConditionScope scope = scope_;
+    scope.member = member;
+    return scope;
+  }
+
   void check(const Entry& entry) {
     if (entry.key == "end") {
-      out_.error("E106", entry.span, "behaviour name 'end' is reserved", "'next: end' ends the subsystem");
+      out_->error("E106", entry.span, "behaviour name 'end' is reserved", "'next: end' ends the subsystem");
     } else if (std::find(generated.begin(), generated.end(), entry.key) != generated.end()) {
-      out_.error("E106", entry.span,
-                 "behaviour name " + in_quotes(entry.key) + " is taken by the generated code");
+      out_->error("E106", entry.span,
+                  "behaviour name " + in_quotes(entry.key) + " is taken by the generated code");
     } else {
-      check_name(entry.key, entry.span, "behaviour", out_);
+      check_name(entry.key, entry.span, "behaviour", *out_);
     }
   }
 
-  Behaviour read_one(const Entry& entry) {
-    const Section section(*entry.value, entry.span, "a behaviour",
-                          {"terminal", "error", "next", "send", "receive", "transfer", "takes", "sets"},
-                          out_);
+  Behaviour read_one(const Written& written, const Member* member) {
+    const Entry& entry = *written.entry;
+    const Section section(
+        *entry.value, entry.span, "a behaviour",
+        {"terminal", "error", "next", "send", "receive", "transfer", "takes", "sets", "for"}, *out_);
+    const ConditionScope scope = scope_for(member);
     Behaviour behaviour;
-    behaviour.name = entry.key;
+    behaviour.name = member == nullptr ? entry.key : name_of_member(entry.key, member->number);
+    if (member != nullptr) behaviour.member = *member;
     behaviour.span = entry.span;
-    behaviour.terminal = read_condition(section.find("terminal"), scope_, defaults_.conditions, out_);
-    behaviour.error = read_condition(section.find("error"), scope_, defaults_.conditions, out_);
+    behaviour.terminal = read_condition(section.find("terminal"), scope, defaults_.conditions, *out_);
+    behaviour.error = read_condition(section.find("error"), scope, defaults_.conditions, *out_);
     check_distinct_names(behaviour);
-    read_next(section.find("next"), behaviour);
-    behaviour.sets = sets_[static_cast<std::size_t>(&entry - entries_.data())];
+    read_next(section.find("next"), scope, behaviour);
+    behaviour.sets = written.sets[member == nullptr ? 0 : member->number];
     behaviour.send =
-        read_list(section.find("send"), {scope_.outputs, scope_.inputs, "output"}, defaults_.send);
-    behaviour.receive =
-        read_list(section.find("receive"), {scope_.inputs, scope_.outputs, "input"}, defaults_.receive);
+        read_list(section.find("send"), {scope_.outputs, scope_.inputs, "output", member}, defaults_.send);
+    behaviour.receive = read_list(section.find("receive"), {scope_.inputs, scope_.outputs, "input", member},
+                                  defaults_.receive);
     behaviour.transfer = read_transfer(section.find("transfer"));
     if (const Entry* takes = section.find("takes")) {
-      behaviour.takes = read_duration(*takes->value, takes->span, "takes", out_).value_or(Duration{1});
+      behaviour.takes = read_duration(*takes->value, takes->span, "takes", *out_).value_or(Duration{1});
     }
     return behaviour;
   }
@@ -90,64 +141,108 @@ class BehaviourReader {
       for (const Expression& terminal : behaviour.terminal.expressions) {
         if (error.name.empty() || error.name != terminal.name) continue;
         const bool shared = error.span == terminal.span;  // one condition of the subsystem
-        out_.error("E107", shared ? behaviour.error.span : error.span,
-                   "condition " + in_quotes(error.name) + " is both terminal and error",
-                   "'when: " + error.name + "' could mean either; " +
-                       (shared ? "name it under one of the two" : "rename one"));
+        out_->error("E107", shared ? behaviour.error.span : error.span,
+                    "condition " + in_quotes(error.name) + " is both terminal and error",
+                    "'when: " + error.name + "' could mean either; " +
+                        (shared ? "name it under one of the two" : "rename one"));
       }
     }
   }
 
-  void read_next(const Entry* entry, Behaviour& behaviour) {
+  void read_next(const Entry* entry, const ConditionScope& scope, Behaviour& behaviour) {
     if (entry == nullptr) {
       behaviour.next.push_back({{}, {}, behaviour.span});
       return;
     }
     behaviour.next_given = true;
     if (!entry->value->is_sequence()) {
-      read_step(*entry->value, entry->span, behaviour);
+      read_step(*entry->value, entry->span, scope, behaviour);
       return;
     }
-    if (entry->value->items.empty()) out_.error("E104", entry->span, "'next' lists nothing", next_hint);
+    if (entry->value->items.empty()) out_->error("E104", entry->span, "'next' lists nothing", next_hint);
     for (const Node* item : entry->value->items)
-      read_step(*item, item->is_null() ? entry->span : item->span, behaviour);
+      read_step(*item, item->is_null() ? entry->span : item->span, scope, behaviour);
   }
 
-  void read_step(const Node& node, Span at, Behaviour& behaviour) {
-    Next step{{}, {}, at};
-    if (node.is_map()) {
-      const Section section(node, at, "an entry of 'next'", {"to", "when", "sets"}, out_);
-      const Entry* to = section.require("to", next_hint);
-      if (to != nullptr) read_target(*to->value, to->span, step);
-      if (const Entry* when = section.find("when"))
-        step.when = read_when(*when, behaviour, scope_, defaults_.conditions, out_);
-      step.sets = read_changes(section.find("sets"), scope_.memory, out_);
-    } else {
-      read_target(node, at, step);
+  /// One item of `next`. It is an entry for each member if it leads to lend[i] from outside.
+  void read_step(const Node& node, Span at, const ConditionScope& scope, Behaviour& behaviour) {
+    if (!node.is_map()) {
+      const auto target = read_target(node, at);
+      add_step(target, nullptr, nullptr, scope, behaviour);
+      return;
     }
+    const Section section(node, at, "an entry of 'next'", {"to", "when", "sets"}, *out_);
+    const Entry* to = section.require("to", next_hint);
+    Target target{at, nullptr, {}};
+    if (to != nullptr) target = read_target(*to->value, to->span);
+    const bool fans_out = target.written != nullptr && target.written->each && scope.member == nullptr &&
+                          target.name.index == IndexedName::Index::variable;
+    if (!fans_out) {
+      add_step(target, section.find("when"), section.find("sets"), scope, behaviour);
+      return;
+    }
+    const std::size_t errors = out_->error_count();
+    const NextId first = behaviour.next.next_id();
+    each_member(*target.written, [&](const Member* member) {
+      add_step(target, section.find("when"), section.find("sets"), scope_for(member), behaviour);
+      behaviour.next.back().member = *member;
+    });
+    if (out_->error_count() == errors && behaviour.next[first].when.kind != When::Kind::expression)
+      out_->error("E291", target.span,
+                  "the entry is for each member of the fleet, but the same for all of them",
+                  "say for which it is taken: when: in.request[i].fresh; or name one: to: " +
+                      name_of_member(target.name.name, 0));
+  }
+
+  /// The end of an entry.
+  struct Target {
+    Span span;
+    const Written* written = nullptr;  ///< null: `end`, or unknown
+    IndexedName name;
+  };
+
+  void add_step(const Target& target, const Entry* when, const Entry* sets, const ConditionScope& scope,
+                Behaviour& behaviour) {
+    Next step{{}, {}, target.span};
+    step.behaviour = behaviour_of(target, scope.member);
+    if (when != nullptr) step.when = read_when(*when, behaviour, scope, defaults_.conditions, *out_);
+    step.sets = read_changes(sets, scope_.memory, scope.member, *out_);
     if (step.behaviour.valid()) {
-      const std::vector<Change>& then = sets_[step.behaviour.value];
+      const std::vector<Change>& then =
+          target.written->sets[step.behaviour.value - target.written->first.value];
       step.sets.insert(step.sets.end(), then.begin(), then.end());
     }
-    step.may_be_blocked = check_entry(step, scope_.memory, out_);
+    step.may_be_blocked = check_entry(step, scope_.memory, *out_);
     behaviour.next.push_back(std::move(step));
   }
 
-  void read_target(const Node& node, Span at, Next& step) {
-    const Node* text = text_of(node, at, "an entry of 'next'", out_, next_hint);
-    if (text == nullptr) return;
-    step.span = text->span;
-    if (text->text == "end") return;
-    const auto found = by_name_.find(text->text);
-    if (found != by_name_.end()) {
-      step.behaviour = found->second;
-      return;
+  Target read_target(const Node& node, Span at) {
+    const Node* text = text_of(node, at, "an entry of 'next'", *out_, next_hint);
+    if (text == nullptr) return {at, nullptr, {}};
+    Target target{text->span, nullptr, {}};
+    if (text->text == "end") return target;
+    const auto name = read_indexed(*text, 0, *out_);
+    if (!name) return target;
+    target.name = *name;
+    if (const auto found = by_name_.find(name->name); found != by_name_.end()) {
+      target.written = &written_[found->second];
+      return target;
     }
     std::vector<std::string> names{"end"};
-    for (const auto& [name, index] : by_name_) names.push_back(name);
+    for (const auto& [known, index] : by_name_) names.push_back(known);
     std::sort(names.begin(), names.end());
-    out_.error("E101", text->span, "unknown behaviour " + in_quotes(text->text),
-               did_you_mean(text->text, names));
+    out_->error("E101", name->index == IndexedName::Index::none ? text->span : name->span,
+                "unknown behaviour " + in_quotes(name->name), did_you_mean(name->name, names));
+    return target;
+  }
+
+  /// The behaviour to which an entry leads; none: `end`, or an error.
+  BehaviourId behaviour_of(const Target& target, const Member* member) {
+    if (target.written == nullptr) return {};
+    const Written& to = *target.written;
+    if (!to.each) return check_single(target.name, "behaviour", *out_) ? to.first : BehaviourId{};
+    const auto number = number_of(target.name, to.each->member(to.entry->key, 0), member, "behaviour", *out_);
+    return number ? BehaviourId{to.first.value + *number} : BehaviourId{};
   }
 
   BufferList read_list(const Entry* entry, const ListScope& scope, ListDefault& around) {
@@ -157,42 +252,43 @@ class BehaviourReader {
     }
     const Node& value = *entry->value;
     if (entry->key == "receive" && value.is_scalar() && (value.text == "first" || value.text == "last")) {
-      out_.error("E110", value.span, "'receive: " + value.text + "' belongs to a subsystem",
-                 "write it beside 'rate'; 'receive' of a behaviour lists its inputs");
+      out_->error("E110", value.span, "'receive: " + value.text + "' belongs to a subsystem",
+                  "write it beside 'rate'; 'receive' of a behaviour lists its inputs");
       return std::nullopt;
     }
-    return read_buffer_list(value, *entry, scope, around, out_);
+    return read_buffer_list(value, *entry, scope, around, *out_);
   }
 
   Transfer read_transfer(const Entry* entry) {
     if (entry == nullptr) return Transfer::sequential;
-    const Node* text = text_of(*entry->value, entry->span, "transfer", out_, "write sequential or parallel");
+    const Node* text = text_of(*entry->value, entry->span, "transfer", *out_, "write sequential or parallel");
     if (text == nullptr || text->text == "sequential") return Transfer::sequential;
     if (text->text != "parallel") {
-      out_.error("E104", text->span, "transfer must be sequential or parallel, not " + in_quotes(text->text),
-                 did_you_mean(text->text, {"sequential", "parallel"}));
+      out_->error("E104", text->span, "transfer must be sequential or parallel, not " + in_quotes(text->text),
+                  did_you_mean(text->text, {"sequential", "parallel"}));
     }
     return Transfer::parallel;
   }
 
-  const std::vector<Entry>& entries_;
   const ConditionScope& scope_;
   SubsystemDefaults& defaults_;
-  Diagnostics& out_;
-  std::unordered_map<std::string, BehaviourId> by_name_;
-  std::vector<std::vector<Change>> sets_;  // per behaviour
+  Diagnostics* out_;
+  std::vector<Written> written_;
+  std::unordered_map<std::string, std::size_t> by_name_;  // into written_
+  std::uint32_t count_ = 0;                               // behaviours of the subsystem
 };
 
 }  // namespace
 
 std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope,
-                                       SubsystemDefaults& defaults, Diagnostics& out) {
+                                       SubsystemDefaults& defaults, const FleetSizes* fleets,
+                                       Diagnostics& out) {
   const std::vector<Entry>& entries = entries_of(*entry.value, entry.span, "behaviours", out);
   if (entries.empty() && (entry.value->is_map() || entry.value->is_null())) {
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",
               "for example behaviours: { run: {} }");
   }
-  return BehaviourReader(entries, scope, defaults, out).read();
+  return BehaviourReader(entries, scope, defaults, fleets, out).read();
 }
 
 }  // namespace tessera::spec

@@ -11,10 +11,14 @@ namespace tessera::spec {
 
 /// Reads the behaviours of a subsystem. Everything that `scope` refers to has been read.
 ///
+/// A behaviour `for: each robot` becomes one for each member, which follow one another.
+///
 /// Their `next` is as in the file, without what `on_error` adds, and without implied entries.
 /// Errors: E101 unknown behaviour, buffer or condition; E103 no behaviour; E105-E107
-///         names; those of conditions and of lists of buffers.
+///         names; E291 an entry for each member without a condition of its own; those of conditions, of lists of
+///         buffers, and of read_each and number_of (families.hpp).
 [[nodiscard]] std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope,
-                                                     SubsystemDefaults& defaults, Diagnostics& out);
+                                                     SubsystemDefaults& defaults, const FleetSizes* fleets,
+                                                     Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -2,6 +2,7 @@
 
 #include <vector>
 
+#include "spec/agents/families.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
@@ -9,14 +10,18 @@
 /// The data of a subsystem: buffers, memory, parameters.
 namespace tessera::spec {
 
-/// NAME: TYPE pairs. what: the kind of thing that is named, e.g. "input". entry may be null.
+/// NAME: TYPE pairs. what: the kind of thing that is named, e.g. "input". entry may be null. "TYPE[each FLEET]" is one
+/// buffer for each member.
+///
+/// fleets: null: there are none. Errors: besides those of names and types, E285, E290; E290 also for real buffers.
 [[nodiscard]] std::vector<Field> read_buffers(const Entry* entry, std::string_view what, const Types& types,
-                                              Diagnostics& out);
+                                              const FleetSizes* fleets, Diagnostics& out);
 
 /// NAME: TYPE, NAME: { type, initial }, NAME: { values } or NAME: { counts } pairs. entry may be null.
 ///
 /// Errors: besides those of names and types, those of read_few_values.
-[[nodiscard]] std::vector<Field> read_memory(const Entry* entry, const Types& types, Diagnostics& out);
+[[nodiscard]] std::vector<Field> read_memory(const Entry* entry, const Types& types, const FleetSizes* fleets,
+                                             Diagnostics& out);
 
 /// NAME: VALUE or NAME: { type, default, min, max, unit } pairs. entry may be null.
 ///

@@ -65,6 +65,7 @@ const Node* read_expression(const Node& node, Span at, Expression& expression, D
 Expression checked_expression(const Node& node, Span at, std::string name, const ConditionScope& scope,
                               const std::vector<std::string>& others, Diagnostics& out) {
   Expression expression{std::move(name), {}, at};
+  if (scope.member != nullptr) expression.member = scope.member->number;
   if (const Node* text = read_expression(node, at, expression, out))
     check_expression(expression, *text, scope, others, out);
   return expression;
@@ -197,6 +198,7 @@ When read_when(const Entry& entry, const Behaviour& of, const ConditionScope& sc
                const SharedConditions& shared, Diagnostics& out) {
   When when;
   Expression expression;
+  if (scope.member != nullptr) expression.member = scope.member->number;
   const Node* text = read_expression(*entry.value, entry.span, expression, out);
   when.text.span = expression.span;
   const std::string& word = expression.text;

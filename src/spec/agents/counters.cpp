@@ -73,8 +73,8 @@ class Counting {
 
   [[nodiscard]] Truth truth(const Expression& expression) const {
     if (const Truth constant = truth_of(expression); constant != Truth::free) return constant;
-    return truth_of(expression.text, [this](std::span<const Token> tokens) {
-      const auto part = memory_part(tokens, subsystem_.memory);
+    return truth_of(expression.text, [this, &expression](std::span<const Token> tokens) {
+      const auto part = memory_part(tokens, subsystem_.memory, expression.member);
       if (!part || !knows(part->cell)) return Truth::free;
       return part->holds[values_[part->cell]] ? Truth::always : Truth::never;
     });

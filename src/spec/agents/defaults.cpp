@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/agents/families.hpp"
 #include "spec/model/endings.hpp"
 #include "tessera/nearest.hpp"
 
@@ -59,21 +60,35 @@ class ListReader {
     return ids;
   }
 
-  /// The buffer of that name; none after an error.
-  BufferId find(const Node& text, std::string_view name) {
-    const auto found = std::find_if(scope_.buffers.begin(), scope_.buffers.end(),
-                                    [name](const Field& field) { return field.name == name; });
-    if (found != scope_.buffers.end()) return {static_cast<std::uint32_t>(found - scope_.buffers.begin())};
-    std::vector<std::string> names;
-    for (const Field& field : scope_.buffers) names.push_back(field.name);
-    const bool other = std::any_of(scope_.others.begin(), scope_.others.end(),
-                                   [name](const Field& field) { return field.name == name; });
+  /// The buffers of that name, with which the text ends; none after an error.
+  std::vector<BufferId> find(const Node& text, std::string_view name) {
+    const auto read = read_indexed(text, text.text.size() - name.size(), out_);
+    if (!read) return {};
+    std::vector<BufferId> found;
+    for (std::uint32_t at = 0; at < scope_.buffers.size(); ++at) {
+      const Field& field = scope_.buffers[at];
+      if ((field.member ? field.member->family : field.name) == read->name) found.push_back({at});
+    }
+    if (found.empty()) {
+      complain_about_unknown(text, *read);
+      return {};
+    }
+    const std::optional<Member>& family = scope_.buffers[found.front().value].member;
+    if (!family) return check_single(*read, scope_.what, out_) ? found : std::vector<BufferId>{};
+    if (read->index == IndexedName::Index::none) return found;
+    const auto number = number_of(*read, *family, scope_.member, scope_.what, out_);
+    return number ? std::vector{found[*number]} : std::vector<BufferId>{};
+  }
+
+  void complain_about_unknown(const Node& text, const IndexedName& name) {
+    const std::vector<std::string> others = written_names(scope_.others);
+    const bool other = std::ranges::find(others, name.name) != others.end();
     const std::string what(scope_.what);
-    out_.error("E101", text.span,
-               other ? in_quotes(name) + " is no " + what : "unknown " + what + " " + in_quotes(name),
+    const std::string quoted = in_quotes(name.name);
+    out_.error("E101", name.index == IndexedName::Index::none ? text.span : name.span,
+               other ? quoted + " is no " + what : "unknown " + what + " " + quoted,
                other ? std::string("list it under '") + (what == "output" ? "receive" : "send") + "'"
-                     : did_you_mean(std::string(name), names));
-    return {};
+                     : did_you_mean(name.name, written_names(scope_.buffers)));
   }
 
   [[nodiscard]] bool is_listed(BufferId buffer) const {
@@ -81,35 +96,44 @@ class ListReader {
   }
 
   void read_name(const Node& text) {
-    const BufferId buffer = find(text, text.text);
-    if (!buffer.valid()) return;
-    if (is_listed(buffer))
+    for (const BufferId buffer : find(text, text.text)) {
+      if (!is_listed(buffer)) {
+        list_.push_back(buffer);
+        continue;
+      }
       out_.error("E107", text.span,
                  std::string(scope_.what) + " " + in_quotes(text.text) + " is listed twice");
-    else
-      list_.push_back(buffer);
+      return;
+    }
   }
 
   void read_change(const Node& text) {
+    for (const BufferId buffer : find(text, std::string_view(text.text).substr(1)))
+      if (!change(text, buffer)) return;
+  }
+
+  bool change(const Node& text, BufferId buffer) {
     const std::string name = text.text.substr(1);
-    const BufferId buffer = find(text, name);
-    if (!buffer.valid()) return;
     const std::string subject = std::string(scope_.what) + " " + in_quotes(name);
     if (std::find(changed_.begin(), changed_.end(), buffer) != changed_.end()) {
       out_.error("E107", text.span, subject + " is listed twice");
-      return;
+      return false;
     }
     changed_.push_back(buffer);
     if (sign(text) == '+' && is_listed(buffer)) {
       out_.error("E272", text.span, subject + " is " + done() + " already",
                  source() + "; leave +" + name + " out");
-    } else if (sign(text) == '-' && !is_listed(buffer)) {
-      out_.error("E273", text.span, subject + " is not " + done(), source() + "; leave -" + name + " out");
-    } else if (sign(text) == '+') {
-      list_.push_back(buffer);
-    } else {
-      std::erase(list_, buffer);
+      return false;
     }
+    if (sign(text) == '-' && !is_listed(buffer)) {
+      out_.error("E273", text.span, subject + " is not " + done(), source() + "; leave -" + name + " out");
+      return false;
+    }
+    if (sign(text) == '+')
+      list_.push_back(buffer);
+    else
+      std::erase(list_, buffer);
+    return true;
   }
 
   [[nodiscard]] std::string done() const { return scope_.what == "output" ? "sent" : "received"; }

@@ -8,8 +8,8 @@
 #include "spec/document/section.hpp"
 #include "spec/model/model.hpp"
 
-/// A specification, an agent and a subsystem may say something for all behaviours in it. After reading, the model is that of
-/// the same specification with everything written out.
+/// A specification, an agent and a subsystem may say something for all behaviours in it. After reading, the model is
+/// that of the same specification with everything written out.
 namespace tessera::spec {
 
 /// `on_error`: where a failure leads that no entry of `next` names.
@@ -48,7 +48,8 @@ struct ListDefault {
 struct ListScope {
   const std::vector<Field>& buffers;
   const std::vector<Field>& others;
-  std::string_view what;  ///< "output", "input"
+  std::string_view what;           ///< "output", "input"
+  const Member* member = nullptr;  ///< for which the list is, so that it may name request[i]; null: for none
 };
 
 /// The list of `send` or `receive`: names, or changes of the list around it such as [+request, -grip].
@@ -56,7 +57,8 @@ struct ListScope {
 /// value:  a list; `at` is its key.
 /// around: `-x` and `+x` change it; without a list all buffers, as declared. Its `used` is set then.
 /// Errors: E101 unknown buffer; E104 no list; E107 one twice; E272 `+x` of what is listed; E273 `-x` of what is not;
-///         E274 changes beside names.
+///         E274 changes beside names; E286, those of number_of: indices. A name without index of which there is one
+///         buffer for each member means all of them.
 [[nodiscard]] std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at,
                                                      const ListScope& scope, ListDefault& around,
                                                      Diagnostics& out);

@@ -33,13 +33,35 @@ void check_value(const Node& value, Diagnostics& out) {
     out.error("E106", value.span, "value " + in_quotes(value.text) + " is taken: conditions use this name");
 }
 
-FewValues read_values(const Entry& entry, Diagnostics& out) {
+/// "each robot" among the values: one for each member.
+void add_members(const Node& text, const FleetSizes* fleets, FewValues& values, Diagnostics& out) {
+  const auto members = read_each(text, 0, text.text.size(), fleets, out);
+  if (!members) return;
+  if (!values.fleet.empty()) {
+    out.error("E290", text.span, "a memory cell has the members of one fleet as values",
+              "use a second cell for the members of " + members->fleet);
+    return;
+  }
+  values.fleet = members->fleet;
+  values.first_member = static_cast<std::uint32_t>(values.names.size());
+  values.member_count = members->count;
+  for (std::uint32_t number = 0; number < members->count; ++number) {
+    values.names.push_back(name_of_member(members->fleet, number));
+    values.spans.push_back(text.span);
+  }
+}
+
+FewValues read_values(const Entry& entry, const FleetSizes* fleets, Diagnostics& out) {
   FewValues values;
   std::unordered_map<std::string, std::uint32_t> lines;
   const std::size_t errors = out.error_count();
   for (const Node* item : items_of(*entry.value, entry.span, "values", out)) {
     const Node* text = text_of(*item, entry.span, "a value", out, values_hint);
     if (text == nullptr) continue;
+    if (says_each(text->text)) {
+      add_members(*text, fleets, values, out);
+      continue;
+    }
     check_value(*text, out);
     const auto [first, added] = lines.emplace(text->text, text->span.line);
     if (!added) {
@@ -52,7 +74,10 @@ FewValues read_values(const Entry& entry, Diagnostics& out) {
   if (out.error_count() == errors && values.names.size() < 2)
     out.error("E262", entry.span, "a memory cell needs at least two values", values_hint);
   if (values.names.empty()) values.names.emplace_back("nobody");
-  if (values.names.size() > FewValues::most)
+  if (!values.fleet.empty() && lines.contains(values.fleet))
+    out.error("E107", entry.span, "value " + in_quotes(values.fleet) + " has the name of the fleet",
+              "the values of 'each " + values.fleet + "' are " + values.fleet + "[0] and so on; rename it");
+  if (values.names.size() - values.member_count > FewValues::most)
     out.error("E262", entry.span,
               "a memory cell of the net has at most " + std::to_string(FewValues::most) + " values, not " +
                   std::to_string(values.names.size()),
@@ -120,7 +145,19 @@ std::optional<Change> read_count(const Node& text, const FewValues& values, Chan
   return std::nullopt;
 }
 
-std::optional<Change> read_value(const Node& text, const Field& cell, Change change, Diagnostics& out) {
+std::optional<Change> read_value(const Node& text, const Field& cell, Change change, const Member* member,
+                                 Diagnostics& out) {
+  const FewValues& few = *cell.few;
+  const std::size_t bracket = text.text.find('[');
+  if (!few.fleet.empty() && text.text.compare(0, bracket, few.fleet) == 0) {
+    const auto name = read_indexed(text, 0, out);
+    if (!name) return std::nullopt;
+    const Member family{few.fleet, few.fleet, 0, few.member_count};
+    const auto number = number_of(*name, family, member, "value", out);
+    if (!number) return std::nullopt;
+    change.value = few.first_member + *number;
+    return change;
+  }
   if (const auto found = cell.few->find(text.text)) {
     change.value = *found;
     return change;
@@ -153,7 +190,7 @@ std::optional<std::uint32_t> cell_named(const Entry& entry, const std::vector<Fi
 
 }  // namespace
 
-FewValues read_few_values(const Section& cell, Diagnostics& out) {
+FewValues read_few_values(const Section& cell, const FleetSizes* fleets, Diagnostics& out) {
   const Entry* values = cell.find("values");
   const Entry* counts = cell.find("counts");
   for (const char* key : {"type", "initial"})
@@ -164,10 +201,11 @@ FewValues read_few_values(const Section& cell, Diagnostics& out) {
                     : "the first value, or the lowest count, is there at the start");
   if (values != nullptr && counts != nullptr)
     out.error("E262", counts->span, "a memory cell has either values or counts", "remove one of them");
-  return values != nullptr ? read_values(*values, out) : read_counts(*counts, out);
+  return values != nullptr ? read_values(*values, fleets, out) : read_counts(*counts, out);
 }
 
-std::vector<Change> read_changes(const Entry* entry, const std::vector<Field>& memory, Diagnostics& out) {
+std::vector<Change> read_changes(const Entry* entry, const std::vector<Field>& memory, const Member* member,
+                                 Diagnostics& out) {
   std::vector<Change> changes;
   if (entry == nullptr) return changes;
   for (const Entry& written : entries_of(*entry->value, entry->span, "sets", out)) {
@@ -176,8 +214,8 @@ std::vector<Change> read_changes(const Entry* entry, const std::vector<Field>& m
     if (!cell || text == nullptr) continue;
     const Change begun{.cell = *cell, .span = text->span};
     const Field& field = memory[*cell];
-    const auto change =
-        field.few->counts ? read_count(*text, *field.few, begun, out) : read_value(*text, field, begun, out);
+    const auto change = field.few->counts ? read_count(*text, *field.few, begun, out)
+                                          : read_value(*text, field, begun, member, out);
     if (change) changes.push_back(*change);
   }
   return changes;

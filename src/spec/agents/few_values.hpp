@@ -2,25 +2,27 @@
 
 #include <vector>
 
+#include "spec/agents/families.hpp"
 #include "spec/document/section.hpp"
 #include "spec/model/model.hpp"
 
 /// Memory cells that are part of the net, and the changes to them.
 namespace tessera::spec {
 
-/// The values of a cell: `values: [nobody, a, b]` or `counts: 0..4`.
+/// The values of a cell: `values: [nobody, a, b]`, `values: [nobody, each robot]` or `counts: 0..4`.
 ///
 /// Precondition: the section has one of these keys.
-/// Errors: E105, E106, E107 names of values; E262 no such list or range.
+/// Errors: E105, E106, E107 names of values; E262 no such list or range; E285, E290 `each`.
 /// Returns values in any case, so that no second error follows from the first.
-[[nodiscard]] FewValues read_few_values(const Section& cell, Diagnostics& out);
+[[nodiscard]] FewValues read_few_values(const Section& cell, const FleetSizes* fleets, Diagnostics& out);
 
 /// `sets: { lent_to: a, n: +1 }`. entry may be null.
 ///
 /// Errors: E101 an unknown cell; E261 an unknown value; E265 a cell with a type; E266 no number of the counter,
-///         or a step other than +1 and -1.
+///         or a step other than +1 and -1; those of number_of for `sets: { lent_to: robot[i] }`.
+/// member: for which it is; null: for none.
 [[nodiscard]] std::vector<Change> read_changes(const Entry* entry, const std::vector<Field>& memory,
-                                               Diagnostics& out);
+                                               const Member* member, Diagnostics& out);
 
 /// Whether a counter may prevent the entry from being taken.
 ///

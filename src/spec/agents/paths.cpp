@@ -91,7 +91,15 @@ std::optional<BufferPath> split(const Node& text, std::size_t offset, std::size_
     return fail(all, in_quotes(all) + " does not name a buffer", path_hint);
   }
   const std::string_view subsystem = rest.substr(1, dot - 1);
-  const std::string_view buffer = has_buffer ? rest.substr(dot + 1) : rest.substr(rest.size());
+  std::string_view buffer = has_buffer ? rest.substr(dot + 1) : rest.substr(rest.size());
+  if (const std::size_t open = buffer.find('['); open != std::string_view::npos && buffer.ends_with(']')) {
+    const std::string_view index = buffer.substr(open + 1, buffer.size() - open - 2);
+    const auto selector = read_index(index);
+    path.member_span = span(index);
+    if (!selector) return fail(index, in_quotes(index) + " is not an index", index_hint);
+    path.member = *selector;
+    buffer = buffer.substr(0, open);
+  }
   for (const std::string_view part : {agent, subsystem, has_buffer ? buffer : subsystem}) {
     if (!is_identifier(part)) return fail(all, in_quotes(all) + " does not name a buffer", path_hint);
   }
@@ -171,6 +179,35 @@ bool PathLookup::find(const BufferPath& path, PathTarget& target, KnownUpTo& kno
   return good_index;
 }
 
+bool PathLookup::check_member(const BufferPath& path, const Field& buffer, const std::string& what,
+                              Diagnostics& out) {
+  if (!buffer.member) {
+    if (path.member.kind == Selector::Kind::plain) return true;
+    out.error("E286", path.member_span,
+              in_quotes(path.buffer) + " is one " + what + ", not one for each member of a fleet",
+              "write " + path.buffer + " without an index, or declare it as \"TYPE[each FLEET]\"");
+    return false;
+  }
+  const Member& family = *buffer.member;
+  if (family.fleet.empty()) return false;  // complained about already
+  const std::string owner = "one " + what + " for each " + family.fleet;
+  if (path.member.kind == Selector::Kind::plain) {
+    out.error("E287", path.buffer_span, in_quotes(path.buffer) + " is " + owner + ": which?",
+              "write " + path.buffer + "[i], with " + family.fleet + "[i] at the other end, or " +
+                  first_of(family));
+    return false;
+  }
+  if (path.member.kind == Selector::Kind::constant &&
+      (path.member.number < 0 || path.member.number >= std::int64_t{family.count})) {
+    out.error(
+        "E289", path.member_span,
+        in_quotes(path.buffer) + " has no member " + std::to_string(path.member.number) + ": it is " + owner,
+        "the members are numbered 0 to " + std::to_string(family.count - 1));
+    return false;
+  }
+  return true;
+}
+
 void PathLookup::complain_about_buffer(const BufferPath& path, const PathTarget& target,
                                        const std::vector<Field>& buffers, const std::string& what,
                                        Diagnostics& out) const {
@@ -183,15 +220,18 @@ void PathLookup::complain_about_buffer(const BufferPath& path, const PathTarget&
                              Other{owner.outputs, "an output: a channel begins at it"},
                              Other{owner.real, "a real buffer: a driver stands behind it"}};
   for (const Other& other : others) {
-    const bool here = std::any_of(other.fields.begin(), other.fields.end(),
-                                  [&path](const Field& one) { return one.name == path.buffer; });
+    const bool here = std::any_of(other.fields.begin(), other.fields.end(), [&path](const Field& one) {
+      return (one.member ? one.member->family : one.name) == path.buffer;
+    });
     if (!here) continue;
     out.error("E304", path.buffer_span, in_quotes(path.buffer) + " is no " + what,
               "it is " + std::string(other.is));
     return;
   }
   std::vector<std::string> names;
-  for (const Field& field : buffers) names.push_back(field.name);
+  for (const Field& field : buffers)
+    if (!field.member || field.member->number == 0)
+      names.push_back(field.member ? field.member->family : field.name);
   out.error("E101", path.buffer_span, "unknown " + what + " " + in_quotes(path.buffer),
             did_you_mean(path.buffer, names));
 }

@@ -34,6 +34,9 @@ struct BufferPath {
   std::string agent, subsystem, buffer;
   Span whole, agent_span, index_span, subsystem_span, buffer_span;
   Selector selector;
+  /// The index of the buffer, of which there is one for each member of a fleet; plain: none.
+  Selector member{};
+  Span member_span{};
 };
 
 /// text: the node that contains the path; [offset, offset + length) of it is the path.
@@ -75,14 +78,17 @@ class PathLookup {
   [[nodiscard]] static bool check_index(const Selector& selector, const AgentGroup& group, Span agent_span,
                                         Span index_span, Diagnostics& out);
 
-  /// The buffer's number in `buffers`; none and E101 if it is not there. what: "output", "input", "real
-  /// buffer".
+  /// The buffer's number in `buffers`; none and E101 if it is not there. If there is one for each member of a fleet,
+  /// the number of the first. what: "output", "input", "real buffer".
+  ///
+  /// Errors: E286, E287, E289 an index where none belongs, none where one does, or one that no member has.
   template <class Id>
   [[nodiscard]] Id find_buffer(const BufferPath& path, const PathTarget& target,
                                const Numbered<Id, Field>& buffers, const std::string& what,
                                Diagnostics& out) const {
     for (const Id id : buffers.ids())
-      if (buffers[id].name == path.buffer) return id;
+      if ((buffers[id].member ? buffers[id].member->family : buffers[id].name) == path.buffer)
+        return check_member(path, buffers[id], what, out) ? id : Id{};
     complain_about_buffer(path, target, buffers, what, out);
     return {};
   }
@@ -94,6 +100,8 @@ class PathLookup {
   [[nodiscard]] const AgentGroups& groups() const { return groups_; }
 
  private:
+  [[nodiscard]] static bool check_member(const BufferPath& path, const Field& buffer, const std::string& what,
+                                         Diagnostics& out);
   void complain_about_buffer(const BufferPath& path, const PathTarget& target,
                              const std::vector<Field>& buffers, const std::string& what,
                              Diagnostics& out) const;

@@ -49,13 +49,22 @@ BehaviourId read_start(const Entry* entry, const std::vector<Behaviour>& behavio
   if (entry == nullptr) return {0};
   const Node* text = text_of(*entry->value, entry->span, "start", out, "name a behaviour");
   if (text == nullptr) return {0};
-  std::vector<std::string> names;
-  for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
-  const auto found = std::find(names.begin(), names.end(), text->text);
-  if (found != names.end()) return {static_cast<std::uint32_t>(found - names.begin())};
-  out.error("E101", text->span, "unknown behaviour " + in_quotes(text->text),
-            did_you_mean(text->text, names));
-  return {0};
+  const auto name = read_indexed(*text, 0, out);
+  if (!name) return {0};
+  const auto found = std::ranges::find_if(behaviours, [&](const Behaviour& one) {
+    return (one.member ? one.member->family : one.name) == name->name;
+  });
+  if (found == behaviours.end()) {
+    out.error("E101", text->span, "unknown behaviour " + in_quotes(name->name),
+              did_you_mean(name->name, written_names(behaviours)));
+    return {0};
+  }
+  const auto first = static_cast<std::uint32_t>(found - behaviours.begin());
+  if (!found->member) {
+    static_cast<void>(check_single(*name, "behaviour", out));
+    return {first};
+  }
+  return {first + number_of(*name, *found->member, nullptr, "behaviour", out).value_or(0)};
 }
 
 void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parameter>& system,
@@ -170,12 +179,12 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
     // A rate that cannot be read is still a rate, so that no error about standing time follows from it.
     subsystem.period = read_rate(*rate->value, rate->span, out).value_or(std::chrono::seconds(1));
   }
-  subsystem.inputs = read_buffers(section.find("inputs"), "input", around.types, out);
-  subsystem.outputs = read_buffers(section.find("outputs"), "output", around.types, out);
-  subsystem.real = read_buffers(section.find("real"), "real buffer", around.types, out);
+  subsystem.inputs = read_buffers(section.find("inputs"), "input", around.types, around.fleets, out);
+  subsystem.outputs = read_buffers(section.find("outputs"), "output", around.types, around.fleets, out);
+  subsystem.real = read_buffers(section.find("real"), "real buffer", around.types, around.fleets, out);
   if (kind == SubsystemKind::receptor) check_distinct({&subsystem.inputs, &subsystem.real}, out);
   if (kind == SubsystemKind::effector) check_distinct({&subsystem.outputs, &subsystem.real}, out);
-  subsystem.memory = read_memory(section.find("memory"), around.types, out);
+  subsystem.memory = read_memory(section.find("memory"), around.types, around.fleets, out);
   subsystem.parameters = read_parameters(section.find("parameters"), around.types, out);
   check_shadowing(subsystem.parameters, around.parameters, out);
   read_policies(section, subsystem, out);
@@ -195,7 +204,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                                around.types};
     SubsystemDefaults defaults = read_defaults(section, scope, out);
     const std::size_t errors = out.error_count();
-    subsystem.behaviours = read_behaviours(*behaviours, scope, defaults, out);
+    subsystem.behaviours = read_behaviours(*behaviours, scope, defaults, around.fleets, out);
     // A list or name with a mistake may have been meant to use a default.
     if (out.error_count() == errors) check_used(defaults, out);
     read_failures(section, around, subsystem, out);

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spec/agents/defaults.hpp"
+#include "spec/agents/families.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
@@ -12,6 +13,7 @@ struct SystemScope {
   const Types& types;
   const std::vector<Parameter>& parameters;  ///< of the system
   OnError* on_error = nullptr;               ///< of the agent, or else of the system; null: neither says it
+  const FleetSizes* fleets = nullptr;        ///< null: the system has none
 };
 
 /// Reads the subsystem below `entry`, whose key is its name.

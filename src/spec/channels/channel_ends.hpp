@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <utility>
 #include <vector>
 
@@ -11,16 +13,26 @@ namespace tessera::spec {
 struct WrittenEnd {
   BufferPath path;
   PathTarget target;
+  BufferId buffer;                    ///< of a family: the first
+  std::optional<Member> family = {};  ///< the buffer is one for each member of that fleet
+};
+
+/// One end of one channel: the number of the agent in its group, and the buffer.
+struct ExpandedEnd {
+  std::uint32_t agent = 0;
   BufferId buffer;
+
+  auto operator<=>(const ExpandedEnd&) const = default;
 };
 
-/// The agents that a channel joins: (number of the one it comes from, number of the one it leads to).
+/// The ends that the channels join, from and to.
 struct ChannelExpansion {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  std::vector<std::uint32_t> dropped;  ///< numbers of the agents that would receive if the fleet did not end
+  std::vector<std::pair<ExpandedEnd, ExpandedEnd>> pairs;
+  std::vector<ExpandedEnd> dropped;  ///< those that would receive if the fleet did not end
 };
 
-/// Errors: E307 `*` at both ends or beside i; i over fleets of different sizes.
+/// Errors: E293 i over fleets of different sizes, one of which has a buffer for each member; E307 `*` at both ends or
+///         beside i; i over fleets of different sizes.
 [[nodiscard]] bool expand_channel(const WrittenEnd& from, const WrittenEnd& to, ChannelExpansion& into,
                                   Diagnostics& out);
 

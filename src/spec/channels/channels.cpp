@@ -200,7 +200,8 @@ class ChannelReader {
     const auto buffer = lookup_.find_buffer(*path, target, is_output ? subsystem.outputs : subsystem.inputs,
                                             is_output ? "output" : "input", out_);
     if (!good || !buffer.valid()) return std::nullopt;
-    return WrittenEnd{*path, target, buffer};
+    const auto& buffers = is_output ? subsystem.outputs : subsystem.inputs;
+    return WrittenEnd{*path, target, buffer, buffers[buffer].member};
   }
 
   /// A mistake in a channel must not also count as an input without source.
@@ -215,7 +216,9 @@ class ChannelReader {
       if (known == KnownUpTo::agent) {
         excuses_.agents.insert(target.group->agent(number));
       } else if (to) {
-        excuses_.inputs.emplace(lookup_.instance(target, number), to->buffer);
+        const std::uint32_t members = to->family ? to->family->count : 1;
+        for (std::uint32_t member = 0; member < members; ++member)
+          excuses_.inputs.emplace(lookup_.instance(target, number), BufferId{to->buffer.value + member});
       } else {
         excuses_.instances.insert(lookup_.instance(target, number));
       }
@@ -236,12 +239,12 @@ class ChannelReader {
       return;
     }
     check_types(*from, *to);
-    for (const std::uint32_t number : expansion.dropped)
-      excuses_.inputs.emplace(lookup_.instance(to->target, number), to->buffer);
+    for (const ExpandedEnd& dropped : expansion.dropped)
+      excuses_.inputs.emplace(lookup_.instance(to->target, dropped.agent), dropped.buffer);
     for (const auto& [source, target] : expansion.pairs) {
       Channel one = channel;
-      one.from = {lookup_.instance(from->target, source), from->buffer};
-      one.to = {lookup_.instance(to->target, target), to->buffer};
+      one.from = {lookup_.instance(from->target, source.agent), source.buffer};
+      one.to = {lookup_.instance(to->target, target.agent), target.buffer};
       if (!add(one, to->path)) return;
     }
   }
@@ -266,7 +269,8 @@ class ChannelReader {
     const auto [source, added] = sources_.emplace(key, model_.channels.next_id());
     if (!added) {
       const Channel& first = model_.channels[source->second];
-      const std::string name = model_.instance_path(channel.to.instance) + "." + to.buffer;
+      const std::string name = model_.instance_path(channel.to.instance) + "." +
+                               model_.subsystem(channel.to.instance).inputs[channel.to.buffer].name;
       out_.error("E301", to.whole,
                  "input " + in_quotes(name) + " has two sources: " + source_name(first) + " and " +
                      source_name(channel),

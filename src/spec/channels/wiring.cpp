@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <map>
+#include <set>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/model/timeless_cycles.hpp"
@@ -113,7 +114,9 @@ class WiringCheck {
   }
 
   void report_unfed() {
+    std::set<Span> said;  // one line declares the inputs for all members of a fleet
     for (const auto& [input, shared] : unfed_) {
+      if (input->member && !said.insert(input->span).second) continue;
       out_.error("E302", input->span,
                  "input " + in_quotes(input->name) + " of " + model_.instance_path(shared.first) +
                      others(shared) + " has no source",
@@ -122,9 +125,10 @@ class WiringCheck {
   }
 
   void report_unread() {
+    std::set<Span> said;
     for (const auto& [output, entry] : outputs_) {
       const auto& [shared, read] = entry;
-      if (read) continue;
+      if (read || (output->member && !said.insert(output->span).second)) continue;
       out_.warning("W316", output->span,
                    "output " + in_quotes(output->name) + " of " + model_.instance_path(shared.first) +
                        others(shared) + " is not read");
@@ -134,6 +138,7 @@ class WiringCheck {
   void report_standstill() {
     if (excuses_.everything) return;
     for (const auto& [behaviour, shared] : standstill_) {
+      if (behaviour->member && behaviour->member->number > 0) continue;
       if (excuses_.instances.contains(shared.first) ||
           excuses_.agents.contains(model_.instances[shared.first].agent))
         continue;
@@ -159,8 +164,13 @@ class WiringCheck {
       const bool used = std::any_of(subsystem.behaviours.begin(), subsystem.behaviours.end(),
                                     [&](const Behaviour& one) { return is_listed(one.*list, buffer); });
       if (used) continue;
+      const auto more = others_of_family(buffers, buffer, [&](BufferId other) {
+        return std::ranges::none_of(subsystem.behaviours,
+                                    [&](const Behaviour& one) { return is_listed(one.*list, other); });
+      });
+      if (!more) continue;
       out_.warning("W317", buffers[buffer].span,
-                   what + " " + in_quotes(buffers[buffer].name) + " is " + verb + " by no behaviour",
+                   what + " " + in_quotes(buffers[buffer].name) + *more + " is " + verb + " by no behaviour",
                    "list it under '" + std::string(what == "input" ? "receive" : "send") +
                        "' of a behaviour, or remove it");
     }

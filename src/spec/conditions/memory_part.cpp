@@ -38,12 +38,26 @@ std::optional<std::int64_t> number_in(const Token& token) {
   return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
 }
 
+/// The position of a value that is written as "nobody", "robot[2]" or "robot[i]".
+std::optional<std::int64_t> value_in(const FewValues& few, Tokens constant,
+                                     std::optional<std::uint32_t> member) {
+  if (constant.front().kind != Token::Kind::name) return std::nullopt;
+  if (constant.size() == 1) {
+    const auto found = few.find(constant.front().text);
+    return found ? std::optional<std::int64_t>(*found) : std::nullopt;
+  }
+  const auto number = index_at_end(constant, member);
+  if (!number || constant.size() != 4 || constant.front().text != few.fleet || *number >= few.member_count)
+    return std::nullopt;
+  return std::int64_t{few.first_member} + *number;
+}
+
 /// Per value of the cell, whether it fits; empty: the constant is none that the net knows.
-std::vector<bool> fitting(const FewValues& few, const Token& mark, const Token& constant, bool is_left) {
-  std::optional<std::int64_t> other = number_in(constant);
+std::vector<bool> fitting(const FewValues& few, const Token& mark, Tokens constant, bool is_left,
+                          std::optional<std::uint32_t> member) {
+  std::optional<std::int64_t> other = constant.size() == 1 ? number_in(constant.front()) : std::nullopt;
   if (!few.counts) {
-    const auto found = constant.kind == Token::Kind::name ? few.find(constant.text) : std::nullopt;
-    other = found ? std::optional<std::int64_t>(*found) : std::nullopt;
+    other = value_in(few, constant, member);
     if (!mark.is_one_of({"==", "!=", "not_eq"})) return {};
   }
   std::vector<bool> holds;
@@ -56,9 +70,21 @@ std::vector<bool> fitting(const FewValues& few, const Token& mark, const Token& 
 
 }  // namespace
 
-std::optional<MemoryPart> memory_part(Tokens part, const std::vector<Field>& memory) {
-  if (part.size() != 3 && part.size() != 5) return std::nullopt;
-  const bool is_left = part.size() == 5 && is_comparison(part[1]);  // the constant
+std::optional<std::uint32_t> index_at_end(Tokens tokens, std::optional<std::uint32_t> member) {
+  if (tokens.size() < 3) return std::nullopt;
+  const Tokens brackets = tokens.last(3);
+  if (!brackets[0].is("[") || !brackets[2].is("]")) return std::nullopt;
+  if (brackets[1].is("i")) return member;
+  const auto number = number_in(brackets[1]);
+  return number ? std::optional(static_cast<std::uint32_t>(*number)) : std::nullopt;
+}
+
+std::optional<MemoryPart> memory_part(Tokens part, const std::vector<Field>& memory,
+                                      std::optional<std::uint32_t> member) {
+  if (part.size() != 3 && part.size() != 5 && part.size() != 8) return std::nullopt;
+  // The constant is one token, or four: robot [ i ].
+  const std::size_t constant = part.size() - 4;
+  const bool is_left = part.size() > 3 && is_comparison(part[constant]);
   const std::string_view name = cell_in(is_left ? part.last(3) : part.first(3));
   const auto cell = std::ranges::find(memory, name, &Field::name);
   if (name.empty() || cell == memory.end() || !cell->few) return std::nullopt;
@@ -67,8 +93,10 @@ std::optional<MemoryPart> memory_part(Tokens part, const std::vector<Field>& mem
     for (std::uint32_t value = 0; cell->few->counts && value < cell->few->names.size(); ++value)
       found.holds.push_back(cell->few->least + value != 0);
   } else {
-    const Token& mark = is_left ? part[1] : part[3];
-    if (is_comparison(mark)) found.holds = fitting(*cell->few, mark, is_left ? part[0] : part[4], is_left);
+    const Token& mark = is_left ? part[constant] : part[3];
+    if (is_comparison(mark))
+      found.holds =
+          fitting(*cell->few, mark, is_left ? part.first(constant) : part.last(constant), is_left, member);
   }
   return found.holds.empty() ? std::nullopt : std::optional(std::move(found));
 }

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <charconv>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/cpp_names.hpp"
@@ -43,6 +42,14 @@ template <class Named>
 std::vector<std::string> names_of(const std::vector<Named>& all) {
   std::vector<std::string> names;
   for (const Named& one : all) names.push_back(one.name);
+  return names;
+}
+
+/// Those of which there is one for each member of a fleet appear once, without index.
+std::vector<std::string> names_of(const std::vector<Field>& all) {
+  std::vector<std::string> names;
+  for (const Field& one : all)
+    if (!one.member || one.member->number == 0) names.push_back(one.member ? one.member->family : one.name);
   return names;
 }
 
@@ -135,6 +142,9 @@ void ConditionNames::read_word(std::size_t at) {
     value.begin = word.position;
     value.end = word.position + word.text.size();
     chains_[at] = {value, at + 1};
+  } else if ((word.text == "i" && is_free && !is_behind_operand(at) && read_member_number(at)) ||
+             read_quantifier(at)) {
+    return;
   } else if (is_free && !is_behind_operand(at) && !is_keyword(word.text) && !read_value(at)) {
     const std::string home = other_home(word.text), name = in_quotes(word.text);
     const bool is_of_cpp = may_be_of_cpp(word.text, scope_.types);
@@ -209,7 +219,7 @@ void ConditionNames::read_root(std::size_t at) {
   const auto try_all = [&](const auto& all, Reference::Kind kind, const std::vector<Status>* statuses) {
     const auto found = index_of(all, name.text);
     if (!found) {
-      for (std::string& one : names_of(all)) known.push_back(std::move(one));
+      for (std::string one : names_of(all)) known.push_back(std::move(one));
       return false;
     }
     refer(kind, path, found, name);
@@ -224,6 +234,7 @@ void ConditionNames::read_root(std::size_t at) {
     if (try_all(in ? scope_.inputs : scope_.outputs, in ? Reference::Kind::input : Reference::Kind::output,
                 statuses))
       return;
+    if (read_family_at(at, statuses)) return;
     if (holds_real(in) && try_all(scope_.real, Reference::Kind::real, statuses)) return;
   } else if (tokens_[at].is("memory")) {
     what = "memory";
@@ -342,54 +353,6 @@ void ConditionNames::unknown_member(const Token& member, const Value& value, con
   out_.error("E101", span_of(member),
              path + " has no field " + in_quotes(member.text) + ": it is " + in_words(value, scope_.types),
              std::move(hint));
-}
-
-/// At "[". false: there is no such element, which has been reported.
-bool ConditionNames::read_subscript(std::size_t& at, Value& value, const std::string& path) {
-  if (value.kind == Is::text) return false;  // left to the compiler
-  const Token& open = tokens_[at];
-  if (value.kind != Is::array) {
-    out_.error("E212", span_of(open), path + " has no elements: it is " + in_words(value, scope_.types));
-    return false;
-  }
-  const bool is_negative = tokens_[at + 1].is("-");
-  const Token* const number = &tokens_[at + (is_negative ? 2 : 1)];
-  std::uint64_t element = 0;
-  const char* const end = number->text.data() + number->text.size();
-  const bool is_constant = number->kind == Token::Kind::number && number[1].is("]") &&
-                           !(number->text.size() > 1 && number->text.front() == '0') &&
-                           std::from_chars(number->text.data(), end, element).ptr == end;
-  if (is_constant && (element >= value.type.extent || (is_negative && element > 0)))
-    out_.error("E204", span_of(*number),
-               path + " has no element " + (is_negative ? "-" : "") + std::string(number->text) + ": it is " +
-                   in_words(value, scope_.types),
-               "elements count from 0: the last one is " + std::to_string(value.type.extent - 1));
-  at = behind_bracket(at);
-  value = value_of(value.type.element());
-  return true;
-}
-
-std::size_t ConditionNames::behind_bracket(std::size_t at) const {
-  int depth = 0;
-  for (; tokens_[at].kind != Token::Kind::end; ++at) {
-    if (tokens_[at].kind != Token::Kind::mark) continue;
-    if (tokens_[at].is("(") || tokens_[at].is("[") || tokens_[at].is("{")) ++depth;
-    if (tokens_[at].is(")") || tokens_[at].is("]") || tokens_[at].is("}")) --depth;
-    if (depth == 0) return at + 1;
-  }
-  return at;
-}
-
-std::size_t ConditionNames::skip_chain(std::size_t at) const {
-  for (;;) {
-    if (tokens_[at].is("(") || tokens_[at].is("["))
-      at = behind_bracket(at);
-    else if ((tokens_[at].is(".") || tokens_[at].is("->") || tokens_[at].is("::")) &&
-             tokens_[at + 1].kind == Token::Kind::name)
-      at += 2;
-    else
-      return at;
-  }
 }
 
 void ConditionNames::refer(Reference::Kind kind, std::string path, std::optional<std::uint32_t> target,

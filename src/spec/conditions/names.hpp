@@ -59,6 +59,18 @@ class ConditionNames {
   [[nodiscard]] std::string other_home(std::string_view name) const;
   [[nodiscard]] bool holds_real(bool in) const;
 
+  /// `in.request` of which there is one for each member of a fleet: what follows the name, from token `at`.
+  Chain read_family(std::size_t begin, const Field& first, const std::vector<Status>* statuses);
+  bool read_family_at(std::size_t at, const std::vector<Status>* statuses);
+  bool read_member_number(std::size_t at);
+  /// The index in brackets at a token, of a family; false: a mistake, which has been reported.
+  bool check_index(std::size_t open, const Member& family, const std::string& path);
+  /// any(in.request.fresh), all(...), count(...), which(...); false: the word begins none.
+  bool read_quantifier(std::size_t at);
+  [[nodiscard]] bool is_quantified(std::size_t at) const;
+  /// Whether the subsystem has something of which there is one for each member of a fleet.
+  [[nodiscard]] bool has_families() const;
+
   /// A value of a memory cell with few values; false: the word is none.
   bool read_value(std::size_t at);
   [[nodiscard]] const Field* cell_at(std::size_t at) const;

@@ -18,6 +18,7 @@ struct ConditionScope {
   const std::vector<Parameter>& parameters;
   const std::vector<Parameter>& system_parameters;
   const Types& types;
+  const Member* member = nullptr;  ///< for which the condition is, so that it may name `i`; null: for none
 };
 
 }  // namespace tessera::spec

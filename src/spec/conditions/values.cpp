@@ -4,6 +4,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/conditions/names.hpp"
+#include "spec/model/member.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::spec {
@@ -23,12 +24,13 @@ const Field* ConditionNames::compared_cell(std::size_t at) const {
   const auto compares = [&](std::size_t mark) { return tokens_[mark].is_one_of({"==", "!=", "not_eq"}); };
   if (at >= 4 && compares(at - 1))
     if (const Field* left = cell_at(at - 4)) return left;
-  return compares(at + 1) ? cell_at(at + 2) : nullptr;
+  const std::size_t behind = tokens_[at + 1].is("[") ? behind_bracket(at + 1) : at + 1;
+  return compares(behind) ? cell_at(behind + 1) : nullptr;
 }
 
 const Field* ConditionNames::cell_with_value(std::string_view name) const {
   for (const Field& cell : scope_.memory)
-    if (cell.few && !cell.few->counts && cell.few->find(name)) return &cell;
+    if (cell.few && !cell.few->counts && (cell.few->find(name) || cell.few->fleet == name)) return &cell;
   return nullptr;
 }
 
@@ -43,6 +45,24 @@ bool ConditionNames::read_value(std::size_t at) {
   if (cell == nullptr) {
     out_.error("E263", span_of(word), in_quotes(word.text) + " is a value of memory." + owner->name,
                "compare it there: memory." + owner->name + " == " + std::string(word.text));
+  } else if (!word.text.empty() && cell->few->fleet == word.text) {
+    const Member family{cell->few->fleet, cell->few->fleet, 0, cell->few->member_count};
+    const bool has_index = tokens_[at + 1].is("[");
+    if (!has_index) {
+      out_.error("E287", span_of(word), in_quotes(word.text) + " is one value for each member: which?",
+                 "write " + first_of(family) +
+                     (scope_.member != nullptr ? ", or " + family.fleet + "[i]" : std::string()));
+    } else if (check_index(at + 1, family, std::string(word.text))) {
+      refer(Reference::Kind::value, "memory." + cell->name + "." + std::string(word.text),
+            cell->few->first_member, word);
+      value.kind = Value::Kind::choice;
+      value.literal = true;
+      value.few = cell;
+    }
+    const std::size_t end = has_index ? behind_bracket(at + 1) : at + 1;
+    value.end = tokens_[end - 1].position + tokens_[end - 1].text.size();
+    chains_[at] = {value, end};
+    return true;
   } else if (const auto found = cell->few->find(word.text)) {
     refer(Reference::Kind::value, "memory." + cell->name + "." + std::string(word.text), found, word);
     value.kind = Value::Kind::choice;

@@ -5,6 +5,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/model/endings.hpp"
+#include "spec/model/member.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -141,7 +142,8 @@ Numbered<BehaviourId, bool> reachable(const Subsystem& subsystem) {
 void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
   if (subsystem.behaviours.empty()) return;
   for (const Behaviour& behaviour : subsystem.behaviours) {
-    if (written_entries(behaviour) == 0) continue;
+    // The members of a fleet have the same text.
+    if (written_entries(behaviour) == 0 || (behaviour.member && behaviour.member->number > 0)) continue;
     const Endings endings(behaviour);
     check_entries(behaviour, endings, out);
     check_errors(subsystem, behaviour, endings, out);
@@ -150,8 +152,10 @@ void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
   for (const BehaviourId i : seen.ids()) {
     const Behaviour& behaviour = subsystem.behaviours[i];
     if (seen[i]) continue;
+    const auto more = others_of_family(subsystem.behaviours, i, [&](BehaviourId id) { return !seen[id]; });
+    if (!more) continue;
     out.warning(
-        "W311", behaviour.span, "behaviour " + in_quotes(behaviour.name) + " is never entered",
+        "W311", behaviour.span, "behaviour " + in_quotes(behaviour.name) + *more + " is never entered",
         "no chain of 'next' leads to it from " + in_quotes(subsystem.behaviours[subsystem.start].name));
   }
 }

@@ -35,9 +35,14 @@ std::optional<std::uint32_t> FewValues::find(std::string_view name) const {
 std::string FewValues::in_words() const {
   if (counts) return "a count from " + names.front() + " to " + names.back();
   std::string text = "one of ";
-  for (std::size_t value = 0; value < names.size() && value < 10; ++value)
+  std::size_t said = 0;
+  for (std::uint32_t value = 0; value < names.size() && said < 10; ++value, ++said) {
     text += (value == 0 ? "" : ", ") + names[value];
-  return text + (names.size() > 10 ? " ..." : "");
+    if (member_count < 3 || value != first_member) continue;
+    value += member_count - 1;
+    text += " to " + names[value];
+  }
+  return text + (said == 10 && names.size() > 10 + member_count ? " ..." : "");
 }
 
 std::optional<std::uint32_t> Change::after(std::uint32_t before, const FewValues& values) const {

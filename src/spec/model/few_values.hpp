@@ -19,6 +19,10 @@ struct FewValues {
   std::vector<diagnostics::Span> spans;  ///< as names; of a counter empty
   bool counts = false;
   std::uint32_t least = 0;  ///< of a counter
+  /// With `each robot` among the values: the fleet, and the position of the value of its first member. The values of
+  /// the others follow, "robot[0]", "robot[1]" ...
+  std::string fleet{};
+  std::uint32_t first_member = 0, member_count = 0;
 
   static constexpr std::size_t most = 256;  ///< values of one cell
 

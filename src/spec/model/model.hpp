@@ -15,6 +15,7 @@
 #include "spec/model/deployment.hpp"
 #include "spec/model/few_values.hpp"
 #include "spec/model/ids.hpp"
+#include "spec/model/member.hpp"
 #include "spec/model/panel.hpp"
 #include "spec/model/property.hpp"
 #include "spec/model/world.hpp"
@@ -58,6 +59,7 @@ struct Field {
   std::string initial;  ///< C++ initialiser without braces; empty: zero. Only memory cells have one.
   Span span;
   std::optional<FewValues> few{};  ///< of a memory cell that is part of the net; `type` then means nothing
+  std::optional<Member> member{};  ///< of a buffer of which there is one for each member of a fleet
 };
 
 struct Structure {
@@ -90,7 +92,8 @@ struct Reference {
     field,    ///< of a structure
     status,   ///< `fresh`, `age` ...: of a buffer
     elapsed,  ///< the time in the behaviour
-    index     ///< the number of the agent in its fleet
+    index,    ///< the number of the agent in its fleet
+    member    ///< `i`: the number of the member of a fleet that the behaviour or the entry is for
   } kind = Kind::input;
   std::string path;  ///< up to and with this part, without subscripts: "in.line.left"
   /// Into Subsystem::inputs, ::outputs, ::real, ::memory or ::parameters, or Model::parameters. A field: into
@@ -112,7 +115,8 @@ struct Expression {
     std::size_t begin = 0, end = 0;  ///< in `text`, in bytes
     std::string unit;                ///< "h", "min", "s", "ms", "us" or "ns"
   };
-  std::vector<TimeNumber> times{};  ///< in the order of the text; none contains another
+  std::vector<TimeNumber> times{};        ///< in the order of the text; none contains another
+  std::optional<std::uint32_t> member{};  ///< the value of `i` in the text
 };
 [[nodiscard]] inline const std::vector<Reference>& references(const Expression& expression) {
   return expression.references;
@@ -149,6 +153,8 @@ struct Next {
   std::vector<Change> sets{};
   /// A counter may have no value for `sets`. The entry is then not taken, as if its condition did not hold.
   bool may_be_blocked = false;
+  std::optional<Member>
+      member{};  ///< one of the entries that `to: lend[i]` stands for; `family` is that of the behaviour
 };
 
 enum class Transfer : std::uint8_t { sequential, parallel };
@@ -164,8 +170,9 @@ struct Behaviour {
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
-  Duration takes{0};           ///< simulated time of the transition function
-  std::vector<Change> sets{};  ///< to memory when it begins
+  Duration takes{0};               ///< simulated time of the transition function
+  std::vector<Change> sets{};      ///< to memory when it begins
+  std::optional<Member> member{};  ///< of a behaviour `for: each robot`
   Span span;
 };
 

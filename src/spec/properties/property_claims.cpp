@@ -67,7 +67,8 @@ class ClaimReader {
   bool gather(const Formula& formula, Range& range, bool quantified) {
     if (formula.kind == Formula::Kind::path)
       return gather(formula.path, range, quantified) &&
-             (!formula.to || gather(*formula.to, range, quantified));
+             (!formula.to || gather(*formula.to, range, quantified)) &&
+             gather(formula, formula.compared_index, range, quantified);
     if (!is_quantifier(formula)) {
       for (const Formula& part : formula.parts)
         if (!gather(part, range, quantified)) return false;
@@ -90,29 +91,84 @@ class ClaimReader {
     const AgentGroup* group = lookup_.find_group(path.agent, path.agent_span, out_);
     if (group == nullptr || !group->definition.valid()) return false;  // complained about
     if (!PathLookup::check_index(path.selector, *group, path.agent_span, path.index_span, out_)) return false;
-    const Kind kind = path.selector.kind;
-    const bool counts = kind == Kind::all || (kind == Kind::variable && !quantified);
-    return !counts || widen(range, *group, path);
+    if (counts(path.selector, quantified) && !widen(range, *group, path.index_span)) return false;
+    for (std::size_t part = 0; part < path.indices.size(); ++part) {
+      const WrittenIndex& index = path.indices[part];
+      if (!counts(index.selector, quantified)) continue;
+      const AgentGroup* fleet = fleet_of(*group, path, part);
+      if (fleet == nullptr) return complain_about_index(path.parts[part].name, index);
+      if (!widen(range, *fleet, index.span)) return false;
+    }
+    return true;
+  }
+
+  /// The index of a value with which a memory cell is compared: robot[i].
+  bool gather(const Formula& formula, const WrittenIndex& index, Range& range, bool quantified) {
+    if (!formula.compared || !counts(index.selector, quantified)) return true;
+    const AgentGroup* group =
+        lookup_.find_group(formula.compared->value.name, formula.compared->value.span, out_);
+    return group != nullptr && widen(range, *group, index.span);
+  }
+
+  static bool counts(const Selector& selector, bool quantified) {
+    return selector.kind == Kind::all || (selector.kind == Kind::variable && !quantified);
+  }
+
+  bool complain_about_index(const std::string& name, const WrittenIndex& index) {
+    out_.error("E286", index.span, "'" + name + "' is not one for each member of a fleet",
+               "write it without an index");
+    return false;
+  }
+
+  /// The fleet for whose members a part of a path is: a behaviour or a buffer. null: it is for none.
+  [[nodiscard]] const AgentGroup* fleet_of(const AgentGroup& group, const WrittenPath& path,
+                                           std::size_t part) const {
+    for (const Subsystem& subsystem : lookup_.model().definitions[group.definition].subsystems) {
+      if (path.parts.empty() || subsystem.name != path.parts[0].name) continue;
+      const auto among = [&](const auto& all) -> const AgentGroup* {
+        for (const auto& one : all)
+          if (one.member && one.member->family == path.parts[part].name)
+            if (const auto found = lookup_.groups().find(one.member->fleet); found != lookup_.groups().end())
+              return &found->second;
+        return nullptr;
+      };
+      if (const AgentGroup* found = among(subsystem.behaviours)) return found;
+      if (const AgentGroup* found = among(subsystem.inputs)) return found;
+      return among(subsystem.outputs);
+    }
+    return nullptr;
   }
 
   /// [i] within quantifiers.
   bool gather_variables(const Formula& formula, Range& range) {
     if (formula.kind == Formula::Kind::path) {
       for (const WrittenPath* path : {&formula.path, formula.to ? &*formula.to : nullptr})
-        if (path != nullptr && path->selector.kind == Kind::variable && group_of(*path) != nullptr &&
-            !widen(range, *group_of(*path), *path))
-          return false;
-      return true;
+        if (path != nullptr && !gather_variables(*path, range)) return false;
+      return formula.compared_index.selector.kind != Kind::variable ||
+             gather(formula, formula.compared_index, range, false);
     }
     for (const Formula& part : formula.parts)
       if (!gather_variables(part, range)) return false;
     return true;
   }
 
-  bool widen(Range& range, const AgentGroup& group, const WrittenPath& path) {
+  bool gather_variables(const WrittenPath& path, Range& range) {
+    const AgentGroup* const group = group_of(path);
+    if (group == nullptr) return true;
+    if (path.selector.kind == Kind::variable && !widen(range, *group, path.index_span)) return false;
+    for (std::size_t part = 0; part < path.indices.size(); ++part) {
+      if (path.indices[part].selector.kind != Kind::variable) continue;
+      const AgentGroup* fleet = fleet_of(*group, path, part);
+      if (fleet == nullptr) return complain_about_index(path.parts[part].name, path.indices[part]);
+      if (!widen(range, *fleet, path.indices[part].span)) return false;
+    }
+    return true;
+  }
+
+  bool widen(Range& range, const AgentGroup& group, Span at) {
     if (range.group == nullptr) range.group = &group;
     if (range.group->count == group.count) return true;
-    out_.error("E307", path.index_span,
+    out_.error("E307", at,
                "the indices count over fleets of different sizes: " + std::to_string(range.group->count) +
                    " and " + std::to_string(group.count),
                "give both fleets the same count, or write two properties");
@@ -170,6 +226,8 @@ class ClaimReader {
     if (!path) return std::nullopt;
     made.path = std::move(*path);
     made.compared = formula.compared;
+    if (made.compared && !add_index(made.compared->value, formula.compared_index, i, star))
+      return std::nullopt;
     if (!formula.to) return made;
     made.to = net_path(*formula.to, i, star);
     if (!made.to) return std::nullopt;
@@ -182,7 +240,21 @@ class ClaimReader {
     const AgentGroup& group = *group_of(path);
     const auto number = agent_number(path.selector, group, path.selector.kind == Kind::all ? star : i);
     if (!number) return std::nullopt;
-    return NetPath{agent_of(group, *number), path.parts, path.whole};
+    NetPath made{agent_of(group, *number), path.parts, path.whole};
+    for (std::size_t part = 0; part < path.indices.size(); ++part)
+      if (!add_index(made.parts[part], path.indices[part], i, star)) return std::nullopt;
+    return made;
+  }
+
+  /// "lend" becomes "lend[3]". Whether there is such a member is for the net to say; false: there is none below 0.
+  static bool add_index(PathPart& part, const WrittenIndex& index, std::int64_t i, std::int64_t star) {
+    if (index.selector.kind == Kind::plain) return true;
+    const std::int64_t number = index.selector.kind == Kind::constant ? index.selector.number
+                                : index.selector.kind == Kind::all    ? star
+                                                                      : i + index.selector.number;
+    if (number < 0) return false;
+    part.name = name_of_member(part.name, static_cast<std::uint32_t>(number));
+    return true;
   }
 
   const PathLookup& lookup_;

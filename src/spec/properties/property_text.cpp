@@ -185,7 +185,7 @@ class PropertyTextReader {
       }
       formula.compared = {kind, {std::string(value), text_.part(at_, value.size())}, at};
       at_ += value.size();
-      return true;
+      return index(formula.compared_index.selector, formula.compared_index.span);
     }
     return true;
   }
@@ -199,7 +199,7 @@ class PropertyTextReader {
     if (!is_identifier(agent))
       return fail("E112", from, agent.size(), in_quotes(agent) + " does not name an agent", element_hint);
     at_ += agent.size();
-    if (!index(path)) return std::nullopt;
+    if (!index(path.selector, path.index_span)) return std::nullopt;
     while (at_ < end_ && text_.text[at_] == '.') {
       ++at_;
       std::size_t length = 0;
@@ -209,22 +209,25 @@ class PropertyTextReader {
       if (length == 0) return fail("E112", at_ - 1, 1, "a name should follow the '.'", element_hint);
       path.parts.push_back({text_.text.substr(at_, length), text_.part(at_, length)});
       at_ += length;
+      WrittenIndex& its = path.indices.emplace_back();
+      if (!index(its.selector, its.span)) return std::nullopt;
     }
     path.whole = text_.part(from, at_ - from);
     return path;
   }
 
-  bool index(WrittenPath& path) {
+  /// The index that may stand here.
+  bool index(Selector& into, Span& span) {
     if (at_ >= end_ || text_.text[at_] != '[') return true;
     const std::size_t close = text_.text.find(']', at_);
     if (close == std::string::npos || close >= end_)
       return fail("E112", at_, 1, "'[' is not closed", index_hint), false;
     const std::string_view inside = std::string_view(text_.text).substr(at_ + 1, close - at_ - 1);
-    path.index_span = text_.part(at_ + 1, std::max<std::size_t>(inside.size(), 1));
+    span = text_.part(at_ + 1, std::max<std::size_t>(inside.size(), 1));
     const std::optional<Selector> selector = read_index(inside);
     if (!selector)
       return fail("E112", at_ + 1, inside.size(), in_quotes(inside) + " is not an index", index_hint), false;
-    path.selector = *selector;
+    into = *selector;
     at_ = close + 1;
     return true;
   }

@@ -12,16 +12,23 @@
 ///
 ///     formula = conjunction { "or" conjunction }      conjunction = negation { "and" negation }
 ///     negation = "not" negation | "(" formula ")" | ("any" | "all") "(" formula ")" | path [ "->" path ]
-///              | path ( "==" | "!=" | "<" | "<=" | ">" | ">=" ) ( NAME | NUMBER )
-///     path = NAME [ "[" index "]" ] { "." NAME }
+///              | path ( "==" | "!=" | "<" | "<=" | ">" | ">=" ) ( NAME [ "[" index "]" ] | NUMBER )
+///     path = NAME [ "[" index "]" ] { "." NAME [ "[" index "]" ] }
 namespace tessera::spec {
+
+/// An index of a part of a path; plain: it has none.
+struct WrittenIndex {
+  Selector selector;
+  Span span{};
+};
 
 /// A path of any length: robot[i].control.follow
 struct WrittenPath {
   std::string agent;
   Span whole, agent_span, index_span;
   Selector selector;
-  std::vector<PathPart> parts;  ///< after the agent
+  std::vector<PathPart> parts;          ///< after the agent, without their indices
+  std::vector<WrittenIndex> indices{};  ///< per part: of one for each member of a fleet
 };
 
 struct Formula {
@@ -36,6 +43,7 @@ struct Formula {
   WrittenPath path;
   std::optional<WrittenPath> to;
   std::optional<Comparison> compared{};
+  WrittenIndex compared_index{};  ///< of the value: robot[i]
   std::vector<Formula> parts;
   Span span;  ///< of its first word or path
 };

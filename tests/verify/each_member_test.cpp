@@ -1,0 +1,160 @@
+// What a specification writes once for each member of a fleet means what it means written out.
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <chrono>
+#include <string>
+#include <vector>
+
+#include "proved.hpp"
+
+namespace tessera::verify {
+namespace {
+
+constexpr const char* carriers = R"(
+tessera: 1
+system: depot
+templates:
+  carrier:
+    control:
+      rate: 10 Hz
+      inputs: { grant: bool }
+      outputs: { request: bool, done: bool }
+      behaviours:
+        ask: { terminal: in.grant.fresh, send: [request], next: at_dock }
+        at_dock: { terminal: elapsed > 1 s, send: [], receive: [], next: leave }
+        leave: { terminal: true, send: [done], receive: [], next: ask }
+agents:
+  robot: { use: carrier, count: COUNT }
+)";
+
+constexpr const char* written_once = R"(
+  dock:
+    control:
+      rate: 10 Hz
+      inputs: { request: "bool[each robot]", done: "bool[each robot]" }
+      outputs: { grant: "bool[each robot]" }
+      memory: { lent_to: { values: [nobody, each robot] } }
+      behaviours:
+        wait:
+          terminal: any(in.request.fresh)
+          send: []
+          receive: [request]
+          next: [{ to: "lend[i]", when: "in.request[i].fresh && memory.lent_to == nobody" }, wait]
+        lend:
+          for: each robot
+          sets: { lent_to: "robot[i]" }
+          terminal: true
+          send: ["grant[i]"]
+          receive: []
+          next: "lent[i]"
+        lent:
+          for: each robot
+          terminal: "in.done[i].fresh"
+          send: []
+          receive: ["done[i]"]
+          next: { to: wait, sets: { lent_to: nobody } }
+channels:
+  - { from: "robot[i].control.request", to: "dock.control.request[i]", receive: blocking, timeout: 100 ms }
+  - { from: "robot[i].control.done", to: "dock.control.done[i]", receive: blocking, timeout: 100 ms }
+  - { from: "dock.control.grant[i]", to: "robot[i].control.grant", receive: blocking, timeout: 100 ms }
+)";
+
+/// The same for two robots, as it was written before.
+constexpr const char* written_out = R"(
+  dock:
+    control:
+      rate: 10 Hz
+      inputs: { request_0: bool, request_1: bool, done_0: bool, done_1: bool }
+      outputs: { grant_0: bool, grant_1: bool }
+      memory: { lent_to: { values: [nobody, robot_0, robot_1] } }
+      behaviours:
+        wait:
+          terminal: in.request_0.fresh || in.request_1.fresh
+          send: []
+          receive: [request_0, request_1]
+          next:
+            - { to: lend_0, when: in.request_0.fresh && memory.lent_to == nobody }
+            - { to: lend_1, when: in.request_1.fresh && memory.lent_to == nobody }
+            - wait
+        lend_0: { sets: { lent_to: robot_0 }, terminal: true, send: [grant_0], receive: [], next: lent_0 }
+        lend_1: { sets: { lent_to: robot_1 }, terminal: true, send: [grant_1], receive: [], next: lent_1 }
+        lent_0:
+          { terminal: in.done_0.fresh, send: [], receive: [done_0], next: { to: wait, sets: { lent_to: nobody } } }
+        lent_1:
+          { terminal: in.done_1.fresh, send: [], receive: [done_1], next: { to: wait, sets: { lent_to: nobody } } }
+channels:
+  - { from: "robot[0].control.request", to: dock.control.request_0, receive: blocking, timeout: 100 ms }
+  - { from: "robot[1].control.request", to: dock.control.request_1, receive: blocking, timeout: 100 ms }
+  - { from: "robot[0].control.done", to: dock.control.done_0, receive: blocking, timeout: 100 ms }
+  - { from: "robot[1].control.done", to: dock.control.done_1, receive: blocking, timeout: 100 ms }
+  - { from: dock.control.grant_0, to: "robot[0].control.grant", receive: blocking, timeout: 100 ms }
+  - { from: dock.control.grant_1, to: "robot[1].control.grant", receive: blocking, timeout: 100 ms }
+)";
+
+std::string depot(const std::string& count, const std::string& dock) {
+  std::string text = carriers;
+  text.replace(text.find("COUNT"), 5, count);
+  return text + dock;
+}
+
+/// "lend[0]" and "lend_0" become the same name.
+std::string plain(std::string name) {
+  std::ranges::replace(name, '[', '_');
+  std::erase(name, ']');
+  return name;
+}
+
+std::vector<std::string> places_of(const net::Net& net) {
+  std::vector<std::string> all;
+  for (const net::Place& place : net.places())
+    all.push_back(plain(place.name) + " " + std::to_string(place.tokens));
+  std::ranges::sort(all);
+  return all;
+}
+
+/// "name: inputs -> outputs, truth of its condition", so that two nets can be compared.
+std::vector<std::string> transitions_of(const net::Net& net) {
+  std::vector<std::string> all;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::TransitionId id{index};
+    std::string text = plain(net[id].name);
+    for (const auto& arcs : {net.preset(id), net.postset(id)}) {
+      std::vector<std::string> ends;
+      for (const net::Arc& arc : arcs) ends.push_back(plain(net[arc.place].name));
+      std::ranges::sort(ends);
+      text += " :";
+      for (const std::string& end : ends) text += " " + end;
+    }
+    all.push_back(text + " " + std::to_string(static_cast<int>(net[id].condition.truth)));
+  }
+  std::ranges::sort(all);
+  return all;
+}
+
+TEST(EachMember, GivesTheNetOfTheSameWrittenOut) {
+  const net::Net once = flattened(depot("2", written_once)), out = flattened(depot("2", written_out));
+  EXPECT_EQ(places_of(once), places_of(out));
+  EXPECT_EQ(transitions_of(once), transitions_of(out));
+}
+
+TEST(EachMember, IsKnownToProofs) {
+  for (const char* count : {"1", "3"}) {
+    const Proved all =
+        proved(depot(count, std::string(written_once) + R"(
+properties:
+  - { name: one at the dock, never: "robot[i].control.at_dock and dock.control.memory.lent_to != robot[i]" }
+  - { name: lent to its robot, never: "dock.control.lent[i] and dock.control.memory.lent_to != robot[i]" }
+  - { name: some is lent, reachable: "any(dock.control.lent[*])"
+  }
+)"),
+               std::chrono::seconds(60));
+for (const char* name : {"one at the dock", "lent to its robot", "some is lent", "safe"})
+  EXPECT_EQ(all[name].verdict, Verdict::holds) << count << ' ' << name << ": " << all[name].why;
+}
+}
+
+}  // namespace
+}  // namespace tessera::verify

@@ -141,19 +141,17 @@ TEST(EachMember, GivesTheNetOfTheSameWrittenOut) {
 }
 
 TEST(EachMember, IsKnownToProofs) {
-  for (const char* count : {"1", "3"}) {
-    const Proved all =
-        proved(depot(count, std::string(written_once) + R"(
+  for (const char* count : {"1", "2"}) {
+    const Proved all = proved(depot(count, std::string(written_once) + R"yaml(
 properties:
   - { name: one at the dock, never: "robot[i].control.at_dock and dock.control.memory.lent_to != robot[i]" }
   - { name: lent to its robot, never: "dock.control.lent[i] and dock.control.memory.lent_to != robot[i]" }
-  - { name: some is lent, reachable: "any(dock.control.lent[*])"
+  - { name: some is lent, reachable: "any(dock.control.lent[*])" }
+)yaml"),
+                              std::chrono::seconds(60));
+    for (const char* name : {"one at the dock", "lent to its robot", "some is lent", "safe"})
+      EXPECT_EQ(all[name].verdict, Verdict::holds) << count << ' ' << name << ": " << all[name].why;
   }
-)"),
-               std::chrono::seconds(60));
-for (const char* name : {"one at the dock", "lent to its robot", "some is lent", "safe"})
-  EXPECT_EQ(all[name].verdict, Verdict::holds) << count << ' ' << name << ": " << all[name].why;
-}
 }
 
 }  // namespace

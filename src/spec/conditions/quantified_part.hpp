@@ -21,7 +21,7 @@ struct QuantifiedPart {
   std::string status;                 ///< "fresh"
   std::span<const Token> compared{};  ///< ">= 2"; empty: none
 
-  /// What is known of the part if that is known of its members.
+  /// The truth of the part, as far as those of its members are known.
   [[nodiscard]] Truth truth(const std::vector<Truth>& members) const;
 };
 

@@ -62,6 +62,13 @@ class ListReader {
 
   /// The buffers of that name, with which the text ends; none after an error.
   std::vector<BufferId> find(const Node& text, std::string_view name) {
+    if (name.empty()) {
+      const std::vector<std::string> names = written_names(scope_.buffers);
+      out_.error("E104", text.span,
+                 "an " + std::string(scope_.what) + " should follow " + in_quotes(text.text),
+                 names.empty() ? "" : "for example " + text.text + names.front());
+      return {};
+    }
     const auto read = read_indexed(text, text.text.size() - name.size(), out_);
     if (!read) return {};
     std::vector<BufferId> found;
@@ -84,11 +91,14 @@ class ListReader {
     const std::vector<std::string> others = written_names(scope_.others);
     const bool other = std::ranges::find(others, name.name) != others.end();
     const std::string what(scope_.what);
+    const std::vector<std::string> names = written_names(scope_.buffers);
+    Hint hint = did_you_mean(name.name, names);
+    if (names.empty()) hint = "this subsystem has no " + what + "s";
     const std::string quoted = in_quotes(name.name);
     out_.error("E101", name.index == IndexedName::Index::none ? text.span : name.span,
                other ? quoted + " is no " + what : "unknown " + what + " " + quoted,
                other ? std::string("list it under '") + (what == "output" ? "receive" : "send") + "'"
-                     : did_you_mean(name.name, written_names(scope_.buffers)));
+                     : std::move(hint));
   }
 
   [[nodiscard]] bool is_listed(BufferId buffer) const {

@@ -171,14 +171,27 @@ std::optional<Change> read_value(const Node& text, const Field& cell, Change cha
   return std::nullopt;
 }
 
+std::string joined(const std::vector<std::string>& names) {
+  std::string text;
+  for (const std::string& name : names) text += (text.empty() ? "" : ", ") + name;
+  return text;
+}
+
 std::optional<std::uint32_t> cell_named(const Entry& entry, const std::vector<Field>& memory,
                                         Diagnostics& out) {
   const auto found = std::ranges::find(memory, entry.key, &Field::name);
   if (found == memory.end()) {
     const std::vector<std::string> names = names_of_cells(memory);
-    Hint hint = did_you_mean(entry.key, names);
-    if (hint.empty() && names.empty())
-      hint = "declare it: memory: { " + entry.key + ": { values: [nobody, a] } }";
+    const bool is_path = entry.key.starts_with("memory.");
+    Hint hint = did_you_mean(is_path ? entry.key.substr(entry.key.find('.') + 1) : entry.key, names);
+    if (hint.empty()) hint = "memory with values here: " + joined(names);
+    if (is_path && std::ranges::count(names, entry.key.substr(entry.key.find('.') + 1)) > 0)
+      hint = "write " + entry.key.substr(entry.key.find('.') + 1);
+    const std::string& change = entry.value->text;
+    const bool steps = change.starts_with('+') || change.starts_with('-');
+    if (names.empty())
+      hint = "declare it: memory: { " + entry.key +
+             (steps ? ": { counts: 0..4 } }" : ": { values: [nobody, a] } }");
     out.error("E101", entry.span, "unknown memory " + in_quotes(entry.key), std::move(hint));
     return std::nullopt;
   }

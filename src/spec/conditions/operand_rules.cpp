@@ -3,6 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <optional>
 #include <utility>
 
 #include "diagnostics/utf8.hpp"
@@ -27,6 +30,15 @@ bool loses_sign(Scalar is_signed, Scalar is_unsigned) {
   const bool any = is_signed == Scalar::int8 || is_signed == Scalar::int16 || is_signed == Scalar::int32;
   if (is_unsigned == Scalar::uint32) return any;
   return is_unsigned == Scalar::uint64 && (any || is_signed == Scalar::int64);
+}
+
+/// The number that a literal such as "3" or "0.5" is; nullopt: it has another form.
+std::optional<double> decimal(std::string_view text) {
+  const bool octal = text.size() > 1 && text.front() == '0' && text[1] != '.';
+  double number = 0;
+  const char* const end = text.data() + text.size();
+  const auto [stop, error] = std::from_chars(text.data(), end, number);
+  return error == std::errc() && stop == end && !octal ? std::optional(number) : std::nullopt;
 }
 
 /// "cmp_less" for "<".
@@ -100,6 +112,10 @@ Value ConditionOperators::compare(const Token& mark, const Value& left, const Va
   }
   hint_at_minutes(left, right);
   if (left.kind == Is::choice || right.kind == Is::choice) {
+    const Value& other = left.kind == Is::choice ? right : left;
+    if (const std::string text = text_of(other); other.kind == Is::unknown && text.starts_with('"'))
+      mistake("E263", other, text + " is text, and values have names",
+              fmt::format("write it without quotes: {}", text.substr(1, text.find('"', 1) - 1)));
     if (left.kind != Is::unknown && right.kind != Is::unknown) compare_choice(mark, left, right);
     return result;
   }
@@ -178,14 +194,26 @@ void ConditionOperators::compare_choice(const Token& mark, const Value& left, co
                       at.few->few->names.front()));
 }
 
-/// An equality that a counter cannot have is a mistake of the author.
+/// A comparison that no count fits is a mistake of the author.
 void ConditionOperators::check_count(const Token& mark, const Value& left, const Value& right) {
-  if (!mark.is_one_of({"==", "!=", "not_eq"})) return;
-  for (const auto& [one, other] : {std::pair{left, right}, std::pair{right, left}}) {
-    if (one.few == nullptr || !other.literal || one.few->few->find(text_of(other))) continue;
-    if (text_of(other).find_first_not_of("0123456789") != std::string::npos) continue;
-    mistake("E264", other, fmt::format("{} is never {}", text_of(one), text_of(other)),
-            "it is " + one.few->few->in_words());
+  for (const bool is_left : {true, false}) {
+    const Value& one = is_left ? left : right;
+    const Value& other = is_left ? right : left;
+    if (one.few == nullptr || !other.literal) continue;
+    const FewValues& few = *one.few->few;
+    const std::optional<double> number = decimal(text_of(other));
+    if (!number || few.names.empty()) continue;
+    const double least = few.least, most = least + static_cast<double>(few.names.size() - 1);
+    const bool is_count = *number >= least && *number <= most && *number == std::floor(*number);
+    const auto never = [&](const char* what) {
+      mistake("E264", other, fmt::format("{} is never {}{}", text_of(one), what, text_of(other)),
+              "it is " + few.in_words());
+    };
+    if (mark.is_one_of({"==", "!=", "not_eq"}) && !is_count) never("");
+    if (mark.is(is_left ? "<" : ">") && least >= *number) never("less than ");
+    if (mark.is(is_left ? "<=" : ">=") && least > *number) never("at most ");
+    if (mark.is(is_left ? ">" : "<") && most <= *number) never("more than ");
+    if (mark.is(is_left ? ">=" : "<=") && most < *number) never("at least ");
   }
 }
 

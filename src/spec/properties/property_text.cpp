@@ -80,8 +80,8 @@ class PropertyTextReader {
       return fail("E114", end_ > 0 ? end_ - 1 : 0, 1, "the property ends where a path should follow",
                   element_hint);
     for (const auto& [symbol, meant] :
-         {std::pair{"&&", "and"}, {"||", "or"}, {"!", "not"}, {"&", "and"}, {"|", "or"}})
-      if (left.starts_with(symbol))
+         {std::pair{"&&", "and"}, {"||", "or"}, {"!", "not"}, {"&", "and"}, {"|", "or"}, {"=", "=="}})
+      if (left.starts_with(symbol) && !left.starts_with("=="))
         return fail("E114", at_, std::string_view(symbol).size(), in_quotes(symbol) + " is not known here",
                     std::string("write ") + meant);
     const std::string_view found = word().empty() ? left.substr(0, 1) : word();
@@ -178,9 +178,18 @@ class PropertyTextReader {
       const diagnostics::Span at = text_.part(at_ - mark.size(), mark.size());
       const std::string_view value = word();
       if (value.empty()) {
-        static_cast<void>(rest());
+        const bool is_text = rest().starts_with('"') || rest().starts_with('\'');
         fail("E114", std::min(at_, end_ - 1), 1, "a value should follow " + in_quotes(mark),
-             "for example dock.control.memory.lent_to == nobody");
+             is_text ? "write it without quotes" : "for example dock.control.memory.lent_to == nobody");
+        return false;
+      }
+      if (const std::size_t behind = at_ + value.size(); behind < end_ && text_.text[behind] == '.') {
+        const bool is_number = value.find_first_not_of("0123456789") == std::string_view::npos;
+        fail("E114", at_, value.size() + 1,
+             is_number ? "counts are whole numbers"
+                       : "a value should follow " + in_quotes(mark) + ", not a path",
+             is_number ? "for example dock.control.memory.served >= 2"
+                       : "write the path first: dock.control.memory.lent_to == nobody");
         return false;
       }
       formula.compared = {kind, {std::string(value), text_.part(at_, value.size())}, at};

@@ -77,7 +77,7 @@ std::vector<std::string> proposals_in(const std::string& with_cursor) {
   return labels;
 }
 
-/// Where a word stands first.
+/// The first place of a word.
 Position at_word(const std::string& in, const std::string& word, std::size_t skip = 0) {
   return Lines(in).position(in.find(word) + skip);
 }

@@ -1,4 +1,4 @@
-// What a specification writes once for each member of a fleet means what it means written out.
+// A specification that is written once for each member of a fleet means the same as written out.
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>

@@ -206,7 +206,7 @@ class Random {
       made.flipped = chance(3);
       const std::vector<std::string> marks{"==", "!=", "<", "<=", ">", ">="};
       made.mark = marks[below(cells[made.cell].counts ? marks.size() : 2)];
-      // What no count fits is refused (E264).
+      // A comparison that no count fits is refused (E264).
       const int last = static_cast<int>(cells[made.cell].values.size()) - 1;
       const std::string before_first = made.flipped ? ">" : "<", behind_last = made.flipped ? "<" : ">";
       if (made.position == 0 && made.mark == before_first) made.mark += "=";

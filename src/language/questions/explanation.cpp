@@ -98,7 +98,7 @@ std::string inherited(const Document& document, const Symbol& symbol, const Unit
   return text;
 }
 
-/// Where `sets` changes a memory cell, or gives it a value: "Changed on lines 12, 17."
+/// The lines where `sets` changes a memory cell, or gives it a value: "Changed on lines 12, 17."
 std::string changes_of(const Document& document, SymbolId id) {
   constexpr std::size_t most_shown = 8;
   std::string lines;

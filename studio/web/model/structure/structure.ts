@@ -233,7 +233,7 @@ export function listAround({ yaml }: Structure, subsystem: Subsystem, key: "send
 /** A memory cell that is part of the net. */
 export interface KeptCell {
   name: string;
-  /** Of a counter its range: "0..4". */
+  /** The range of a counter: "0..4"; empty: it has values. */
   counts: string;
   values: string[];
 }

@@ -1,5 +1,7 @@
 #include "codegen/condition_text.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "codegen/cpp_text.hpp"
@@ -40,6 +42,21 @@ bool calls_library(const spec::Expression& expression) {
     if (is_call && (at == 0 || !tokens[at - 1].is_one_of({".", "->", "::"}))) return true;
   }
   return false;
+}
+
+std::string allowed_text(const spec::Subsystem& subsystem, const spec::Next& entry) {
+  std::string text;
+  const auto add = [&text](const std::string& one) { text += (text.empty() ? "" : " && ") + one; };
+  for (std::uint32_t number = 0; entry.may_be_blocked && number < subsystem.memory.size(); ++number) {
+    const spec::Field& cell = subsystem.memory[number];
+    if (!cell.few || !cell.few->counts) continue;
+    const auto counts = spec::allowed(*cell.few, number, entry.sets);
+    if (counts && counts->first > 0)
+      add(fmt::format("memory.{} >= {}", cell.name, cell.few->names[counts->first]));
+    if (counts && counts->last + 1 < cell.few->names.size())
+      add(fmt::format("memory.{} <= {}", cell.name, cell.few->names[counts->last]));
+  }
+  return text;
 }
 
 }  // namespace tessera::codegen

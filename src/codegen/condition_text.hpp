@@ -22,4 +22,7 @@ namespace tessera::codegen {
 /// condition gets headers that most do not need.
 [[nodiscard]] bool calls_library(const spec::Expression& expression);
 
+/// "memory.n < 4 && memory.m > 0": the changes of the entry are possible. Empty: they always are.
+[[nodiscard]] std::string allowed_text(const spec::Subsystem& subsystem, const spec::Next& entry);
+
 }  // namespace tessera::codegen

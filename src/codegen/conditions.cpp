@@ -20,22 +20,6 @@ bool conditional(const spec::Behaviour& behaviour) {
   return behaviour.next.size() > 1 || first.when.kind != spec::When::Kind::always || first.may_be_blocked;
 }
 
-/// "memory.n < 4 && memory.m > 0": the changes of the entry are possible. Empty: they always are.
-std::string allowed_text(const spec::Subsystem& subsystem, const spec::Next& entry) {
-  std::string text;
-  const auto add = [&text](const std::string& one) { text += (text.empty() ? "" : " && ") + one; };
-  for (std::uint32_t number = 0; entry.may_be_blocked && number < subsystem.memory.size(); ++number) {
-    const spec::Field& cell = subsystem.memory[number];
-    if (!cell.few || !cell.few->counts) continue;
-    const auto counts = spec::allowed(*cell.few, number, entry.sets);
-    if (counts && counts->first > 0)
-      add(fmt::format("memory.{} >= {}", cell.name, cell.few->names[counts->first]));
-    if (counts && counts->last + 1 < cell.few->names.size())
-      add(fmt::format("memory.{} <= {}", cell.name, cell.few->names[counts->last]));
-  }
-  return text;
-}
-
 bool decided(const spec::Behaviour& behaviour) {
   return behaviour.terminal.kind != spec::Condition::Kind::never ||
          behaviour.error.kind != spec::Condition::Kind::never;
@@ -67,7 +51,7 @@ Conditions::Conditions(const Project& project, const Unit& unit)
       asked_.push_back(std::move(asked));
       continue;
     }
-    asked.error = add_all(behaviour, behaviour.error, "error");
+    if (!behaviour.is_group()) asked.error = add_all(behaviour, behaviour.error, "error");
     if (behaviour.error.kind != spec::Condition::Kind::always)
       asked.terminal = add_all(behaviour, behaviour.terminal, "terminal");
     asked.next.resize(behaviour.next.size());
@@ -77,7 +61,7 @@ Conditions::Conditions(const Project& project, const Unit& unit)
       if (!endings.can_be_taken(entry) || !is_first(next)) continue;
       if (next.when.kind == spec::When::Kind::expression)
         asked.next[entry] =
-            add(fmt::format("{}_next_{}", written_name(behaviour), entry.value + 1), next.when.text,
+            add(fmt::format("{}_next_{}", function_name(behaviour), entry.value + 1), next.when.text,
                 fmt::format("{} -> {}", subject(behaviour), goal(subsystem_, next)));
       if (next.when.kind == spec::When::Kind::terminal)
         functions_[asked.terminal[next.when.expression]].remembered = true;
@@ -94,12 +78,29 @@ Numbered<spec::ExpressionId, std::size_t> Conditions::add_all(const spec::Behavi
   Numbered<spec::ExpressionId, std::size_t> added;
   if (condition.kind != spec::Condition::Kind::expressions) return added;
   for (const spec::Expression& expression : condition.expressions) {
+    if (expression.until_of.valid()) {
+      added.push_back(until_of(expression.until_of));
+      continue;
+    }
+    if (behaviour.is_group()) {  // no text: one of its behaviours has led to `end`
+      added.push_back(functions_.size());
+      continue;
+    }
     const std::string suffix = expression.name.empty() ? "" : '_' + expression.name;
     const std::string says =
         fmt::format("{}, {}{}{}", subject(behaviour), kind, suffix.empty() ? "" : " ", expression.name);
-    added.push_back(add(fmt::format("{}_{}{}", written_name(behaviour), kind, suffix), expression, says));
+    added.push_back(add(fmt::format("{}_{}{}", function_name(behaviour), kind, suffix), expression, says));
   }
   return added;
+}
+
+/// One function for all behaviours of the group, which remember whether it held when they ended.
+std::size_t Conditions::until_of(spec::BehaviourId group) {
+  const auto [known, is_new] = untils_.emplace(group, functions_.size());
+  const spec::Behaviour& what = subsystem_.behaviours[group];
+  if (is_new) add(what.identifier() + "_until", *what.group->until, what.name + ", until");
+  functions_[known->second].remembered = true;
+  return known->second;
 }
 
 std::size_t Conditions::add(const std::string& name, const spec::Expression& expression, std::string says) {
@@ -132,8 +133,8 @@ std::string Conditions::decide() const {
 
 std::string Conditions::decide_case(spec::BehaviourId behaviour) const {
   const spec::Behaviour& what = subsystem_.behaviours[behaviour];
-  if (!decided(what) || !is_first(what)) return {};
-  std::string out = fmt::format("      case Behaviour::{}:\n", written_name(what));
+  if (!decided(what) || !is_first(what) || what.is_group()) return {};
+  std::string out = fmt::format("      case Behaviour::{}:\n", function_name(what));
   if (what.error.kind == spec::Condition::Kind::always)
     return out + "        return tessera::Outcome::error;\n";
   out += ask(asked_[behaviour].error, "error");
@@ -225,7 +226,7 @@ std::string Conditions::route_text(spec::BehaviourId behaviour, std::vector<Rout
   for (const Route& route : routes)
     lines.push_back({return_text(route, what.next[route.entry]), goal(subsystem_, what.next[route.entry])});
   if (!ends) lines.push_back({"return -1;", ""});
-  return fmt::format("      case Behaviour::{}:\n{}", written_name(what), declarations(lines, 8));
+  return fmt::format("      case Behaviour::{}:\n{}", function_name(what), declarations(lines, 8));
 }
 
 /// "if (held_.tessera_work_error_lost) ", or nothing if the entry has no condition.

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <map>
 #include <set>
 #include <string>
 #include <string_view>
@@ -57,6 +58,7 @@ class Conditions {
   [[nodiscard]] bool names_member() const;
   /// Constants for the values of memory that conditions name.
   [[nodiscard]] std::string values() const;
+  std::size_t until_of(spec::BehaviourId group);
   std::size_t add(const std::string& name, const spec::Expression& expression, std::string says);
   Numbered<spec::ExpressionId, std::size_t> add_all(const spec::Behaviour& behaviour,
                                                     const spec::Condition& condition, std::string_view kind);
@@ -78,6 +80,7 @@ class Conditions {
   const spec::Subsystem& subsystem_;
   std::vector<Function> functions_;
   Numbered<spec::BehaviourId, Asked> asked_;
+  std::map<spec::BehaviourId, std::size_t> untils_;  ///< per group, in functions_
   std::set<std::string> names_;
 };
 

@@ -221,8 +221,9 @@ class Extraction {
 
   [[nodiscard]] std::string role(TransitionId id, bool sends) const {
     const net::Transition& transition = net_[id];
+    const bool leaves = transition.role == Step::leave || transition.role == Step::leave_group;
     const net::BehaviourId behaviour =
-        transition.role == Step::leave ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
+        leaves ? net_[net_.preset(id).front().place].behaviour : transition.behaviour;
     std::string text = fmt::format("tessera::Step::{}", name_of(transition.role));
     if (behaviour.valid()) text += fmt::format(", {}", behaviour.value);
     if (transition.block.valid())

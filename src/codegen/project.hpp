@@ -33,6 +33,11 @@ template <class Part>
   return part.member ? part.member->family : part.name;
 }
 
+/// Of its transition function: "charge_ask" for a behaviour `ask` in a group `charge`.
+[[nodiscard]] inline std::string function_name(const spec::Behaviour& behaviour) {
+  return behaviour.member ? behaviour.member->family : behaviour.identifier();
+}
+
 /// Every unit, definition by definition, except those that no agent uses. Linear in the instances.
 [[nodiscard]] std::vector<Unit> units_of(const spec::Model& model);
 

@@ -65,15 +65,14 @@ std::vector<Stub> stubs(const spec::Model& model) {
   for (const Unit& unit : units) {
     const std::string space = unit_namespace(model, unit);
     for (const spec::Behaviour& behaviour : unit.subsystem->behaviours) {
-      if (!is_first(behaviour)) continue;
+      if (!is_first(behaviour) || behaviour.is_group()) continue;
       Stub stub;
       stub.file = user_file(units, unit);
-      stub.function = written_name(behaviour);
+      stub.function = function_name(behaviour);
       stub.subsystem = unit_path(unit);
       stub.space = space;
-      stub.signature =
-          fmt::format("void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)",
-                      written_name(behaviour));
+      stub.signature = fmt::format(
+          "void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)", stub.function);
       stub.preamble = fmt::format("#include \"{}\"\n\nnamespace {} {{\n", unit_header(unit), space);
       stub.body = fmt::format("{}{} {{}}\n", description(unit, behaviour), stub.signature);
       stub.closing = fmt::format("}}  // namespace {}\n", space);

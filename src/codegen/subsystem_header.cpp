@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <deque>
 
 #include "codegen/cpp_text.hpp"
 #include "codegen/driver_tables.hpp"
@@ -21,7 +22,8 @@ class Header {
         unit_(unit),
         subsystem_(*unit.subsystem),
         parameters_(parameters_of(project.model, unit)) {
-    for (const spec::Behaviour& behaviour : subsystem_.behaviours) hidden_.insert(written_name(behaviour));
+    for (const spec::Behaviour& behaviour : subsystem_.behaviours)
+      hidden_.insert(functions_.emplace_back(function_name(behaviour)));
     using Fields = const std::vector<spec::Field>*;
     for (const Fields fields : std::initializer_list<Fields>{&subsystem_.inputs, &subsystem_.outputs,
                                                              &subsystem_.memory, &subsystem_.real})
@@ -156,10 +158,10 @@ struct Context : tessera::Context {{
   [[nodiscard]] std::string functions() const {
     std::string out;
     for (const spec::Behaviour& behaviour : subsystem_.behaviours)
-      if (is_first(behaviour))
+      if (is_first(behaviour) && !behaviour.is_group())
         out += fmt::format(
             "void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out);{}\n",
-            written_name(behaviour),
+            function_name(behaviour),
             behaviour.member ? fmt::format("  // of each {}: context.member", behaviour.member->fleet) : "");
     return out;
   }
@@ -169,6 +171,7 @@ struct Context : tessera::Context {{
   const spec::Subsystem& subsystem_;
   std::vector<const spec::Parameter*> parameters_;
   std::set<std::string> headers_{"<tessera/buffer.hpp>"};
+  std::deque<std::string> functions_;
   std::set<std::string_view> hidden_{"Inputs", "Outputs", "Memory", "Parameters", "Context", "Real"};
 };
 

@@ -145,11 +145,15 @@ std::string call(const spec::Subsystem& subsystem) {
         "void call(std::uint16_t) override",
         {fmt::format("yours::{}(context_, in, memory, out);", subsystem.behaviours[0].name)});
   std::string cases;
+  bool groups = false;
   for (const spec::Behaviour& behaviour : subsystem.behaviours)
-    if (is_first(behaviour))
+    if (behaviour.is_group())
+      groups = true;
+    else if (is_first(behaviour))
       cases +=
           fmt::format("      case Behaviour::{0}:\n        return yours::{0}(context_, in, memory, out);\n",
-                      written_name(behaviour));
+                      function_name(behaviour));
+  if (groups) cases += "      default:  // a group is never called\n        return;\n";
   return fmt::format(R"(  void call(std::uint16_t behaviour) override {{
     switch ({}) {{
 {}    }}
@@ -163,8 +167,8 @@ std::string behaviours_enumeration(const spec::Subsystem& subsystem) {
   std::uint32_t number = 0, expected = 0;
   for (const spec::Behaviour& behaviour : subsystem.behaviours) {
     if (is_first(behaviour)) {
-      names.push_back(number == expected ? written_name(behaviour)
-                                         : fmt::format("{} = {}", written_name(behaviour), number));
+      const std::string name = function_name(behaviour);
+      names.push_back(number == expected ? name : fmt::format("{} = {}", name, number));
       expected = number + 1;
     }
     ++number;

@@ -297,7 +297,7 @@ std::string shape_text(const Folding& folding, const net::HierarchicalNet& pages
     write_elements(shape, pages, net, part.pages, part.places, part.transitions);
     std::uint32_t subsystems = 0;
     for (std::uint32_t page = part.pages.first; page < part.pages.end(); ++page)
-      if (pages.pages[page].layer == net::Layer::subsystem) ++subsystems;
+      if (pages.pages[page].layer == net::Layer::subsystem && !pages.pages[page].is_group()) ++subsystems;
     shape.member("subsystems", subsystems);
     shape.member("memory", [&] {
       shape.list(part.memory, [&](std::uint32_t place) {

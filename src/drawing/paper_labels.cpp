@@ -38,6 +38,8 @@ class PaperLabels : public Labels {
       case net::Layer::agent:
         return label.add("a", Level::base, true).add(agent_number(id), Level::lowered);
       case net::Layer::subsystem:
+        if (page.is_group())
+          return raised_letter(page).add("B", Level::base, true).add(indices(id), Level::lowered);
         return subsystem(page.subsystem);
       case net::Layer::behaviour:
         return raised_letter(page).add("B", Level::base, true).add(indices(id), Level::lowered);
@@ -161,6 +163,7 @@ class PaperLabels : public Labels {
       case net::Layer::agent:
         return agent_number(id);
       case net::Layer::subsystem:
+        if (page.is_group()) return symbol(page.subsystem).indices() + "," + behaviour_number(id);
         return symbol(page.subsystem).indices();
       case net::Layer::behaviour:
         return symbol(page.subsystem).indices() + "," + behaviour_number(id);
@@ -171,9 +174,7 @@ class PaperLabels : public Labels {
   }
 
   [[nodiscard]] std::string behaviour_number(net::PageId id) const {
-    const auto& behaviours = model_.subsystem(net_.pages[id.value].subsystem).behaviours;
-    const auto found = std::ranges::find(behaviours, net_.pages[id.value].name, &spec::Behaviour::name);
-    return std::to_string(found - behaviours.begin() + 1);
+    return std::to_string(net_.pages[id.value].behaviour.value + 1);
   }
 
   [[nodiscard]] Label function(net::PageId id, const char* condition) const {

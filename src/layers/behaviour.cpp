@@ -136,7 +136,8 @@ net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId su
   using net::Operation;
   const spec::Subsystem& owner = draft.model.subsystem(subsystem);
   const spec::Behaviour& behaviour = owner.behaviours[id];
-  Sheet sheet(draft, parent, net::Layer::behaviour, behaviour.name, subsystem, behaviour.span);
+  Sheet sheet(draft, parent, net::Layer::behaviour, std::string(behaviour.label()), subsystem,
+              behaviour.span);
   sheet.drawn().behaviour = id;
   const auto communication = [&](Direction direction) {
     return sheet.page(draw_communication(draft, sheet.id(), subsystem, id, direction));

@@ -127,7 +127,7 @@ class Subsystems {
   void gather(net::PageId id) {
     const net::Page& page = pages_.pages[id.value];
     Invariant& token = tokens_[page.subsystem.value];
-    if (page.layer == net::Layer::subsystem) begin(id, token);
+    if (page.layer == net::Layer::subsystem && !page.is_group()) begin(id, token);
     const auto places = places_.of(id);
     const Branches found = branches_of(page);
     add(token, places, found.trunk);

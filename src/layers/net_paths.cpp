@@ -91,7 +91,7 @@ Found NetPaths::in_page(PageId page, const spec::NetPath& path, std::size_t part
   for (const PageId below : below_[page.value])
     if (pages_.pages[below.value].name == path.parts[part].name) return in_page(below, path, part + 1, out);
   if (const auto place = own_place(page, joined(path.parts, part))) return marked(*place);
-  if (pages_.pages[page.value].layer == net::Layer::subsystem) {
+  if (pages_.pages[page.value].layer == net::Layer::subsystem && !pages_.pages[page.value].is_group()) {
     const net::SubsystemId id = pages_.pages[page.value].subsystem;
     const spec::Subsystem& subsystem = model_.subsystem(id);
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
@@ -187,7 +187,7 @@ void NetPaths::complain(PageId page, const spec::PathPart& part, Diagnostics& ou
   for (const net::Node& node : pages_.pages[page.value].nodes)
     if (!node.page.valid()) names.push_back(node.name);
   const net::Layer layer = pages_.pages[page.value].layer;
-  if (layer == net::Layer::subsystem) {
+  if (layer == net::Layer::subsystem && !pages_.pages[page.value].is_group()) {
     const spec::Subsystem& subsystem = model_.subsystem(pages_.pages[page.value].subsystem);
     for (const auto* buffers : {&subsystem.inputs, &subsystem.outputs})
       for (const spec::Field& buffer : *buffers) names.push_back(buffer.name);

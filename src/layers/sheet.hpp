@@ -63,6 +63,7 @@ class Sheet {
 net::PageId draw_system(Draft& draft);
 net::PageId draw_agent(Draft& draft, net::PageId parent, net::AgentId agent);
 net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId subsystem);
+net::PageId draw_group(Draft& draft, net::PageId parent, net::SubsystemId subsystem, net::BehaviourId group);
 net::PageId draw_behaviour(Draft& draft, net::PageId parent, net::SubsystemId subsystem,
                            net::BehaviourId behaviour);
 net::PageId draw_communication(Draft& draft, net::PageId parent, net::SubsystemId subsystem,

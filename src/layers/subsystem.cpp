@@ -14,6 +14,7 @@ using Known = Condition::Known;
 using Truth = Condition::Truth;
 
 std::string label(const spec::Expression& expression) {
+  if (expression.text.empty() && expression.until_of.valid()) return "until";
   return expression.name.empty() ? expression.text : expression.name;
 }
 
@@ -128,51 +129,109 @@ std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourI
   return drawn;
 }
 
+/// Draws the behaviours and groups that a subsystem or a group consists of, of which one is active.
+class FlowPen {
+ public:
+  /// inside: the group; none: the subsystem itself.
+  FlowPen(Draft& draft, Sheet& sheet, net::SubsystemId id, spec::BehaviourId inside)
+      : draft_(draft),
+        sheet_(sheet),
+        id_(id),
+        inside_(inside),
+        subsystem_(draft.model.subsystem(id)),
+        facts_(draft.facts[id]),
+        nodes_(subsystem_.behaviours.size()) {}
+
+  void pages() {
+    for (const spec::BehaviourId behaviour : subsystem_.behaviours.ids())
+      if (subsystem_.behaviours[behaviour].parent == inside_)
+        nodes_[behaviour] = sheet_.page(page(behaviour));
+  }
+
+  void start(spec::BehaviourId first, std::uint32_t in, Step role) {
+    KnownFacts::Changed begun;
+    // What begins in a group has changed memory when the group began.
+    if (!inside_.valid()) begun = facts_.changed_at_start(subsystem_.behaviours[first].sets);
+    sheet_.transition(words::start, nodes_of(in, begun.before), nodes_of(nodes_[first], begun.after)).role =
+        role;
+  }
+
+  void entries(std::uint32_t out) {
+    for (const spec::BehaviourId index : subsystem_.behaviours.ids())
+      if (subsystem_.behaviours[index].parent == inside_) leave(index, out);
+  }
+
+ private:
+  [[nodiscard]] net::PageId page(spec::BehaviourId behaviour) {
+    return subsystem_.behaviours[behaviour].is_group() ? draw_group(draft_, sheet_.id(), id_, behaviour)
+                                                       : draw_behaviour(draft_, sheet_.id(), id_, behaviour);
+  }
+
+  FactPen::Nodes nodes_of(std::uint32_t node, const KnownFacts::Values& values) {
+    FactPen::Nodes nodes{node};
+    for (const auto& [fact, value] : values)
+      nodes.push_back(sheet_.member(facts_.name_of(fact, value), facts_.place_of(fact, value)));
+    return nodes;
+  }
+
+  void leave(spec::BehaviourId index, std::uint32_t out) {
+    const spec::Behaviour& behaviour = subsystem_.behaviours[index];
+    for (const Drawn& entry : entries_of(behaviour, index, facts_)) {
+      const spec::Next& next = behaviour.next[entry.entry];
+      const std::string name = std::string(words::leave) + std::string(behaviour.label()) + "_" +
+                               std::to_string(entry.entry.value + 1);
+      const std::uint32_t to = next.behaviour.valid() ? nodes_[next.behaviour] : out;
+      for (const KnownFacts::Changed& changed : facts_.changed(next.sets, entry.values)) {
+        std::string full = name;
+        for (const auto& [fact, value] : changed.before) full += "." + facts_.name_of(fact, value);
+        net::PageTransition& drawn = sheet_.transition(full, nodes_of(nodes_[index], changed.before),
+                                                       nodes_of(to, changed.after), entry.condition);
+        drawn.span = next.span;
+        drawn.role = behaviour.is_group() ? Step::leave_group : Step::leave;
+      }
+    }
+  }
+
+  Draft& draft_;
+  Sheet& sheet_;
+  net::SubsystemId id_;
+  spec::BehaviourId inside_;
+  const spec::Subsystem& subsystem_;
+  const KnownFacts& facts_;
+  Numbered<spec::BehaviourId, std::uint32_t> nodes_;  // those that it draws
+};
+
 }  // namespace
+
+/// A group is a page whose net is that of a subsystem again (paper, sec. II). Its own places have the layer of a
+/// subsystem, its behaviour, and no role: a token in the input and output place of a subsystem means more.
+net::PageId draw_group(Draft& draft, net::PageId parent, net::SubsystemId id, spec::BehaviourId group) {
+  const spec::Behaviour& behaviour = draft.model.subsystem(id).behaviours[group];
+  Sheet sheet(draft, parent, net::Layer::subsystem, std::string(behaviour.label()), id, behaviour.span);
+  sheet.drawn().behaviour = group;
+  const std::uint32_t in = sheet.place(words::input);
+  FlowPen flow(draft, sheet, id, group);
+  flow.pages();
+  const std::uint32_t out = sheet.place(words::output);
+  flow.start(behaviour.group->start, in, Step::begin_group);
+  flow.entries(out);
+  return sheet.finish(in, out);
+}
 
 /// Layer 3, a subsystem (paper, sec. IV-C): a graph of behaviours, of which one is active.
 net::PageId draw_subsystem(Draft& draft, net::PageId parent, net::SubsystemId id) {
   const spec::Subsystem& subsystem = draft.model.subsystem(id);
   Sheet sheet(draft, parent, net::Layer::subsystem, subsystem.name, id, subsystem.span);
   const std::uint32_t in = sheet.input();
-  Numbered<spec::BehaviourId, std::uint32_t> behaviours;
-  for (const spec::BehaviourId behaviour : subsystem.behaviours.ids())
-    behaviours.push_back(sheet.page(draw_behaviour(draft, sheet.id(), id, behaviour)));
+  FlowPen flow(draft, sheet, id, {});
+  flow.pages();
   const std::uint32_t out = sheet.output();
-
   const KnownFacts& facts = draft.facts[id];
-  const auto nodes_of = [&](std::uint32_t node, const KnownFacts::Values& values) {
-    FactPen::Nodes nodes{node};
-    for (const auto& [fact, value] : values)
-      nodes.push_back(sheet.member(facts.name_of(fact, value), facts.place_of(fact, value)));
-    return nodes;
-  };
   for (const net::FactId cell : facts.memory())
     for (std::uint32_t value = 0; value < facts.value_count(cell); ++value)
       static_cast<void>(sheet.member(facts.name_of(cell, value), facts.place_of(cell, value)));
-
-  const KnownFacts::Changed begun = facts.changed_at_start(subsystem.behaviours[subsystem.start].sets);
-  sheet
-      .transition(words::start, nodes_of(in, begun.before),
-                  nodes_of(behaviours[subsystem.start], begun.after))
-      .role = Step::start;
-  for (const spec::BehaviourId index : subsystem.behaviours.ids()) {
-    const spec::Behaviour& behaviour = subsystem.behaviours[index];
-    for (const Drawn& entry : entries_of(behaviour, index, facts)) {
-      const spec::Next& next = behaviour.next[entry.entry];
-      const std::string name =
-          std::string(words::leave) + behaviour.name + "_" + std::to_string(entry.entry.value + 1);
-      const std::uint32_t to = next.behaviour.valid() ? behaviours[next.behaviour] : out;
-      for (const KnownFacts::Changed& changed : facts.changed(next.sets, entry.values)) {
-        std::string full = name;
-        for (const auto& [fact, value] : changed.before) full += "." + facts.name_of(fact, value);
-        net::PageTransition& drawn = sheet.transition(full, nodes_of(behaviours[index], changed.before),
-                                                      nodes_of(to, changed.after), entry.condition);
-        drawn.span = next.span;
-        drawn.role = Step::leave;
-      }
-    }
-  }
+  flow.start(subsystem.start, in, Step::start);
+  flow.entries(out);
   return sheet.finish(in, out);
 }
 

@@ -160,11 +160,14 @@ struct Page {
   PageId parent{};                      ///< invalid for the root
   SubsystemId subsystem{};              ///< instance of the model that executes it, if one does
   AgentId agent{};                      ///< in the layers below the system
-  BehaviourId behaviour{};              ///< in the subsystem; from the behaviour layer down
+  BehaviourId behaviour{};              ///< in the subsystem; of a group, and from the behaviour layer down
   std::uint32_t input = 0, output = 0;  ///< indices into nodes
   std::vector<Node> nodes{};
   std::vector<PageTransition> transitions{};
   Span span{};
+
+  /// It is that of a group of behaviours, whose net is that of a subsystem again.
+  [[nodiscard]] bool is_group() const { return layer == Layer::subsystem && behaviour.valid(); }
 };
 
 /// A place seen in several nets (global fusion). Members agree on marking; at most one has an operation.
@@ -211,6 +214,8 @@ struct Place {
   [[nodiscard]] bool is(Layer of_layer, PlaceRole of_role) const {
     return layer == of_layer && role == of_role;
   }
+  /// It is the input or output place of a group of behaviours.
+  [[nodiscard]] bool is_of_group() const { return layer == Layer::subsystem && behaviour.valid(); }
   /// It is part of the memory of a channel.
   [[nodiscard]] bool fused() const { return channel.valid(); }
 };

@@ -193,7 +193,8 @@ class Measure {
       if (!groups_.emplace(key, coverage_.groups.size()).second) continue;
       Group group{.path = {}, .kind = Group::Kind::system, .span = page.span};
       if (page.behaviour.valid()) {
-        group.kind = Group::Kind::behaviour;
+        // A group of behaviours has no function; it counts like the subsystem around it.
+        group.kind = page.is_group() ? Group::Kind::subsystem : Group::Kind::behaviour;
         group.path = parts.behaviour_path(page.subsystem, page.behaviour);
       } else if (page.subsystem.valid()) {
         group.kind = Group::Kind::subsystem;

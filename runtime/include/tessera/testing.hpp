@@ -133,11 +133,7 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
 
   std::string decided(std::string_view behaviour, Outcome outcome, bool failed) {
     std::string next(behaviour);
-    if (outcome != Outcome::go_on) {
-      const int entry = subsystem().route(index_of(behaviour), failed || outcome == Outcome::error);
-      next = entry < 0 ? std::string() : follows(behaviour, static_cast<std::uint16_t>(entry));
-      if (entry >= 0) change_memory(behaviour, static_cast<std::uint16_t>(entry));
-    }
+    if (outcome != Outcome::go_on) next = left(index_of(behaviour), failed || outcome == Outcome::error);
     Bindings bindings;
     subsystem().bind(bindings);
     for (auto* inputs : {&bindings.inputs, &bindings.real_inputs})
@@ -174,33 +170,46 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
         return false;
     return true;
   }
-  void change_memory(std::string_view behaviour, std::uint16_t entry) {
+  /// Leaves a behaviour or a group by the entry of `next` that holds. Returns the behaviour that starts then.
+  std::string left(std::uint16_t behaviour, bool failed) {
+    const int entry = subsystem().route(behaviour, failed);
+    if (entry < 0) return {};
+    const Transition* first = nullptr;  // whatever memory is
+    bool changed = false;
     for (const Transition& transition : Unit::net().transitions) {
-      if (transition.role.step != Step::leave || transition.role.behaviour != index_of(behaviour)) continue;
+      if (!leaves(transition) || transition.role.behaviour != behaviour) continue;
       const bool taken =
           transition.guard.kind != Guard::Kind::next ? entry == 0 : transition.guard.entry == entry;
-      if (taken && has_memory(transition.inputs)) return give_memory(transition.outputs);
+      if (!taken) continue;
+      if (first == nullptr) first = &transition;
+      if (changed || !has_memory(transition.inputs)) continue;
+      give_memory(transition.outputs);
+      changed = true;
     }
+    return first == nullptr ? std::string() : started_in(first->outputs.begin()->place(), failed);
+  }
+  [[nodiscard]] static bool leaves(const Transition& transition) {
+    return transition.role.step == Step::leave || transition.role.step == Step::leave_group;
   }
   void start_memory() {
     for (const Transition& transition : Unit::net().transitions)
       if (transition.role.step == Step::start) give_memory(transition.outputs);
   }
 
-  /// The behaviour that starts after that entry of `next`, according to the net.
-  [[nodiscard]] static std::string follows(std::string_view behaviour, std::uint16_t entry) {
-    for (const Transition& transition : Unit::net().transitions) {
-      if (transition.role.step != Step::leave || transition.role.behaviour != index_of(behaviour)) continue;
-      const bool taken =
-          transition.guard.kind != Guard::Kind::next ? entry == 0 : transition.guard.entry == entry;
-      if (taken) return started_in(transition.outputs.begin()->place());
-    }
-    return {};
-  }
-  [[nodiscard]] static std::string started_in(std::uint16_t place) {
+  /// The behaviour that starts if a token comes to that place, according to the net.
+  std::string started_in(std::uint16_t place, bool failed) {
     const Does does = Unit::net().places[place].does;
-    if (does.kind != Does::Kind::call && does.kind != Does::Kind::begin) return "end";
-    return std::string(Unit::net().behaviours[does.subject].name);
+    if (does.kind == Does::Kind::call || does.kind == Does::Kind::begin)
+      return std::string(Unit::net().behaviours[does.subject].name);
+    if (does.kind == Does::Kind::route) return left(does.subject, failed);  // a group is left there
+    for (const Transition& transition : Unit::net().transitions) {
+      const ArcEnd from = *transition.inputs.begin();
+      if (from.is_shared() || from.place() != place) continue;
+      if (transition.role.step == Step::leave_group) return left(transition.role.behaviour, failed);
+      if (transition.role.step == Step::begin_group)
+        return started_in(transition.outputs.begin()->place(), failed);
+    }
+    return "end";
   }
 
   std::vector<std::uint16_t> kept_ = std::vector<std::uint16_t>(Unit::net().facts.size(), 0);  // per fact

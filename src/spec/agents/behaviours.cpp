@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
-#include <unordered_map>
+#include <map>
+#include <utility>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
 #include "spec/agents/families.hpp"
 #include "spec/agents/few_values.hpp"
+#include "spec/agents/groups.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
@@ -35,39 +37,55 @@ class BehaviourReader {
  public:
   BehaviourReader(const std::vector<Entry>& entries, const ConditionScope& scope, SubsystemDefaults& defaults,
                   const FleetSizes* fleets, Diagnostics& out)
-      : scope_(scope), defaults_(defaults), out_(&out) {
-    for (const Entry& entry : entries) {
-      check(entry);
-      Written written{&entry, {count_}, std::nullopt, {}};
-      if (const Entry* each = entry_of(entry, "for")) written.each = read_for(*each, fleets);
+      : slots_(slots_of(entries, out)), scope_(scope), defaults_(defaults), out_(&out) {
+    for (std::size_t number = 0; number < slots_.size(); ++number) {
+      const Slot& slot = slots_[number];
+      check(*slot.entry);
+      Written written{&slot, {count_}, std::nullopt, {}, {}};
+      if (const Entry* each = entry_of(*slot.entry, "for"))
+        if (may_be_for(slot, *each)) written.each = read_for(*each, fleets);
       count_ += written.each ? written.each->count : 1;
-      by_name_.emplace(entry.key, written_.size());
+      by_name_.emplace(std::pair(slot.parent, slot.entry->key), number);
       written_.push_back(std::move(written));
     }
   }
 
-  std::vector<Behaviour> read() {
+  ReadBehaviours read() {
     for (Written& one : written_) {
-      const Entry* sets = entry_of(*one.entry, "sets");
+      const Entry* sets = entry_of(*one.slot->entry, "sets");
       each_member(one, [&](const Member* member) {
         one.sets.push_back(read_changes(sets, scope_.memory, member, *out_));
       });
     }
-    std::vector<Behaviour> behaviours;
-    behaviours.reserve(count_);
+    // Groups stand before what is in them.
+    for (std::size_t number = written_.size(); number-- > 0;) begin_group(number);
+    read_.behaviours.reserve(count_);
     for (const Written& one : written_)
-      each_member(one, [&](const Member* member) { behaviours.push_back(read_one(one, member)); });
-    return behaviours;
+      each_member(one, [&](const Member* member) { read_one(one, member); });
+    return std::move(read_);
   }
 
  private:
   /// A behaviour as the file has it.
   struct Written {
-    const Entry* entry;
+    const Slot* slot;
     BehaviourId first;                      ///< of its members
     std::optional<EachMember> each;         ///< `for: each robot`
     std::vector<std::vector<Change>> sets;  ///< per member
+    BehaviourId start;                      ///< of a group
   };
+
+  bool may_be_for(const Slot& slot, const Entry& each) {
+    if (!slot.is_group && !slot.parent.valid()) return true;
+    out_->error("E349", each.span,
+                slot.is_group ? "a group is not 'for' each member" : "'for' does not stand in a group",
+                "write the behaviour outside of groups");
+    return false;
+  }
+
+  [[nodiscard]] BehaviourId group_around(const Slot& slot) const {
+    return slot.parent.valid() ? written_[slot.parent.value].first : BehaviourId{};
+  }
 
   EachMember read_for(const Entry& entry, const FleetSizes* fleets) {
     const Node* text = text_of(*entry.value, entry.span, "for", *out_, "for example for: each robot");
@@ -86,7 +104,7 @@ class BehaviourReader {
     Diagnostics* const all = out_;
     Diagnostics ignored(all->file(), all->text());
     for (std::uint32_t number = 0; number < one.each->count; ++number) {
-      const Member member = one.each->member(one.entry->key, number);
+      const Member member = one.each->member(one.slot->entry->key, number);
       if (number == 1) out_ = &ignored;
       read(&member);
     }
@@ -110,21 +128,62 @@ class BehaviourReader {
     }
   }
 
-  Behaviour read_one(const Written& written, const Member* member) {
-    const Entry& entry = *written.entry;
-    const Section section(
-        *entry.value, entry.span, "a behaviour",
-        {"terminal", "error", "next", "send", "receive", "transfer", "takes", "sets", "for"}, *out_);
-    const ConditionScope scope = scope_for(member);
+  /// Finds where a group begins. What begins there begins with the group, and changes memory then.
+  void begin_group(std::size_t number) {
+    Written& group = written_[number];
+    if (!group.slot->is_group) return;
+    const SlotId id{static_cast<std::uint32_t>(number)};
+    const Written* start = &written_[number + 1];
+    if (const Entry* entry = entry_of(*group.slot->entry, "start"))
+      if (const Node* text =
+              text_of(*entry->value, entry->span, "start", *out_, "name a behaviour of the group"))
+        if (const Written* named = find(text->text, *text, id, /*or_end=*/false); named != nullptr)
+          start = named;
+    group.start = start->first;
+    group.sets.front().insert(group.sets.front().end(), start->sets.front().begin(),
+                              start->sets.front().end());
+  }
+
+  void read_one(const Written& written, const Member* member) {
+    const Slot& slot = *written.slot;
+    const Entry& entry = *slot.entry;
     Behaviour behaviour;
-    behaviour.name = member == nullptr ? entry.key : name_of_member(entry.key, member->number);
+    behaviour.name = member == nullptr ? slot.name : name_of_member(entry.key, member->number);
+    behaviour.parent = group_around(slot);
     if (member != nullptr) behaviour.member = *member;
     behaviour.span = entry.span;
+    behaviour.sets = written.sets[member == nullptr ? 0 : member->number];
+    const ConditionScope scope = scope_for(member);
+    const Section section(*entry.value, entry.span, slot.is_group ? "a group" : "a behaviour",
+                          keys_of(slot, *out_), *out_);
+    std::optional<OnError> on_error;
+    if (slot.is_group) {
+      read_group(section, scope, written, behaviour);
+      on_error = read_on_error(section, *out_);
+    } else {
+      read_plain(section, scope, slot, behaviour);
+    }
+    std::vector<const Expression*> untils;
+    for (const SlotId around : groups_around(slots_, slot.parent)) {
+      const std::optional<Group>& group = read_.behaviours[written_[around.value].first.value].group;
+      if (group && group->until) untils.push_back(&*group->until);
+    }
+    add_untils(behaviour, untils);
+    read_.behaviours.push_back(std::move(behaviour));
+    read_.on_error.push_back(std::move(on_error));
+  }
+
+  void read_plain(const Section& section, const ConditionScope& scope, const Slot& slot,
+                  Behaviour& behaviour) {
+    const Member* member = scope.member;
     behaviour.terminal = read_condition(section.find("terminal"), scope, defaults_.conditions, *out_);
+    if (entry_of(*slot.entry, "behaviours") != nullptr) {  // an error was found; it may end in any way
+      behaviour.terminal.kind = Condition::Kind::expressions;
+      behaviour.terminal.expressions.push_back({{}, {}, behaviour.span});
+    }
     behaviour.error = read_condition(section.find("error"), scope, defaults_.conditions, *out_);
     check_distinct_names(behaviour);
-    read_next(section.find("next"), scope, behaviour);
-    behaviour.sets = written.sets[member == nullptr ? 0 : member->number];
+    read_next(section.find("next"), scope, behaviour, slot.parent);
     behaviour.send =
         read_list(section.find("send"), {scope_.outputs, scope_.inputs, "output", member}, defaults_.send);
     behaviour.receive = read_list(section.find("receive"), {scope_.inputs, scope_.outputs, "input", member},
@@ -133,7 +192,42 @@ class BehaviourReader {
     if (const Entry* takes = section.find("takes")) {
       behaviour.takes = read_duration(*takes->value, takes->span, "takes", *out_).value_or(Duration{1});
     }
-    return behaviour;
+  }
+
+  void read_group(const Section& section, const ConditionScope& scope, const Written& written,
+                  Behaviour& group) {
+    group.group.emplace();
+    group.group->start = written.start;
+    group.send.emplace();
+    group.receive.emplace();
+    if (const Entry* entry = section.find("until")) read_until(*entry, written.first, group);
+    read_next(section.find("next"), scope, group, written.slot->parent);
+    for (const Next& next : group.next) refuse_elapsed(next.when.text);
+  }
+
+  void read_until(const Entry& entry, BehaviourId id, Behaviour& group) {
+    Condition until = read_condition(&entry, scope_, defaults_.conditions, *out_);
+    const bool constant = until.kind != Condition::Kind::expressions;
+    if (constant || until.expressions.size() > 1)
+      out_->error("E347", until.span, "'until' is one condition, which may hold or not",
+                  constant
+                      ? "for example until: in.wish.pause; without 'until' only its behaviours end the group"
+                      : "join them by ||");
+    if (constant) until.expressions.push_back({{}, {}, until.span});
+    Expression& one = until.expressions.front();
+    refuse_elapsed(one);
+    one.until_of = id;
+    group.terminal.kind = Condition::Kind::expressions;
+    group.terminal.span = one.span;
+    group.terminal.expressions.push_back(held_until(one, "until"));
+    group.group->until = std::move(one);
+  }
+
+  void refuse_elapsed(const Expression& expression) {
+    for (const Reference& one : expression.references)
+      if (one.kind == Reference::Kind::elapsed)
+        out_->error("E348", one.span, "a group has no 'elapsed'",
+                    "it is the time in a behaviour: ask it in 'terminal' or 'next' of a behaviour");
   }
 
   void check_distinct_names(const Behaviour& behaviour) {
@@ -149,32 +243,33 @@ class BehaviourReader {
     }
   }
 
-  void read_next(const Entry* entry, const ConditionScope& scope, Behaviour& behaviour) {
+  void read_next(const Entry* entry, const ConditionScope& scope, Behaviour& behaviour, SlotId parent) {
     if (entry == nullptr) {
       behaviour.next.push_back({{}, {}, behaviour.span});
       return;
     }
     behaviour.next_given = true;
     if (!entry->value->is_sequence()) {
-      read_step(*entry->value, entry->span, scope, behaviour);
+      read_step(*entry->value, entry->span, scope, behaviour, parent);
       return;
     }
     if (entry->value->items.empty()) out_->error("E104", entry->span, "'next' lists nothing", next_hint);
     for (const Node* item : entry->value->items)
-      read_step(*item, item->is_null() ? entry->span : item->span, scope, behaviour);
+      read_step(*item, item->is_null() ? entry->span : item->span, scope, behaviour, parent);
   }
 
   /// One item of `next`. It is an entry for each member if it leads to lend[i] from outside.
-  void read_step(const Node& node, Span at, const ConditionScope& scope, Behaviour& behaviour) {
+  void read_step(const Node& node, Span at, const ConditionScope& scope, Behaviour& behaviour,
+                 SlotId parent) {
     if (!node.is_map()) {
-      const auto target = read_target(node, at);
+      const auto target = read_target(node, at, parent);
       add_step(target, nullptr, nullptr, scope, behaviour);
       return;
     }
     const Section section(node, at, "an entry of 'next'", {"to", "when", "sets"}, *out_);
     const Entry* to = section.require("to", next_hint);
     Target target{at, nullptr, {}};
-    if (to != nullptr) target = read_target(*to->value, to->span);
+    if (to != nullptr) target = read_target(*to->value, to->span, parent);
     const bool fans_out = target.written != nullptr && target.written->each && scope.member == nullptr &&
                           target.name.index == IndexedName::Index::variable;
     if (!fans_out) {
@@ -216,7 +311,7 @@ class BehaviourReader {
     behaviour.next.push_back(std::move(step));
   }
 
-  Target read_target(const Node& node, Span at) {
+  Target read_target(const Node& node, Span at, SlotId parent) {
     const Node* text = text_of(node, at, "an entry of 'next'", *out_, next_hint);
     if (text == nullptr) return {at, nullptr, {}};
     Target target{text->span, nullptr, {}};
@@ -224,16 +319,24 @@ class BehaviourReader {
     const auto name = read_indexed(*text, 0, *out_);
     if (!name) return target;
     target.name = *name;
-    if (const auto found = by_name_.find(name->name); found != by_name_.end()) {
-      target.written = &written_[found->second];
-      return target;
-    }
-    std::vector<std::string> names{"end"};
-    for (const auto& [known, index] : by_name_) names.push_back(known);
-    std::sort(names.begin(), names.end());
-    out_->error("E101", name->index == IndexedName::Index::none ? text->span : name->span,
-                "unknown behaviour " + in_quotes(name->name), did_you_mean(name->name, names));
+    target.written = find(name->name, *text, parent, /*or_end=*/true);
     return target;
+  }
+
+  /// The behaviour of that name in the group, or in the subsystem itself; null after an error.
+  const Written* find(const std::string& name, const Node& text, SlotId parent, bool or_end) {
+    if (const auto found = by_name_.find(std::pair(parent, name)); found != by_name_.end())
+      return &written_[found->second];
+    if (complain_about_place(text, parent, slots_, *out_)) return nullptr;
+    std::vector<std::string> names;
+    if (or_end) names.emplace_back("end");
+    for (const auto& [known, index] : by_name_)
+      if (known.first == parent) names.push_back(known.second);
+    std::sort(names.begin(), names.end());
+    Span span = text.span;
+    if (name != text.text) span.length = static_cast<std::uint32_t>(name.size());
+    out_->error("E101", span, "unknown behaviour " + in_quotes(name), did_you_mean(name, names));
+    return nullptr;
   }
 
   /// The behaviour to which an entry leads; none: `end`, or an error.
@@ -241,7 +344,8 @@ class BehaviourReader {
     if (target.written == nullptr) return {};
     const Written& to = *target.written;
     if (!to.each) return check_single(target.name, "behaviour", *out_) ? to.first : BehaviourId{};
-    const auto number = number_of(target.name, to.each->member(to.entry->key, 0), member, "behaviour", *out_);
+    const auto number =
+        number_of(target.name, to.each->member(to.slot->entry->key, 0), member, "behaviour", *out_);
     return number ? BehaviourId{to.first.value + *number} : BehaviourId{};
   }
 
@@ -270,19 +374,20 @@ class BehaviourReader {
     return Transfer::parallel;
   }
 
+  std::vector<Slot> slots_;
   const ConditionScope& scope_;
   SubsystemDefaults& defaults_;
   Diagnostics* out_;
-  std::vector<Written> written_;
-  std::unordered_map<std::string, std::size_t> by_name_;  // into written_
-  std::uint32_t count_ = 0;                               // behaviours of the subsystem
+  std::vector<Written> written_;                                   // as slots_
+  std::map<std::pair<SlotId, std::string>, std::size_t> by_name_;  // in each group; into written_
+  std::uint32_t count_ = 0;                                        // behaviours of the subsystem
+  ReadBehaviours read_;
 };
 
 }  // namespace
 
-std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope,
-                                       SubsystemDefaults& defaults, const FleetSizes* fleets,
-                                       Diagnostics& out) {
+ReadBehaviours read_behaviours(const Entry& entry, const ConditionScope& scope, SubsystemDefaults& defaults,
+                               const FleetSizes* fleets, Diagnostics& out) {
   const std::vector<Entry>& entries = entries_of(*entry.value, entry.span, "behaviours", out);
   if (entries.empty() && (entry.value->is_map() || entry.value->is_null())) {
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "spec/agents/defaults.hpp"
@@ -9,16 +10,22 @@
 
 namespace tessera::spec {
 
+/// The behaviours and groups of a subsystem, each group before what is in it.
+struct ReadBehaviours {
+  std::vector<Behaviour> behaviours;
+  std::vector<std::optional<OnError>> on_error;  ///< per behaviour, of groups
+};
+
 /// Reads the behaviours of a subsystem. Everything that `scope` refers to has been read.
 ///
 /// A behaviour `for: each robot` becomes one for each member, which follow one another.
 ///
 /// Their `next` is as in the file, without what `on_error` adds, and without implied entries.
 /// Errors: E101 unknown behaviour, buffer or condition; E103 no behaviour; E105-E107
-///         names; E291 an entry for each member without a condition of its own; those of conditions, of lists of
-///         buffers, and of read_each and number_of (families.hpp).
-[[nodiscard]] std::vector<Behaviour> read_behaviours(const Entry& entry, const ConditionScope& scope,
-                                                     SubsystemDefaults& defaults, const FleetSizes* fleets,
-                                                     Diagnostics& out);
+///         names; E291 an entry for each member without a condition of its own; E349 `for` of a group, or in one; those
+///         of conditions, of lists of buffers, of groups, and of read_each and number_of (families.hpp).
+[[nodiscard]] ReadBehaviours read_behaviours(const Entry& entry, const ConditionScope& scope,
+                                             SubsystemDefaults& defaults, const FleetSizes* fleets,
+                                             Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -138,6 +138,7 @@ Hint hint_for(const std::string& word, const Behaviour& of, const SharedConditio
   const std::vector<std::string> all = shared.names();
   if (std::find(all.begin(), all.end(), word) != all.end())
     return "name it under 'terminal' or 'error' of this behaviour, too: only what has ended it can be asked";
+  if (word == "until") return "a group with 'until' has it: 'next' of that group may ask it";
   if (word == "terminal") return "leave 'when' out: such an entry is taken when the behaviour is terminal";
   const std::vector<std::string> names = names_of_conditions(of);
   const Hint guess = did_you_mean(word, names);

@@ -4,6 +4,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/families.hpp"
+#include "spec/agents/few_values.hpp"
 #include "spec/model/endings.hpp"
 #include "tessera/nearest.hpp"
 
@@ -14,9 +15,16 @@ using diagnostics::in_quotes;
 
 constexpr std::string_view stop = "stop";
 
-std::vector<std::string> names_of(const Numbered<BehaviourId, Behaviour>& behaviours) {
+std::vector<BehaviourId> members_of(BehaviourId group, const Subsystem& subsystem) {
+  std::vector<BehaviourId> members;
+  for (const BehaviourId id : subsystem.behaviours.ids())
+    if (subsystem.behaviours[id].parent == group) members.push_back(id);
+  return members;
+}
+
+std::vector<std::string> labels_of(const std::vector<BehaviourId>& behaviours, const Subsystem& subsystem) {
   std::vector<std::string> names;
-  for (const Behaviour& behaviour : behaviours) names.push_back(behaviour.name);
+  for (const BehaviourId id : behaviours) names.emplace_back(subsystem.behaviours[id].label());
   return names;
 }
 
@@ -189,8 +197,10 @@ std::optional<OnError> read_on_error(const Section& section, Diagnostics& out) {
   return on_error;
 }
 
-BehaviourId resolve_on_error(OnError& on_error, bool own, const Subsystem& subsystem, Diagnostics& out) {
-  const std::vector<std::string> names = names_of(subsystem.behaviours);
+BehaviourId resolve_on_error(OnError& on_error, BehaviourId around, bool own, const Subsystem& subsystem,
+                             Diagnostics& out) {
+  const std::vector<BehaviourId> behaviours = members_of(around, subsystem);
+  const std::vector<std::string> names = labels_of(behaviours, subsystem);
   const std::string wanted = on_error.behaviour.empty() ? std::string(stop) : on_error.behaviour;
   const auto found = std::find(names.begin(), names.end(), wanted);
   const bool is_there = found != names.end();
@@ -206,13 +216,14 @@ BehaviourId resolve_on_error(OnError& on_error, bool own, const Subsystem& subsy
                 "rename the behaviour; or leave 'on_error: stop' out, which is the default");
     return {};
   }
-  if (is_there) return {static_cast<std::uint32_t>(found - names.begin())};
+  if (is_there) return behaviours[static_cast<std::size_t>(found - names.begin())];
   on_error.used = true;
   if (own) {
     std::vector<std::string> known = names;
-    known.emplace_back(stop);
-    const Hint guess = wanted == "end" ? Hint("write on_error: stop: the subsystem ends, and the run fails")
-                                       : did_you_mean(wanted, known);
+    if (!around.valid()) known.emplace_back(stop);
+    const Hint guess = wanted == "end" && !around.valid()
+                           ? Hint("write on_error: stop: the subsystem ends, and the run fails")
+                           : did_you_mean(wanted, known);
     out.error("E101", on_error.span, "unknown behaviour " + in_quotes(wanted), guess);
   } else {
     out.error("E271", subsystem.span,
@@ -221,6 +232,15 @@ BehaviourId resolve_on_error(OnError& on_error, bool own, const Subsystem& subsy
               "give it a behaviour " + in_quotes(wanted) + ", or write on_error: stop in it");
   }
   return {};
+}
+
+Next entry_for_errors(BehaviourId to, Span at, const Subsystem& subsystem, Diagnostics& out) {
+  Next entry{
+      .behaviour = to, .when = {}, .span = at, .inherited = true, .sets = subsystem.behaviours[to].sets};
+  entry.when.kind = When::Kind::error;
+  entry.when.text.span = at;
+  entry.may_be_blocked = check_entry(entry, subsystem.memory, out);
+  return entry;
 }
 
 void check_used(const OnError& on_error, Diagnostics& out) {

@@ -25,11 +25,17 @@ struct OnError {
 
 /// The behaviour of the subsystem that it means; none: `stop`.
 ///
-/// own: whether the subsystem itself says it, not its agent or the system.
+/// around: the group that says it, of whose behaviours it is one; none: it is one of the subsystem itself.
+/// own: whether the group or subsystem itself says it, not its agent or the system.
 /// Errors: E101 its own `on_error` names no behaviour; E271 an inherited one does; E275 `stop` is the name of a
 ///         behaviour, too.
-[[nodiscard]] BehaviourId resolve_on_error(OnError& on_error, bool own, const Subsystem& subsystem,
-                                           Diagnostics& out);
+[[nodiscard]] BehaviourId resolve_on_error(OnError& on_error, BehaviourId around, bool own,
+                                           const Subsystem& subsystem, Diagnostics& out);
+
+/// The entry of `next` by which `on_error` leads there.
+///
+/// Errors: those of check_entry.
+[[nodiscard]] Next entry_for_errors(BehaviourId to, Span at, const Subsystem& subsystem, Diagnostics& out);
 
 /// Warnings: W361 nothing uses it.
 void check_used(const OnError& on_error, Diagnostics& out);

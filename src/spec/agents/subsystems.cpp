@@ -2,12 +2,16 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
+#include <utility>
+#include <vector>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/behaviours.hpp"
 #include "spec/agents/buffers.hpp"
 #include "spec/agents/conditions.hpp"
 #include "spec/agents/few_values.hpp"
+#include "spec/agents/groups.hpp"
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
 #include "spec/agents/safe_commands.hpp"
@@ -45,16 +49,28 @@ void check_kind(const Section& section, SubsystemKind kind, Diagnostics& out) {
   }
 }
 
-BehaviourId read_start(const Entry* entry, const std::vector<Behaviour>& behaviours, Diagnostics& out) {
+BehaviourId read_start(const Entry* entry, const Numbered<BehaviourId, Behaviour>& behaviours,
+                       Diagnostics& out) {
   if (entry == nullptr) return {0};
   const Node* text = text_of(*entry->value, entry->span, "start", out, "name a behaviour");
   if (text == nullptr) return {0};
   const auto name = read_indexed(*text, 0, out);
   if (!name) return {0};
   const auto found = std::ranges::find_if(behaviours, [&](const Behaviour& one) {
-    return (one.member ? one.member->family : one.name) == name->name;
+    return !one.parent.valid() && (one.member ? one.member->family : one.name) == name->name;
   });
   if (found == behaviours.end()) {
+    const auto inner = std::ranges::find_if(
+        behaviours, [&](const Behaviour& one) { return one.parent.valid() && one.label() == name->name; });
+    if (inner != behaviours.end()) {
+      BehaviourId group = inner->parent;
+      while (behaviours[group].parent.valid()) group = behaviours[group].parent;
+      out.error("E345", text->span,
+                in_quotes(text->text) + " is in group " + in_quotes(behaviours[group].name),
+                "a group is entered at its beginning: write " + behaviours[group].name +
+                    ", and 'start' in the group");
+      return {0};
+    }
     out.error("E101", text->span, "unknown behaviour " + in_quotes(name->name),
               did_you_mean(name->name, written_names(behaviours)));
     return {0};
@@ -119,29 +135,23 @@ void check_used(const SubsystemDefaults& defaults, Diagnostics& out) {
   check_used(defaults.conditions, out);
 }
 
-Next entry_for_errors(BehaviourId to, Span at, const Subsystem& subsystem, Diagnostics& out) {
-  Next entry{
-      .behaviour = to, .when = {}, .span = at, .inherited = true, .sets = subsystem.behaviours[to].sets};
-  entry.when.kind = When::Kind::error;
-  entry.when.text.span = at;
-  entry.may_be_blocked = check_entry(entry, subsystem.memory, out);
-  return entry;
-}
-
 /// Completes every `next` by `on_error`, and by the entries that are implied.
 ///
 /// The behaviour that `on_error` names does not lead its own failures to itself: it is what is left when something
 /// fails, and would hide that it fails, too.
 void read_failures(const Section& section, const SystemScope& around, Subsystem& subsystem,
-                   Diagnostics& out) {
+                   std::vector<std::optional<OnError>>& of_groups, Diagnostics& out) {
+  complete_groups(subsystem, of_groups, out);
   std::optional<OnError> own = read_on_error(section, out);
   OnError* on_error = own ? &*own : around.on_error;
   if (on_error != nullptr) {
-    const BehaviourId to = resolve_on_error(*on_error, own.has_value(), subsystem, out);
+    const BehaviourId to = resolve_on_error(*on_error, {}, own.has_value(), subsystem, out);
     if (to.valid()) {
       const Next entry = entry_for_errors(to, on_error->span, subsystem, out);
       for (const BehaviourId from : subsystem.behaviours.ids())
-        if (from != to && lead_failures(subsystem.behaviours[from], entry)) on_error->used = true;
+        if (from != to && !subsystem.behaviours[from].parent.valid() &&
+            lead_failures(subsystem.behaviours[from], entry))
+          on_error->used = true;
     }
   }
   if (own) check_used(*own, out);
@@ -204,10 +214,11 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                                around.types};
     SubsystemDefaults defaults = read_defaults(section, scope, out);
     const std::size_t errors = out.error_count();
-    subsystem.behaviours = read_behaviours(*behaviours, scope, defaults, around.fleets, out);
+    ReadBehaviours read = read_behaviours(*behaviours, scope, defaults, around.fleets, out);
+    subsystem.behaviours = std::move(read.behaviours);
     // A list or name with a mistake may have been meant to use a default.
     if (out.error_count() == errors) check_used(defaults, out);
-    read_failures(section, around, subsystem, out);
+    read_failures(section, around, subsystem, read.on_error, out);
     subsystem.start = read_start(section.find("start"), subsystem.behaviours, out);
     check_start(subsystem, out);
     check_behaviour_flow(subsystem, out);

@@ -37,7 +37,7 @@ class UnreceivedInputs {
 
   void check() {
     for (const Behaviour& one : subsystem_.behaviours) {
-      if (!one.receive) continue;
+      if (!one.receive || one.is_group()) continue;
       for (const Condition* condition : {&one.terminal, &one.error})
         for (const Expression& expression : condition->expressions) check(one, expression, /*decides=*/true);
       for (const Next& next : one.next)

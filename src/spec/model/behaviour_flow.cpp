@@ -6,6 +6,7 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/model/endings.hpp"
 #include "spec/model/member.hpp"
+#include "spec/model/successors.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -30,8 +31,9 @@ bool is_behind(const Behaviour& behaviour, NextId entry) {
 /// The entry that an ending without error takes, or took before Endings asked for the name of an error.
 std::string target(const Subsystem& subsystem, const Behaviour& behaviour) {
   for (const Next& entry : behaviour.next)
-    if (entry.behaviour.valid() && !names_error(entry)) return subsystem.behaviours[entry.behaviour].name;
-  return behaviour.name;
+    if (entry.behaviour.valid() && !names_error(entry))
+      return std::string(subsystem.behaviours[entry.behaviour].label());
+  return std::string(behaviour.label());
 }
 
 /// The edit after which an error leads to `to`.
@@ -41,7 +43,7 @@ std::string routing(const Subsystem& subsystem, const Behaviour& behaviour, cons
   if (written_entries(behaviour) != 1 || first.when.kind != When::Kind::always)
     return "add " + entry + " to 'next'";
   if (!Endings(behaviour).possible(Ending::terminal)) return "write next: " + entry;
-  const std::string other = first.behaviour.valid() ? subsystem.behaviours[first.behaviour].name : "end";
+  const std::string other(first.behaviour.valid() ? subsystem.behaviours[first.behaviour].label() : "end");
   return "write next: [" + entry + ", " + other + "]";
 }
 
@@ -96,19 +98,25 @@ void check_errors(const Subsystem& subsystem, const Behaviour& behaviour, const 
     out.warning("W313", behaviour.error.span, "no entry of 'next' asks for " + unrouted,
                 "it ends the subsystem and stops the system; to go on with " + in_quotes(to) + ", " +
                     routing(subsystem, behaviour, to) +
-                    (to == behaviour.name ? "" : "; or route it to end, if that is meant"));
+                    (to == behaviour.label() ? "" : "; or route it to end, if that is meant"));
   const auto unused = std::ranges::find_if(
       behaviour.next, [](const Next& entry) { return !names_error(entry) && !entry.implied; });
   if (unrouted.empty() && behaviour.next_given && !endings.possible(Ending::terminal) &&
       unused != behaviour.next.end()) {
     const bool ends = !unused->behaviour.valid();
-    out.warning("W315", unused->span,
-                "behaviour " + in_quotes(behaviour.name) + " never ends as terminal: " +
-                    (ends ? "its 'next' is used only if it fails" : "this entry of 'next' is never taken"),
-                std::string("give it a 'terminal' condition") +
-                    (ends || routes_failures
-                         ? ""
-                         : "; or, if a failure shall lead there, " + routing(subsystem, behaviour, to)));
+    if (behaviour.is_group())
+      out.warning("W381", unused->span,
+                  "no behaviour of group " + in_quotes(behaviour.name) +
+                      " leads to end: this entry of 'next' is never taken",
+                  "write next: end in the behaviour after which the group is done");
+    else
+      out.warning("W315", unused->span,
+                  "behaviour " + in_quotes(behaviour.name) + " never ends as terminal: " +
+                      (ends ? "its 'next' is used only if it fails" : "this entry of 'next' is never taken"),
+                  std::string("give it a 'terminal' condition") +
+                      (ends || routes_failures
+                           ? ""
+                           : "; or, if a failure shall lead there, " + routing(subsystem, behaviour, to)));
   }
   if (always(behaviour.error) && behaviour.terminal.kind == Condition::Kind::expressions) {
     out.warning("W323", behaviour.terminal.span,
@@ -124,12 +132,10 @@ Numbered<BehaviourId, bool> reachable(const Subsystem& subsystem) {
   std::vector<BehaviourId> open{subsystem.start};
   seen[subsystem.start] = true;
   while (!open.empty()) {
-    const Behaviour& behaviour = subsystem.behaviours[open.back()];
-    const Endings endings(behaviour);
+    const BehaviourId from = open.back();
     open.pop_back();
-    for (const NextId entry : behaviour.next.ids()) {
-      const BehaviourId to = behaviour.next[entry].behaviour;
-      if (!to.valid() || seen[to] || !endings.can_be_taken(entry)) continue;
+    for (const BehaviourId to : successors(subsystem, from)) {
+      if (seen[to]) continue;
       seen[to] = true;
       open.push_back(to);
     }
@@ -151,7 +157,7 @@ void check_behaviour_flow(const Subsystem& subsystem, Diagnostics& out) {
   const Numbered<BehaviourId, bool> seen = reachable(subsystem);
   for (const BehaviourId i : seen.ids()) {
     const Behaviour& behaviour = subsystem.behaviours[i];
-    if (seen[i]) continue;
+    if (seen[i] || (behaviour.parent.valid() && !seen[behaviour.parent])) continue;
     const auto more = others_of_family(subsystem.behaviours, i, [&](BehaviourId id) { return !seen[id]; });
     if (!more) continue;
     out.warning(

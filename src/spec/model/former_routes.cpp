@@ -56,7 +56,8 @@ bool is_noted(const Behaviour& behaviour) {
 bool is_of_on_error(const Subsystem& subsystem, const Behaviour& behaviour) {
   const auto leads = [&](const Behaviour& from) {
     return std::ranges::any_of(from.next, [&](const Next& next) {
-      return next.inherited && (&from == &behaviour || &subsystem.behaviours[next.behaviour] == &behaviour);
+      return next.inherited && next.behaviour.valid() &&
+             (&from == &behaviour || &subsystem.behaviours[next.behaviour] == &behaviour);
     });
   };
   return std::ranges::any_of(subsystem.behaviours, leads);
@@ -107,6 +108,7 @@ void note(const Subsystem& subsystem, diagnostics::Diagnostics& out) {
 }  // namespace
 
 std::optional<FormerRoute> former_route(const Subsystem& subsystem, const Behaviour& behaviour) {
+  if (behaviour.is_group() || behaviour.parent.valid()) return std::nullopt;  // there were none
   if (is_of_on_error(subsystem, behaviour)) return std::nullopt;
   FormerRoute route{.before = {}};
   for (const NextId entry : behaviour.next.ids()) {

@@ -1,5 +1,6 @@
 #include "spec/model/model.hpp"
 
+#include <algorithm>
 #include <array>
 #include <set>
 #include <string>
@@ -41,6 +42,17 @@ bool lies_in(std::string_view field, std::string_view part) {
 }
 
 }  // namespace
+
+std::string_view Behaviour::label() const {
+  // npos + 1 is 0
+  return std::string_view(name).substr(name.rfind('.') + 1);
+}
+
+std::string Behaviour::identifier() const {
+  std::string text = name;
+  std::ranges::replace(text, '.', '_');
+  return text;
+}
 
 bool Subsystem::may_be_non_finite(RealId buffer, std::string_view field) const {
   bool allowed = non_finite_allowed;

@@ -117,6 +117,8 @@ struct Expression {
   };
   std::vector<TimeNumber> times{};        ///< in the order of the text; none contains another
   std::optional<std::uint32_t> member{};  ///< the value of `i` in the text
+  /// It is `until` of that group: one of the terminal conditions of each behaviour in it, and of the group.
+  BehaviourId until_of{};
 };
 [[nodiscard]] inline const std::vector<Reference>& references(const Expression& expression) {
   return expression.references;
@@ -144,11 +146,12 @@ struct When {
 };
 
 struct Next {
-  BehaviourId behaviour{};  ///< none: `end`
+  BehaviourId behaviour{};  ///< none: `end`, of the subsystem or of the group that the behaviour is in
   When when;
   Span span;
-  bool implied = false;    ///< not in the file: complete_next has added it
-  bool inherited = false;  ///< not in the list: `on_error`, at `span`, says it
+  bool implied = false;  ///< not in the file: complete_next has added it
+  bool inherited =
+      false;  ///< not in the list: `on_error` or `until`, at `span`, says it, or the group around it
   /// To memory when it is taken; those of the behaviour that it leads to come last.
   std::vector<Change> sets{};
   /// A counter may have no value for `sets`. The entry is then not taken, as if its condition did not hold.
@@ -159,8 +162,18 @@ struct Next {
 
 enum class Transfer : std::uint8_t { sequential, parallel };
 
+/// What a behaviour has instead of a transition function and communication, if it is a group of behaviours.
+struct Group {
+  BehaviourId start{};              ///< a behaviour or group in it
+  std::optional<Expression> until;  ///< holds: the group is left after this iteration
+};
+
+/// A behaviour, or a group of behaviours, which stands before what is in it. A group, too, has `next`, `sets` and an
+/// ending: terminal if a behaviour in it leads to `end`, or its `until` holds; otherwise one that has left the group.
 struct Behaviour {
-  std::string name;
+  std::string name;      ///< "follow"; in a group with the names of the groups around it: "charge.ask"
+  BehaviourId parent{};  ///< the group that it is in; none: the subsystem itself
+  std::optional<Group> group{};
   Condition terminal;
   Condition error;
   Numbered<NextId, Next> next;  ///< never empty: `end` is the default; see complete_next
@@ -171,9 +184,15 @@ struct Behaviour {
   std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
   Duration takes{0};               ///< simulated time of the transition function
-  std::vector<Change> sets{};      ///< to memory when it begins
+  std::vector<Change> sets{};      ///< to memory when it begins; of a group, with those of its start
   std::optional<Member> member{};  ///< of a behaviour `for: each robot`
   Span span;
+
+  [[nodiscard]] bool is_group() const { return group.has_value(); }
+  /// "ask": the name among its neighbours.
+  [[nodiscard]] std::string_view label() const;
+  /// "charge_ask": its name in C++.
+  [[nodiscard]] std::string identifier() const;
 };
 
 // -------------------------------------------------------------------------------------- subsystems, agents

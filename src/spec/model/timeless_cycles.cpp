@@ -3,23 +3,20 @@
 #include <algorithm>
 
 #include "spec/model/endings.hpp"
+#include "spec/model/successors.hpp"
 
 namespace tessera::spec {
 namespace {
 
 /// Whether a behaviour may follow itself.
 bool repeats(const Behaviour& behaviour) {
-  return truth_of(behaviour.terminal) != Truth::always && truth_of(behaviour.error) != Truth::always;
+  return !behaviour.is_group() && truth_of(behaviour.terminal) != Truth::always &&
+         truth_of(behaviour.error) != Truth::always;
 }
 
 /// Whether one of the behaviours `to` may follow it.
-bool passes_on(const Behaviour& behaviour, const Numbered<BehaviourId, bool>& to) {
-  const Endings endings(behaviour);
-  for (const NextId entry : behaviour.next.ids())
-    if (const BehaviourId next = behaviour.next[entry].behaviour;
-        next.valid() && to[next] && endings.can_be_taken(entry))
-      return true;
-  return false;
+bool passes_on(const Subsystem& subsystem, BehaviourId from, const Numbered<BehaviourId, bool>& to) {
+  return std::ranges::any_of(successors(subsystem, from), [&](BehaviourId next) { return to[next]; });
 }
 
 /// Removes behaviours after which no remaining behaviour can come, as long as there are any. The rest lies
@@ -30,8 +27,8 @@ Numbered<BehaviourId, bool> endless(const Subsystem& subsystem, const Numbered<B
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = left.size(); i-- > 0;) {  // behaviours mostly lead to later ones
-      const Behaviour& behaviour = subsystem.behaviours[i];
-      if (!left[i] || repeats(behaviour) || passes_on(behaviour, left)) continue;
+      const BehaviourId id{static_cast<std::uint32_t>(i)};
+      if (!left[i] || repeats(subsystem.behaviours[i]) || passes_on(subsystem, id, left)) continue;
       left[i] = false;
       changed = true;
     }
@@ -47,7 +44,7 @@ std::vector<BehaviourId> timeless_cycles(const Subsystem& subsystem,
   std::vector<BehaviourId> found;
   bool circle_found = false;
   for (const BehaviourId i : left.ids()) {
-    if (!left[i]) continue;
+    if (!left[i] || subsystem.behaviours[i].is_group()) continue;
     // If behaviours only lead to one another, the first one represents the cycle.
     if (!repeats(subsystem.behaviours[i]) && circle_found) continue;
     circle_found = circle_found || !repeats(subsystem.behaviours[i]);

@@ -24,7 +24,8 @@ class SubsystemReader {
   std::optional<SubsystemFlow> read(PlaceId entry) {
     flow_.id = net_[entry].subsystem;
     flow_.name = net_.parts()[flow_.id].path;
-    const std::optional<PlaceId> start = silent_step(entry);
+    std::optional<PlaceId> start = silent_step(entry);
+    if (start) start = past_groups(*start);
     if (!start || !behaviour_at(*start)) return fail("does not start with a behaviour", entry);
     for (std::size_t index = 0; index < entries_.size(); ++index) {
       flow_.behaviours.emplace_back();
@@ -57,6 +58,16 @@ class SubsystemReader {
     if (steps.front().channel.valid()) return std::nullopt;
     if (net_[steps.front().id].condition.kind != Condition::Kind::none) return std::nullopt;
     return steps.front().to;
+  }
+
+  /// The place to which a token goes on through the places of groups, as long as there is no choice.
+  [[nodiscard]] PlaceId past_groups(PlaceId place) const {
+    for (std::size_t steps = 0; net_[place].is_of_group() && steps <= net_.places().size(); ++steps) {
+      const std::optional<PlaceId> next = silent_step(place);
+      if (!next) break;
+      place = *next;
+    }
+    return place;
   }
 
   bool read_behaviour(std::uint32_t number) {
@@ -145,24 +156,37 @@ class SubsystemReader {
     return read_next(number, *left);
   }
 
-  /// The initial conditions of the behaviours that may follow.
+  /// The initial conditions of the behaviours that may follow. Where a group is left, those of the group are asked
+  /// next.
   bool read_next(std::uint32_t number, PlaceId out) {
-    BehaviourFlow& behaviour = flow_.behaviours[number];
-    behaviour.complete = false;
-    for (const TokenStep& step : steps_.from(out)) {
-      const Condition& condition = net_[step.id].condition;
-      if (!step.from.valid() || !step.to.valid() || step.channel.valid() ||
-          (condition.kind != Condition::Kind::none && condition.kind != Condition::Kind::next))
-        return fail("is left in an unknown way", out), false;
-      behaviour.complete = behaviour.complete || known(condition).truth == Condition::Truth::always ||
-                           known(condition).exhaustive;
-      if (!possible(condition)) continue;
-      if (const auto next = behaviour_at(step.to))
-        behaviour.next.push_back(*next);
-      else if (steps_.from(step.to).empty())
-        behaviour.ends = true;
-      else
-        return fail("follows a behaviour and is none", step.to), false;
+    flow_.behaviours[number].complete = true;
+    std::vector<PlaceId> outs{out};
+    for (std::size_t at = 0; at < outs.size(); ++at) {
+      bool complete = false;
+      for (const TokenStep& step : steps_.from(outs[at])) {
+        const Condition& condition = net_[step.id].condition;
+        if (!step.from.valid() || !step.to.valid() || step.channel.valid() ||
+            (condition.kind != Condition::Kind::none && condition.kind != Condition::Kind::next))
+          return fail("is left in an unknown way", outs[at]), false;
+        complete =
+            complete || known(condition).truth == Condition::Truth::always || known(condition).exhaustive;
+        if (possible(condition) && !follow(number, past_groups(step.to), outs)) return false;
+      }
+      flow_.behaviours[number].complete = flow_.behaviours[number].complete && complete;
+    }
+    return true;
+  }
+
+  /// outs: gets the place if a group is left there.
+  bool follow(std::uint32_t number, PlaceId to, std::vector<PlaceId>& outs) {
+    if (net_[to].is_of_group()) {
+      if (std::ranges::find(outs, to) == outs.end()) outs.push_back(to);
+    } else if (const auto next = behaviour_at(to)) {
+      flow_.behaviours[number].next.push_back(*next);
+    } else if (steps_.from(to).empty()) {
+      flow_.behaviours[number].ends = true;
+    } else {
+      return fail("follows a behaviour and is none", to), false;
     }
     return true;
   }

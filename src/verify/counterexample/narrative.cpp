@@ -69,9 +69,14 @@ class Teller {
     const net::Place& to = net_[net_.postset(id).front().place];
     if (to.is(net::Layer::subsystem, PlaceRole::output)) {
       deed.text = "ends";
+    } else if (to.is_of_group() && to.page == net_[id].page) {
+      deed.text = "leaves " + behaviour_name(to.subsystem, to.behaviour);
     } else {
       deed.behaviour = behaviour_name(to.subsystem, to.behaviour);
-      deed.text = (net_[id].role == Step::start ? "starts in " : "goes on to ") + deed.behaviour;
+      deed.text = (net_[id].role == Step::start         ? "starts in "
+                   : net_[id].role == Step::begin_group ? "begins "
+                                                        : "goes on to ") +
+                  deed.behaviour;
     }
     return deed;
   }

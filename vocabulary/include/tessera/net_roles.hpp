@@ -58,8 +58,10 @@ enum class Step : std::uint8_t {
   start_agent,
   end_agent,
   // Layer 3, a subsystem.
-  start,  ///< it starts its first behaviour
-  leave,  ///< an entry of `next` of the behaviour is taken
+  start,        ///< it starts its first behaviour
+  leave,        ///< an entry of `next` of the behaviour is taken
+  begin_group,  ///< the first behaviour of a group begins
+  leave_group,  ///< an entry of `next` of the group is taken
   // Layer 4, a behaviour.
   begin_sending,    ///< t1: the transition function has been calculated; with `receive: first` t3
   end_sending,      ///< t2; with `receive: first` one of t4, t5 and t6 ends the sending
@@ -86,11 +88,12 @@ enum class Step : std::uint8_t {
 };
 
 namespace detail {
-inline constexpr std::array<std::string_view, 26> step_names{
-    "other",         "start_system", "end_system",      "start_agent",   "end_agent", "start",    "leave",
-    "begin_sending", "end_sending",  "begin_receiving", "end_receiving", "go_on",     "terminal", "error",
-    "page",          "transfer",     "overwrite",       "skip",          "timeout",   "deliver",  "replace",
-    "deliver_older", "lose_older",   "no_successor",    "cut",           "cut_back"};
+inline constexpr std::array<std::string_view, 28> step_names{
+    "other",         "start_system", "end_system",  "start_agent",   "end_agent",   "start",
+    "leave",         "begin_group",  "leave_group", "begin_sending", "end_sending", "begin_receiving",
+    "end_receiving", "go_on",        "terminal",    "error",         "page",        "transfer",
+    "overwrite",     "skip",         "timeout",     "deliver",       "replace",     "deliver_older",
+    "lose_older",    "no_successor", "cut",         "cut_back"};
 static_assert(step_names.size() == static_cast<std::size_t>(Step::cut_back) + 1);
 }  // namespace detail
 

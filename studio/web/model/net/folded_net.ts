@@ -48,7 +48,10 @@ class Kind {
     this.places = byName(shape.places);
     this.transitions = byName(shape.transitions);
     this.marked = shape.places.flatMap(({ tokens }, index) => (tokens > 0 ? [[index, tokens] as [number, number]] : []));
-    this.subsystemPages = shape.pages.flatMap(({ layer }, index) => (layer === "subsystem" ? [index] : []));
+    // The page of a group of behaviours is of that layer, too, and stands in one of it.
+    const isSubsystem = ({ layer, parent }: Shape["pages"][number]) =>
+      layer === "subsystem" && (parent === null || shape.pages[parent]!.layer !== "subsystem");
+    this.subsystemPages = shape.pages.flatMap((page, index) => (isSubsystem(page) ? [index] : []));
     this.inputs = Int32Array.from(
       shape.transitions.flatMap(({ inputs }) => inputs.flatMap(({ place, weight }) => [place, weight])),
     );

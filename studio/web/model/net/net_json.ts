@@ -62,6 +62,8 @@ export interface PageTransition {
     | "end_agent"
     | "start"
     | "leave"
+    | "begin_group"
+    | "leave_group"
     | "begin_sending"
     | "end_sending"
     | "begin_receiving"

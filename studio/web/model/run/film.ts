@@ -79,7 +79,8 @@ function runningOn(net: NetModel, drawn: Drawn, from: Marking) {
   const pages = new Map<number, number>();
   for (const page of drawn.subsystems) {
     const { layer, subsystem } = net.page(page);
-    if (layer === "subsystem" && subsystem !== null) pages.set(subsystem, page);
+    // The page of a group of behaviours follows that of its subsystem.
+    if (layer === "subsystem" && subsystem !== null && !pages.has(subsystem)) pages.set(subsystem, page);
   }
   const tokens = new Map<number, Map<string, number>>();
   const put = (place: number, count: number): number | null => {

@@ -219,7 +219,11 @@ function elkNode(id: string, symbol: Symbol, direction: "down" | "right"): ElkNo
           port("out", "SOUTH", offset.x + width / 2, outer.height),
           port("memory", "WEST", 0, offset.y + height / 2),
         ]
-      : [port("in", "WEST", 0, offset.y + height / 2), port("out", "EAST", outer.width, offset.y + height / 2)];
+      : [
+          port("in", "WEST", 0, offset.y + height / 2),
+          port("out", "EAST", outer.width, offset.y + height / 2),
+          port("memory", "SOUTH", offset.x + width / 2, outer.height),
+        ];
   return { id, ...outer, ports, layoutOptions: { "elk.portConstraints": "FIXED_POS" } };
 }
 
@@ -230,7 +234,7 @@ function elkGraph(net: NetModel, page: Page, folded: Folded, direction: "down" |
   ];
   children[page.input]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "FIRST";
   children[page.output]!.layoutOptions!["elk.layered.layering.layerConstraint"] = "LAST";
-  // The memory of a channel is beside the flow: its arcs do not count as steps, whatever their direction.
+  // The memory of a channel, and what a subsystem knows, is beside the flow: its arcs do not count as steps, whatever their direction.
   const memory = (node: number, at: number): ElkEdge => ({
     id: memoryEdge(node, at),
     sources: [`n${node}.out`],
@@ -283,15 +287,17 @@ function sheetOf(net: NetModel, page: Page, folded: Folded, direction: "down" | 
     const memory = edges.get(memoryEdge(node, transition))?.sections?.[0];
     const section = memory ?? edges.get(id)?.sections?.[0];
     const points = section ? [section.startPoint, ...(section.bendPoints ?? []), section.endPoint] : [];
-    const [from, to] = into === "node" ? [transitions[transition]!, nodes[node]!] : [nodes[node]!, transitions[transition]!];
-    if (memory)
+    const [begin, end] = into === "node" ? [transitions[transition]!, nodes[node]!] : [nodes[node]!, transitions[transition]!];
+    if (memory) {
+      const from = nodes[node]!;
       return {
         transition,
         node,
         into,
-        points: into === "node" ? beside(points, nodes[node]!).reverse() : beside(points, nodes[node]!),
+        points: into === "node" ? beside(points, from, direction).reverse() : beside(points, from, direction),
       };
-    return { transition, node, into, points: meet(points, from, to, direction) };
+    }
+    return { transition, node, into, points: meet(points, begin, end, direction) };
   };
   const routes = page.transitions.flatMap((t, at) => [
     ...t.inputs.map((node) => route(`n${node}>t${at}`, at, node, "transition")),
@@ -316,9 +322,11 @@ function meet(points: Point[], from: Box, to: Box, direction: "down" | "right"):
   return ends;
 }
 
-/** Arcs of a channel's memory begin at the place's lower border. */
-const beside = (points: Point[], from: Box): Point[] =>
-  points.map((point, at) => (at === 0 ? { ...point, y: from.y + from.height } : { ...point }));
+/** Arcs of a memory begin at the place's border. */
+const beside = (points: Point[], from: Box, direction: "down" | "right"): Point[] => {
+  const border = direction === "down" ? { y: from.y + from.height } : { x: from.x + from.width };
+  return points.map((point, at) => (at === 0 ? { ...point, ...border } : { ...point }));
+};
 
 /** Position and scale of the inside of an open page within the page's box. */
 export function inset(box: Box, sheet: Sheet): { x: number; y: number; scale: number } {

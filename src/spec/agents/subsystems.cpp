@@ -60,8 +60,9 @@ BehaviourId read_start(const Entry* entry, const Numbered<BehaviourId, Behaviour
     return !one.parent.valid() && (one.member ? one.member->family : one.name) == name->name;
   });
   if (found == behaviours.end()) {
-    const auto inner = std::ranges::find_if(
-        behaviours, [&](const Behaviour& one) { return one.parent.valid() && one.label() == name->name; });
+    const auto inner = std::ranges::find_if(behaviours, [&](const Behaviour& one) {
+      return one.parent.valid() && (one.name == text->text || one.label() == name->name);
+    });
     if (inner != behaviours.end()) {
       BehaviourId group = inner->parent;
       while (behaviours[group].parent.valid()) group = behaviours[group].parent;
@@ -71,8 +72,11 @@ BehaviourId read_start(const Entry* entry, const Numbered<BehaviourId, Behaviour
                     ", and 'start' in the group");
       return {0};
     }
+    std::vector<std::string> names = written_names(behaviours);
+    // Those in groups begin with the group.
+    std::erase_if(names, [](const std::string& one) { return one.find('.') != std::string::npos; });
     out.error("E101", text->span, "unknown behaviour " + in_quotes(name->name),
-              did_you_mean(name->name, written_names(behaviours)));
+              did_you_mean(name->name, names));
     return {0};
   }
   const auto first = static_cast<std::uint32_t>(found - behaviours.begin());

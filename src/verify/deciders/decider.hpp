@@ -42,6 +42,7 @@ class Decider {
 [[nodiscard]] std::unique_ptr<Decider> by_circuits();
 [[nodiscard]] std::unique_ptr<Decider> by_waiting();
 [[nodiscard]] std::unique_ptr<Decider> by_siphons();
+[[nodiscard]] std::unique_ptr<Decider> by_local_views();
 [[nodiscard]] std::unique_ptr<Decider> by_exploration();
 
 /// All methods, in the order in which they are tried: quick ones first.

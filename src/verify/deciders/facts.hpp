@@ -52,7 +52,7 @@ class Facts {
   /// Precondition: wrong_invariants() is empty.
   [[nodiscard]] const UnitInvariants& units();
   [[nodiscard]] const NetUnderAssumption& under(Assume assume);
-  /// Of the probed net.
+  /// Views around subsystems of the probed net.
   [[nodiscard]] LocalViews& local_views(Assume assume);
   /// The subsystems that go on for ever, by circuits (docs/theory/circuits.md) or else by waiting
   /// (docs/theory/waiting.md). Precondition: there is a communication structure. If there was not enough

@@ -289,12 +289,12 @@ function sheetOf(net: NetModel, page: Page, folded: Folded, direction: "down" | 
     const points = section ? [section.startPoint, ...(section.bendPoints ?? []), section.endPoint] : [];
     const [begin, end] = into === "node" ? [transitions[transition]!, nodes[node]!] : [nodes[node]!, transitions[transition]!];
     if (memory) {
-      const from = nodes[node]!;
+      const line = beside(points, nodes[node]!, transitions[transition]!, direction);
       return {
         transition,
         node,
         into,
-        points: into === "node" ? beside(points, from, direction).reverse() : beside(points, from, direction),
+        points: into === "node" ? line.reverse() : line,
       };
     }
     return { transition, node, into, points: meet(points, begin, end, direction) };
@@ -322,10 +322,13 @@ function meet(points: Point[], from: Box, to: Box, direction: "down" | "right"):
   return ends;
 }
 
-/** Arcs of a memory begin at the place's border. */
-const beside = (points: Point[], from: Box, direction: "down" | "right"): Point[] => {
+/** Arcs of a memory begin at the place's border and end at the bar, also across the space of its label. */
+const beside = (points: Point[], from: Box, to: Box, direction: "down" | "right"): Point[] => {
   const border = direction === "down" ? { y: from.y + from.height } : { x: from.x + from.width };
-  return points.map((point, at) => (at === 0 ? { ...point, ...border } : { ...point }));
+  const within = (y: number) => (direction === "down" ? y : Math.min(Math.max(y, to.y), to.y + to.height));
+  return points.map((point, at) =>
+    at === 0 ? { ...point, ...border } : { ...point, y: at === points.length - 1 ? within(point.y) : point.y },
+  );
 };
 
 /** Position and scale of the inside of an open page within the page's box. */

@@ -74,6 +74,16 @@ describe("layoutPage", () => {
       for (const route of sheet.routes) endsTouch(sheet, route);
     }
   });
+  it("draws arcs from what a subsystem knows, which stands beside the flow", async () => {
+    const knowing = lineFollower();
+    const page = [...knowing.pages].findIndex(({ layer }) => layer === "subsystem");
+    const { nodes, input: known } = knowing.page(page);
+    Object.assign(nodes[known]!, { fusion: 0 });
+    const sheet = await layoutPage(knowing, page, nothingFolded, elk);
+    const arcs = sheet.routes.filter((route) => route.node === known);
+    expect(arcs.length).toBeGreaterThan(0);
+    for (const route of arcs) endsTouch(sheet, route);
+  });
   it("leaves the names of many folded pages clear of arcs", async () => {
     const fleet = new NetModel(manyAgents(30));
     const sheet = await layoutPage(fleet, 0, () => true, elk);

@@ -33,7 +33,7 @@ template <class Part>
   return part.member ? part.member->family : part.name;
 }
 
-/// Of its transition function: "charge_ask" for a behaviour `ask` in a group `charge`.
+/// The name of its transition function: "charge_ask" for a behaviour `ask` in a group `charge`.
 [[nodiscard]] inline std::string function_name(const spec::Behaviour& behaviour) {
   return behaviour.member ? behaviour.member->family : behaviour.identifier();
 }

@@ -150,7 +150,7 @@ class FlowPen {
 
   void start(spec::BehaviourId first, std::uint32_t in, Step role) {
     KnownFacts::Changed begun;
-    // What begins in a group has changed memory when the group began.
+    // A behaviour that begins in a group has changed memory when the group began.
     if (!inside_.valid()) begun = facts_.changed_at_start(subsystem_.behaviours[first].sets);
     sheet_.transition(words::start, nodes_of(in, begun.before), nodes_of(nodes_[first], begun.after)).role =
         role;

@@ -128,7 +128,7 @@ class BehaviourReader {
     }
   }
 
-  /// Finds where a group begins. What begins there begins with the group, and changes memory then.
+  /// Finds where a group begins. A behaviour that begins there begins with the group, and changes memory then.
   void begin_group(std::size_t number) {
     Written& group = written_[number];
     if (!group.slot->is_group) return;

@@ -162,7 +162,7 @@ struct Next {
 
 enum class Transfer : std::uint8_t { sequential, parallel };
 
-/// What a behaviour has instead of a transition function and communication, if it is a group of behaviours.
+/// The parts of a group of behaviours, which has them instead of a transition function and communication.
 struct Group {
   BehaviourId start{};              ///< a behaviour or group in it
   std::optional<Expression> until;  ///< holds: the group is left after this iteration

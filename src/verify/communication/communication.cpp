@@ -156,7 +156,7 @@ class SubsystemReader {
     return read_next(number, *left);
   }
 
-  /// The initial conditions of the behaviours that may follow. Where a group is left, those of the group are asked
+  /// The initial conditions of the behaviours that may follow. If a group is left, those of the group are asked
   /// next.
   bool read_next(std::uint32_t number, PlaceId out) {
     flow_.behaviours[number].complete = true;

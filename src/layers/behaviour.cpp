@@ -91,7 +91,7 @@ KnownFacts::Expressions expressions_of_ending(const spec::Behaviour& behaviour) 
 class EndingPen {
  public:
   EndingPen(Sheet& sheet, const KnownFacts& facts, const spec::Behaviour& behaviour, spec::BehaviourId id)
-      : sheet_(sheet), facts_(facts), assignments_(facts.assignments(expressions_of_ending(behaviour))) {
+      : sheet_(sheet), facts_(facts), assignments_(facts.assignments(expressions_of_ending(behaviour), id)) {
     for (const KnownFacts::Values& values : assignments_)
       endings_.push_back(ending(behaviour, EndingTruths(behaviour, facts.truths(id, values, false)),
                                 EndingTruths(behaviour, facts.truths(id, values, true))));

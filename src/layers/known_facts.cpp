@@ -57,8 +57,11 @@ std::string buffer_in(std::span<const Token> part, std::string_view owner, std::
   return number ? spec::name_of_member(std::string(part[2].text), *number) : std::string();
 }
 
-std::uint32_t number_of(const Numbered<spec::BufferId, spec::Field>& buffers, std::string_view name) {
-  return static_cast<std::uint32_t>(std::ranges::find(buffers, name, &spec::Field::name) - buffers.begin());
+/// A number that no buffer has, if the name is none.
+std::uint32_t number_in(const std::unordered_map<std::string, std::uint32_t>& buffers,
+                        const std::string& name) {
+  const auto found = buffers.find(name);
+  return found == buffers.end() ? static_cast<std::uint32_t>(buffers.size()) : found->second;
 }
 
 /// The names of the buffers that the part asks for; none: there are more than the net looks at.
@@ -96,10 +99,18 @@ KnownFacts::KnownFacts(const spec::Model& model, const Wiring& wiring, net::Subs
       subsystem_(model.subsystem(subsystem)),
       net_(net),
       first_{static_cast<std::uint32_t>(net.parts.facts.size())} {
+  list_buffers();
   const Asked wanted = asked();
   find(wiring, Direction::receive, wanted.inputs);
   find(wiring, Direction::send, wanted.outputs);
   find_memory();
+}
+
+void KnownFacts::list_buffers() {
+  for (const spec::BufferId id : subsystem_.inputs.ids())
+    inputs_.emplace(subsystem_.inputs[id].name, id.value);
+  for (const spec::BufferId id : subsystem_.outputs.ids())
+    outputs_.emplace(subsystem_.outputs[id].name, id.value);
 }
 
 KnownFacts::Asked KnownFacts::asked() const {
@@ -109,8 +120,8 @@ KnownFacts::Asked KnownFacts::asked() const {
     each_part(expression, [&](std::span<const Token> part) {
       const auto add = [&](const AskedBuffers& asks) {
         for (const std::string& input : {asks.fresh, asks.late_input})
-          if (!input.empty()) found.inputs[number_of(subsystem_.inputs, input)] = true;
-        if (!asks.late_output.empty()) found.outputs[number_of(subsystem_.outputs, asks.late_output)] = true;
+          if (!input.empty()) found.inputs[number_in(inputs_, input)] = true;
+        if (!asks.late_output.empty()) found.outputs[number_in(outputs_, asks.late_output)] = true;
       };
       if (const auto quantified = spec::quantified_part(part))
         for (const std::string& name : members_of(subsystem_, *quantified))
@@ -133,21 +144,27 @@ bool KnownFacts::is_known(const spec::Channel& channel, Direction direction) con
 void KnownFacts::find(const Wiring& wiring, Direction direction, const std::vector<bool>& asked) {
   const bool sends = direction == Direction::send;
   const auto& buffers = sends ? subsystem_.outputs : subsystem_.inputs;
+  if (std::ranges::none_of(asked, [](bool one) { return one; })) return;
+  std::vector<std::vector<spec::ChannelId>> of_buffer(buffers.size());
+  for (const spec::ChannelId channel : model_.channels.ids())
+    if (const spec::ChannelEnd& end = end_of(model_.channels[channel], direction); end.instance == id_)
+      of_buffer[end.buffer.value].push_back(channel);
+  std::vector<std::vector<spec::ChannelId>> used;  // per behaviour, sorted
+  for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
+    used.push_back(wiring.used(id_, behaviour, direction));
+    std::ranges::sort(used.back());
+  }
   for (std::uint32_t number = 0; number < buffers.size(); ++number) {
     if (!asked[number]) continue;
     Fact fact{.kind = sends ? FactKind::sent : FactKind::received, .subject = number};
     bool own_model = false;
-    for (const spec::ChannelId channel : model_.channels.ids()) {
-      const spec::ChannelEnd& end = end_of(model_.channels[channel], direction);
-      if (end.instance != id_ || end.buffer.value != number) continue;
+    for (const spec::ChannelId channel : of_buffer[number]) {
       own_model = own_model || model_.channels[channel].model.valid();
       if (is_known(model_.channels[channel], direction)) fact.channels.push_back(channel);
     }
     if (own_model || fact.channels.empty()) continue;
-    for (const spec::Behaviour& behaviour : subsystem_.behaviours) {
-      const std::vector<spec::ChannelId> used = wiring.used(id_, behaviour, direction);
-      fact.set_in.push_back(std::ranges::find(used, fact.channels.front()) != used.end());
-    }
+    for (const std::vector<spec::ChannelId>& channels : used)
+      fact.set_in.push_back(std::ranges::binary_search(channels, fact.channels.front()));
     const net::Span span = model_.channels[fact.channels.front()].span;
     using Names = std::vector<std::string>;
     add(std::move(fact), buffers[spec::BufferId{number}].name,
@@ -169,6 +186,7 @@ void KnownFacts::add(Fact fact, const std::string& name, std::vector<std::string
                             .role = PlaceRole::fact,
                             .fact = id,
                             .value = value});
+  by_subject_.at(static_cast<std::size_t>(fact.kind)).emplace(fact.subject, id);
   net_.parts.facts.push_back({fact.kind, id_, fact.subject, name, std::move(values)});
   facts_.push_back(std::move(fact));
 }
@@ -188,10 +206,9 @@ net::FactId KnownFacts::set_by(net::ChannelId channel, Direction direction) cons
 
 KnownFacts::Question KnownFacts::question_of(const AskedBuffers& asks) const {
   for (const std::string& input : {asks.fresh, asks.late_input})
-    if (!input.empty())
-      return {fact_of(FactKind::received, number_of(subsystem_.inputs, input)), !asks.fresh.empty()};
+    if (!input.empty()) return {fact_of(FactKind::received, number_in(inputs_, input)), !asks.fresh.empty()};
   if (!asks.late_output.empty())
-    return {fact_of(FactKind::sent, number_of(subsystem_.outputs, asks.late_output)), false};
+    return {fact_of(FactKind::sent, number_in(outputs_, asks.late_output)), false};
   return {};
 }
 
@@ -208,6 +225,7 @@ std::vector<KnownFacts::Question> KnownFacts::questions_of(std::span<const Token
 }
 
 std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expressions,
+                                                        spec::BehaviourId behaviour,
                                                         const std::vector<const spec::Next*>& counted) const {
   std::vector<Values> all{{}};
   if (facts_.empty()) return all;
@@ -224,15 +242,15 @@ std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expre
       if (change.step != 0 && std::ranges::find(asked, fact) == asked.end()) asked.push_back(fact);
     }
   std::size_t count = 1, kept = 0;
-  while (kept < asked.size() && count * value_count(asked[kept]) <= most_assignments)
-    count *= value_count(asked[kept++]);
+  while (kept < asked.size() && count * values_in(asked[kept], behaviour).size() <= most_assignments)
+    count *= values_in(asked[kept++], behaviour).size();
   asked.resize(kept);
   std::ranges::sort(asked);
   for (const net::FactId fact : asked) {
+    const std::vector<std::uint32_t> values = values_in(fact, behaviour);
     std::vector<Values> more;
     for (const Values& before : all)
-      for (std::uint32_t value = 0; value < value_count(fact); ++value)
-        more.emplace_back(before).emplace_back(fact, value);
+      for (const std::uint32_t value : values) more.emplace_back(before).emplace_back(fact, value);
     all = std::move(more);
   }
   return all;

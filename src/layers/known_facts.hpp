@@ -1,10 +1,12 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <optional>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -45,7 +47,8 @@ class KnownFacts {
   /// All values of the facts that they ask for: one empty assignment if there are none. If there were more than
   /// `most_assignments`, the facts that are asked for last stay free choices.
   /// counted: entries of `next` among them, whose changes of counters are evaluated with the conditions.
-  [[nodiscard]] std::vector<Values> assignments(const Expressions& expressions,
+  /// behaviour: in which they are evaluated; see values_in.
+  [[nodiscard]] std::vector<Values> assignments(const Expressions& expressions, spec::BehaviourId behaviour,
                                                 const std::vector<const spec::Next*>& counted = {}) const;
   static constexpr std::size_t most_assignments = 4096;
   /// The net knows the answers of any(...), all(...) and count(...) over at most so many members of a fleet.
@@ -65,10 +68,13 @@ class KnownFacts {
   };
   /// All ways in which the cells that are changed can be before, if these values are known. Without a change, and
   /// also if it is not possible with these values: once, unchanged.
-  [[nodiscard]] std::vector<Changed> changed(const std::vector<spec::Change>& changes,
-                                             const Values& known) const;
+  [[nodiscard]] std::vector<Changed> changed(const std::vector<spec::Change>& changes, const Values& known,
+                                             spec::BehaviourId behaviour) const;
   /// The same at the start of the subsystem: every cell has its first value.
   [[nodiscard]] Changed changed_at_start(const std::vector<spec::Change>& changes) const;
+  /// The values that a fact can have in a behaviour: all, except of a cell whose values are the members of a larger fleet
+  /// than `most_members`. Such a cell has those to which the entries of `next` lead from the start, each taken alone.
+  [[nodiscard]] std::vector<std::uint32_t> values_in(net::FactId fact, spec::BehaviourId behaviour) const;
   /// The memory cells, one after the other.
   [[nodiscard]] std::vector<net::FactId> memory() const;
 
@@ -109,6 +115,8 @@ class KnownFacts {
   [[nodiscard]] Asked asked() const;
   [[nodiscard]] bool is_known(const spec::Channel& channel, Direction direction) const;
   void find_memory();
+  void find_reached(net::FactId cell);
+  void list_buffers();
   [[nodiscard]] net::FactId fact_of(net::Parts::Fact::Kind kind, std::uint32_t subject) const;
   /// member: the value of `i`.
   [[nodiscard]] Question memory_in(std::span<const spec::Token> part,
@@ -131,6 +139,10 @@ class KnownFacts {
   net::HierarchicalNet& net_;
   net::FactId first_;
   std::vector<Fact> facts_;
+  std::array<std::unordered_map<std::uint32_t, net::FactId>, 3> by_subject_;  // by kind
+  std::unordered_map<std::string, std::uint32_t> inputs_, outputs_;           // numbers of the buffers
+  /// Per cell with the members of a large fleet, behaviour and value.
+  std::unordered_map<std::uint32_t, Numbered<spec::BehaviourId, std::vector<bool>>> reached_;
 };
 
 /// Draws a transition once for each way in which the facts that it changes can be before it. Its name then ends

@@ -20,12 +20,52 @@ void KnownFacts::find_memory() {
     if (cell.few)
       add({.kind = FactKind::memory, .subject = number}, "memory." + cell.name, cell.few->names, cell.span);
   }
+  for (const net::FactId cell : memory()) find_reached(cell);
 }
 
 net::FactId KnownFacts::fact_of(FactKind kind, std::uint32_t subject) const {
-  for (std::uint32_t number = 0; number < facts_.size(); ++number)
-    if (facts_[number].kind == kind && facts_[number].subject == subject) return {first_.value + number};
-  return {};
+  const auto& numbers = by_subject_.at(static_cast<std::size_t>(kind));
+  const auto found = numbers.find(subject);
+  return found == numbers.end() ? net::FactId{} : found->second;
+}
+
+/// The values of a cell in each behaviour: the start leads to the first one, and an entry that may be taken with a value
+/// leads on with that value changed. Other facts are free.
+void KnownFacts::find_reached(net::FactId cell) {
+  const std::uint32_t number = of(cell).subject;
+  const spec::FewValues& few = *subsystem_.memory[number].few;
+  if (few.member_count <= most_members || subsystem_.behaviours.empty()) return;
+  Numbered<spec::BehaviourId, std::vector<bool>> reached(subsystem_.behaviours.size(),
+                                                         std::vector<bool>(few.names.size(), false));
+  std::vector<std::pair<spec::BehaviourId, std::uint32_t>> open;
+  const auto reach = [&](spec::BehaviourId behaviour, std::uint32_t value,
+                         const std::vector<spec::Change>& changes) {
+    for (const spec::Change& change : changes)
+      if (change.cell == number) value = change.value;
+    if (reached[behaviour][value]) return;
+    reached[behaviour][value] = true;
+    open.emplace_back(behaviour, value);
+  };
+  reach(subsystem_.start, 0, subsystem_.behaviours[subsystem_.start].sets);
+  while (!open.empty()) {
+    const auto [behaviour, value] = open.back();
+    open.pop_back();
+    const spec::TruthOf truth = truths(behaviour, {{cell, value}}, true);
+    for (const spec::Next& next : subsystem_.behaviours[behaviour].next) {
+      const bool is_expression = next.when.kind == spec::When::Kind::expression;
+      if (!next.behaviour.valid() || (is_expression && truth(next.when.text) == spec::Truth::never)) continue;
+      reach(next.behaviour, value, next.sets);
+    }
+  }
+  reached_.emplace(cell.value, std::move(reached));
+}
+
+std::vector<std::uint32_t> KnownFacts::values_in(net::FactId fact, spec::BehaviourId behaviour) const {
+  const auto found = reached_.find(fact.value);
+  std::vector<std::uint32_t> values;
+  for (std::uint32_t value = 0; value < value_count(fact); ++value)
+    if (found == reached_.end() || found->second[behaviour][value]) values.push_back(value);
+  return values;
 }
 
 KnownFacts::Question KnownFacts::memory_in(std::span<const spec::Token> part,
@@ -60,18 +100,18 @@ spec::Truth KnownFacts::allows(const spec::Next& entry, const Values& values) co
 }
 
 std::vector<KnownFacts::Changed> KnownFacts::changed(const std::vector<spec::Change>& changes,
-                                                     const Values& known) const {
+                                                     const Values& known, spec::BehaviourId behaviour) const {
   std::vector<Values> befores{known};
   for (const spec::Change& change : changes) {
     const net::FactId fact = fact_of(FactKind::memory, change.cell);
+    const std::vector<std::uint32_t> values = values_in(fact, behaviour);
     std::vector<Values> more;
     for (const Values& before : befores) {
       if (std::ranges::find(before, fact, &Values::value_type::first) != before.end()) {
         more.push_back(before);
         continue;
       }
-      for (std::uint32_t value = 0; value < value_count(fact); ++value)
-        more.emplace_back(before).emplace_back(fact, value);
+      for (const std::uint32_t value : values) more.emplace_back(before).emplace_back(fact, value);
     }
     befores = std::move(more);
   }
@@ -92,7 +132,7 @@ KnownFacts::Changed KnownFacts::changed_at_start(const std::vector<spec::Change>
     if (std::ranges::find(first, fact, &Values::value_type::first) == first.end())
       first.emplace_back(fact, 0);
   }
-  return changed(changes, first).front();
+  return changed(changes, first, subsystem_.start).front();
 }
 
 std::vector<net::FactId> KnownFacts::memory() const {

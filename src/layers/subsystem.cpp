@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <optional>
 #include <utility>
 
@@ -98,6 +99,74 @@ KnownFacts::Expressions expressions_of(const spec::Behaviour& behaviour) {
   return all;
 }
 
+/// Whether a list has an entry for each of more members of a fleet than are looked at together.
+bool is_wide(const spec::Behaviour& behaviour) {
+  return std::ranges::any_of(behaviour.next, [](const spec::Next& next) {
+    return next.member && next.member->count > KnownFacts::most_members;
+  });
+}
+
+/// A wide list as it is looked at for one entry: of the entries for the members of a fleet, those before and those behind
+/// it count as one each, of which nothing is known.
+struct Excerpt {
+  spec::Behaviour behaviour;
+  spec::NextId entry;
+};
+
+Excerpt excerpt_of(const spec::Behaviour& behaviour, spec::NextId entry) {
+  Excerpt made;
+  made.behaviour.name = behaviour.name;
+  made.behaviour.terminal = behaviour.terminal;
+  made.behaviour.error = behaviour.error;
+  made.behaviour.group = behaviour.group;
+  made.behaviour.parent = behaviour.parent;
+  made.behaviour.span = behaviour.span;
+  spec::Next unknown;
+  unknown.when.kind = spec::When::Kind::expression;
+  unknown.when.text.text = "unknown";
+  for (std::uint32_t at = 0; at < behaviour.next.size();) {
+    const spec::Next& next = behaviour.next[spec::NextId{at}];
+    const std::uint32_t count = next.member ? next.member->count : 1;
+    const bool is_here = entry.value >= at && entry.value < at + count;
+    if (next.member && (!is_here || entry.value > at)) made.behaviour.next.push_back(unknown);
+    if (is_here) made.entry = made.behaviour.next.next_id();
+    if (is_here || !next.member)
+      made.behaviour.next.push_back(behaviour.next[is_here ? entry : spec::NextId{at}]);
+    if (next.member && is_here && entry.value + 1 < at + count) made.behaviour.next.push_back(unknown);
+    at += count;
+  }
+  return made;
+}
+
+/// Each entry of a wide list asks for its own facts alone. The net may then take it although one before it holds.
+std::vector<Drawn> entries_of_wide(const spec::Behaviour& behaviour, spec::BehaviourId id,
+                                   const KnownFacts& facts) {
+  std::vector<Drawn> drawn;
+  for (const spec::NextId entry : behaviour.next.ids()) {
+    const Excerpt excerpt = excerpt_of(behaviour, entry);
+    const spec::Next& next = behaviour.next[entry];
+    spec::Behaviour alone;
+    alone.terminal = behaviour.terminal;
+    alone.error = behaviour.error;
+    alone.next.push_back(next);
+    std::vector<const spec::Next*> counted;
+    if (next.may_be_blocked) counted.push_back(&next);
+    for (const KnownFacts::Values& values : facts.assignments(expressions_of(alone), id, counted)) {
+      if (next.when.kind == spec::When::Kind::expression &&
+          facts.truths(id, values, true)(next.when.text) == spec::Truth::never && !values.empty())
+        continue;
+      const auto allows = [&facts, values](const spec::Next& one) { return facts.allows(one, values); };
+      const Knowledge knowledge{spec::Endings(excerpt.behaviour, facts.truths(id, values, false), allows),
+                                spec::Endings(excerpt.behaviour, facts.truths(id, values, true), allows)};
+      Condition condition = condition_of(excerpt.entry, excerpt.behaviour, values, knowledge);
+      if (!values.empty() && condition.known(true).truth == Truth::never) continue;
+      condition.entry = entry.value;
+      drawn.push_back({entry, values, std::move(condition)});
+    }
+  }
+  return drawn;
+}
+
 /// The entries of `next` with their initial conditions: the first that holds is taken. If they ask for facts, an
 /// entry is drawn for the values with which it can be taken, and the last one is also drawn where none can.
 std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourId id,
@@ -105,10 +174,12 @@ std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourI
   if (behaviour.next.size() == 1 && behaviour.next.front().when.kind == spec::When::Kind::always &&
       !behaviour.next.front().may_be_blocked)
     return {{spec::NextId{0}, {}, Condition{}}};
+  if (is_wide(behaviour)) return entries_of_wide(behaviour, id, facts);
   std::vector<const spec::Next*> counted;
   for (const spec::Next& next : behaviour.next)
     if (next.may_be_blocked) counted.push_back(&next);
-  const std::vector<KnownFacts::Values> assignments = facts.assignments(expressions_of(behaviour), counted);
+  const std::vector<KnownFacts::Values> assignments =
+      facts.assignments(expressions_of(behaviour), id, counted);
   std::vector<Knowledge> knowledge;
   for (const KnownFacts::Values& values : assignments) {
     const auto allows = [&facts, values](const spec::Next& entry) { return facts.allows(entry, values); };
@@ -181,7 +252,7 @@ class FlowPen {
       const std::string name = std::string(words::leave) + std::string(behaviour.label()) + "_" +
                                std::to_string(entry.entry.value + 1);
       const std::uint32_t to = next.behaviour.valid() ? nodes_[next.behaviour] : out;
-      for (const KnownFacts::Changed& changed : facts_.changed(next.sets, entry.values)) {
+      for (const KnownFacts::Changed& changed : facts_.changed(next.sets, entry.values, index)) {
         std::string full = name;
         for (const auto& [fact, value] : changed.before) full += "." + facts_.name_of(fact, value);
         net::PageTransition& drawn = sheet_.transition(full, nodes_of(nodes_[index], changed.before),

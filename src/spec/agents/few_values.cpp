@@ -243,7 +243,8 @@ bool check_entry(const Next& entry, const std::vector<Field>& memory, Diagnostic
     cells.push_back(change.cell);
     const Field& cell = memory[change.cell];
     const std::size_t count = cell.few->names.size();
-    together *= count;
+    // The net has a transition for each value that the cell can have there: often one of the members.
+    together *= count - cell.few->member_count + (cell.few->member_count > 0 ? 1 : 0);
     const std::optional<Allowed> values = allowed(*cell.few, change.cell, entry.sets);
     if (!values)
       out.error("E267", change.span,

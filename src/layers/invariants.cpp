@@ -10,6 +10,7 @@
 
 #include "layers/built_in.hpp"
 #include "layers/layers.hpp"
+#include "layers/memory_invariants.hpp"
 #include "layers/pair_invariants.hpp"
 
 namespace tessera::layers {
@@ -309,9 +310,11 @@ std::vector<Invariant> invariants(const spec::Model& model, const net::Hierarchi
                                   const net::Net& net) {
   const Places places(pages, net);
   std::vector<Invariant> all = Subsystems(model, pages, places).result();
+  const std::vector<Invariant> of_memory = memory_invariants(model, pages, net, all);
   for (Invariant& invariant : Channels(model, pages, net, places).result())
     all.push_back(std::move(invariant));
   for (Invariant& invariant : of_facts(net, places)) all.push_back(std::move(invariant));
+  all.insert(all.end(), of_memory.begin(), of_memory.end());
   return all;
 }
 

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "layers/built_in.hpp"
+#include "layers/known_facts.hpp"
 #include "layers/layers.hpp"
-#include "layers/memory_invariants.hpp"
 #include "layers/pair_invariants.hpp"
 
 namespace tessera::layers {

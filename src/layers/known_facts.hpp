@@ -145,6 +145,15 @@ class KnownFacts {
   std::unordered_map<std::uint32_t, Numbered<spec::BehaviourId, std::vector<bool>>> reached_;
 };
 
+/// Memory whose values are the members of a large fleet (KnownFacts::values_in): if only certain behaviours run while a
+/// cell has a value, and it has no other then, these behaviours and the other values exclude each other.
+///
+/// tokens: per instance, the invariant that says where the token of the subsystem is.
+[[nodiscard]] std::vector<net::Invariant> memory_invariants(const spec::Model& model,
+                                                            const net::HierarchicalNet& pages,
+                                                            const net::Net& net,
+                                                            const std::vector<net::Invariant>& tokens);
+
 /// Draws a transition once for each way in which the facts that it changes can be before it. Its name then ends
 /// with the values that it takes: "t_ask_1.grant.came".
 class FactPen {

@@ -72,8 +72,9 @@ class KnownFacts {
                                              spec::BehaviourId behaviour) const;
   /// The same at the start of the subsystem: every cell has its first value.
   [[nodiscard]] Changed changed_at_start(const std::vector<spec::Change>& changes) const;
-  /// The values that a fact can have in a behaviour: all, except of a cell whose values are the members of a larger fleet
-  /// than `most_members`. Such a cell has those to which the entries of `next` lead from the start, each taken alone.
+  /// The values that a fact can have in a behaviour: all, except of a cell whose values are the members of a larger
+  /// fleet than `most_members`, in a subsystem without groups. Such a cell has those to which the entries of `next`
+  /// lead from the start, each taken alone.
   [[nodiscard]] std::vector<std::uint32_t> values_in(net::FactId fact, spec::BehaviourId behaviour) const;
   /// The memory cells, one after the other.
   [[nodiscard]] std::vector<net::FactId> memory() const;

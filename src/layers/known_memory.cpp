@@ -115,7 +115,9 @@ net::FactId KnownFacts::fact_of(FactKind kind, std::uint32_t subject) const {
 void KnownFacts::find_reached(net::FactId cell) {
   const std::uint32_t number = of(cell).subject;
   const spec::FewValues& few = *subsystem_.memory[number].few;
-  if (few.member_count <= most_members || subsystem_.behaviours.empty()) return;
+  const bool has_groups =
+      std::ranges::any_of(subsystem_.behaviours, [](const spec::Behaviour& one) { return one.is_group(); });
+  if (few.member_count <= most_members || subsystem_.behaviours.empty() || has_groups) return;
   Numbered<spec::BehaviourId, std::vector<bool>> reached(subsystem_.behaviours.size(),
                                                          std::vector<bool>(few.names.size(), false));
   std::vector<std::pair<spec::BehaviourId, std::uint32_t>> open;
@@ -233,6 +235,8 @@ std::vector<Invariant> memory_invariants(const spec::Model& model, const net::Hi
     const net::Page& page = pages.pages[number];
     if (page.layer != net::Layer::subsystem) continue;
     const spec::Subsystem& subsystem = model.subsystem(page.subsystem);
+    if (std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& one) { return one.is_group(); }))
+      continue;
     for (std::uint32_t id = 0; id < pages.parts.facts.size(); ++id) {
       const net::Parts::Fact& fact = pages.parts.facts[id];
       if (fact.kind != net::Parts::Fact::Kind::memory || fact.subsystem != page.subsystem) continue;

@@ -110,7 +110,8 @@ net::FactId KnownFacts::fact_of(FactKind kind, std::uint32_t subject) const {
   return found == numbers.end() ? net::FactId{} : found->second;
 }
 
-/// The values of a cell in each behaviour: the start leads to the first one, and an entry that may be taken with a value
+/// The values of a cell in each behaviour: the start leads to the first one, and an entry that may be taken
+/// with a value
 /// leads on with that value changed. Other facts are free.
 void KnownFacts::find_reached(net::FactId cell) {
   const std::uint32_t number = of(cell).subject;

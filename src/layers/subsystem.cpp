@@ -106,7 +106,8 @@ bool is_wide(const spec::Behaviour& behaviour) {
   });
 }
 
-/// A wide list as it is looked at for one entry: of the entries for the members of a fleet, those before and those behind
+/// A wide list as it is looked at for one entry: of the entries for the members of a fleet, those before and
+/// those behind
 /// it count as one each, of which nothing is known.
 struct Excerpt {
   spec::Behaviour behaviour;

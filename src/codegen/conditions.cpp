@@ -68,6 +68,9 @@ Conditions::Conditions(const Project& project, const Unit& unit)
       if (next.when.kind == spec::When::Kind::named_error)
         functions_[asked.error[next.when.expression]].remembered = true;
     }
+    for (const spec::Skippable& output : behaviour.skippable)
+      asked.send.push_back(
+          add_all(behaviour, output.when, "send_" + written_name(subsystem_.outputs[output.output])));
     asked_.push_back(std::move(asked));
   }
 }

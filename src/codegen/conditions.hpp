@@ -23,6 +23,8 @@ class Conditions {
   [[nodiscard]] std::string route() const;
   /// "static_cast<Behaviour>(behaviour)": the parameter `behaviour` as one of the enumeration.
   [[nodiscard]] static std::string_view behaviour_text(const spec::Subsystem& subsystem);
+  /// tessera::Subsystem::sends; empty: every iteration sends everything.
+  [[nodiscard]] std::string sends() const;
   /// Private members of the class that evaluates them: the conditions, and what `decide`
   /// remembers for `route`.
   /// Empty: none.
@@ -47,7 +49,8 @@ class Conditions {
   /// of the specification.
   struct Asked {
     Numbered<spec::ExpressionId, std::size_t> error, terminal;
-    Numbered<spec::NextId, std::size_t> next;  ///< only meaningful for expressions
+    Numbered<spec::NextId, std::size_t> next;                     ///< only meaningful for expressions
+    std::vector<Numbered<spec::ExpressionId, std::size_t>> send;  ///< per skippable output
   };
 
   void add_marked(const Function& function, std::string& out) const;

@@ -215,6 +215,10 @@ class Extraction {
       case net::Condition::Kind::elapsed:
         if (net_.channel_of(id).valid()) return "tessera::if_elapsed";
         return fmt::format("tessera::if_elapsed_at({})", port(condition.channel, sends));
+      case net::Condition::Kind::send:
+        return "tessera::if_sends";
+      case net::Condition::Kind::skip:
+        return "tessera::if_skips";
     }
     return {};
   }
@@ -236,11 +240,17 @@ class Extraction {
     using Kind = net::Condition::Kind;
     const bool decides =
         condition.kind == Kind::go_on || condition.kind == Kind::terminal || condition.kind == Kind::error;
-    if (!decides && condition.kind != Kind::next) return;
+    const bool asks = condition.kind == Kind::send || condition.kind == Kind::skip;
+    if (!decides && !asks && condition.kind != Kind::next) return;
     for (const net::Arc& arc : net_.preset(id)) {
       if (net_[arc.place].fused() || net_[arc.place].fact.valid()) continue;
       LocalNet::Place& place = rows_[index_of(arc.place)].place;
-      place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes", place.behaviour.value);
+      if (asks)
+        place.does =
+            fmt::format("tessera::asks({}, {})", port(net_.parts()[net_[id].block].channel, /*sends=*/true),
+                        place.behaviour.value);
+      else
+        place.does = fmt::format("tessera::{}({})", decides ? "decides" : "routes", place.behaviour.value);
     }
   }
 

@@ -100,12 +100,28 @@ struct Context : tessera::Context {{
     for (const spec::Field& field : fields) {
       if (!is_first(field)) continue;
       const std::string buffer =
-          fmt::format("tessera::{}<{}>", template_name, type_name(project_.model, field.type, hidden_));
+          fmt::format("tessera::{}<{}>", is_skippable(field) ? "SkippableOutput" : template_name,
+                      type_name(project_.model, field.type, hidden_));
       members.push_back({field.member ? fmt::format("std::array<{}, {}> {};", buffer, field.member->count,
                                                     field.member->family)
                                       : fmt::format("{} {};", buffer, field.name),
                          comment_text(field.type.unit)});
     }
+  }
+
+  /// An output, or one of its family, that the transition function of some behaviour may skip.
+  [[nodiscard]] bool is_skippable(const spec::Field& field) const {
+    return std::ranges::any_of(subsystem_.behaviours, [&](const spec::Behaviour& behaviour) {
+      return std::ranges::any_of(behaviour.skippable, [&](const spec::Skippable& one) {
+        const spec::Field& output = subsystem_.outputs[one.output];
+        if (!one.by_function || written_name(output) != written_name(field)) return false;
+        return &output == &field || (output.member && field.member && is_output(field));
+      });
+    });
+  }
+
+  [[nodiscard]] bool is_output(const spec::Field& field) const {
+    return std::ranges::any_of(subsystem_.outputs, [&](const spec::Field& one) { return &one == &field; });
   }
 
   [[nodiscard]] std::string inputs() const {

@@ -189,7 +189,7 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
 {}{}{}{}}};
 )",
                      behaviours_enumeration(*unit.subsystem), unit_path(unit), bind(project, unit),
-                     call(*unit.subsystem), conditions.decide(), conditions.route(),
+                     call(*unit.subsystem), conditions.decide(), conditions.route() + conditions.sends(),
                      members.empty() && families.empty() ? "" : "\n private:\n", families, members);
 }
 

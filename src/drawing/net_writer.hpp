@@ -40,7 +40,8 @@ class NetWriter : public JsonWriter {
   }
 
   void condition(const net::Condition& condition) {
-    constexpr std::array<const char*, 6> kinds{"none", "go_on", "terminal", "error", "next", "elapsed"};
+    constexpr std::array<const char*, 8> kinds{"none", "go_on",   "terminal", "error",
+                                               "next", "elapsed", "send",     "skip"};
     constexpr std::array<const char*, 3> truths{"free", "always", "never"};
     if (condition.kind == net::Condition::Kind::none) return null();
     object([&] {

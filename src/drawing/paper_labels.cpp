@@ -118,6 +118,9 @@ class PaperLabels : public Labels {
       }
       case Kind::elapsed:
         return {Label("t > " + condition.text)};
+      case Kind::send:
+      case Kind::skip:
+        return {Label(wrapped(condition.text, 22, 1).front())};
     }
     return {};
   }

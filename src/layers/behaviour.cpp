@@ -9,18 +9,6 @@ namespace {
 using net::Condition;
 using Truth = Condition::Truth;
 
-Truth negation(Truth truth) {
-  switch (truth) {
-    case Truth::free:
-      return Truth::free;
-    case Truth::always:
-      return Truth::never;
-    case Truth::never:
-      return Truth::always;
-  }
-  return Truth::free;
-}
-
 Truth conjunction(Truth a, Truth b) {
   if (a == Truth::never || b == Truth::never) return Truth::never;
   return a == Truth::always ? b : a;

@@ -1,6 +1,7 @@
 #include <array>
 
 #include "layers/built_in.hpp"
+#include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
 #include "tessera/net_words.hpp"
 
@@ -11,12 +12,14 @@ namespace {
 struct Block {
   net::ChannelId channel;
   std::string name;
+  const spec::Skippable* skippable = nullptr;  ///< whether an iteration may skip it
   net::BlockId id{};
 };
 
 /// Blocks are named after their buffers; those of an output that feeds several channels are numbered.
 std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::ChannelId>& channels,
-                             const Numbered<spec::BufferId, spec::Field>& buffers, Direction direction) {
+                             const Numbered<spec::BufferId, spec::Field>& buffers,
+                             const spec::Behaviour& behaviour, Direction direction) {
   Numbered<spec::BufferId, std::uint32_t> count(buffers.size(), 0), number(buffers.size(), 0);
   const auto buffer_of = [&](spec::ChannelId channel) {
     return end_of(model.channels[channel], direction).buffer;
@@ -27,7 +30,8 @@ std::vector<Block> blocks_of(const spec::Model& model, const std::vector<spec::C
     const spec::BufferId buffer = buffer_of(channel);
     std::string name = buffers[buffer].name;
     if (count[buffer] > 1) name += "#" + std::to_string(++number[buffer]);
-    blocks.push_back({channel, std::move(name)});
+    const bool sends = direction == Direction::send;
+    blocks.push_back({channel, std::move(name), sends ? behaviour.skips(buffer) : nullptr});
   }
   return blocks;
 }
@@ -49,11 +53,31 @@ std::string in_words(spec::Duration duration) {
   return std::to_string(duration.count()) + " ns";
 }
 
+/// "memory.ask", "asking or late".
+std::string text_of(const spec::Skippable& skippable) {
+  if (skippable.by_function) return "not skipped";
+  std::string text;
+  for (const spec::Expression& expression : skippable.when.expressions)
+    text += (text.empty() ? "" : " or ") + (expression.name.empty() ? expression.text : expression.name);
+  return text;
+}
+
+/// Whether a block is begun or skipped with certain values of the facts that its condition asks for.
+struct Choice {
+  KnownFacts::Values values;
+  net::Condition sends, skips;
+};
+
 /// Draws the blocks of one page.
 class BlockPen {
  public:
-  BlockPen(const Draft& draft, Sheet& sheet, net::SubsystemId subsystem, Direction direction)
-      : draft_(draft), facts_(draft.facts[subsystem]), sheet_(sheet), direction_(direction) {}
+  BlockPen(const Draft& draft, Sheet& sheet, net::SubsystemId subsystem, spec::BehaviourId behaviour,
+           Direction direction)
+      : draft_(draft),
+        facts_(draft.facts[subsystem]),
+        sheet_(sheet),
+        behaviour_(behaviour),
+        direction_(direction) {}
 
   /// Draws the side of the channel's model between the given input place and the output place it returns.
   std::uint32_t draw(const Block& block, std::uint32_t in, std::string_view out_name, PlaceRole out_role) {
@@ -70,17 +94,27 @@ class BlockPen {
     nodes[ModelSide::out] = sheet_.place(out_name, {}, out_role);
     for (std::size_t place = 0; place < model.shared.size(); ++place)
       shared.push_back(sheet_.fused(local(model.shared[place].name), draft_.memory[block.channel][place]));
+    const std::vector<Choice> choices = choices_of(block);
+    for (const Choice& choice : choices)
+      if (choice.skips.known(true).truth != net::Condition::Truth::never) draw_skip(block, choice, nodes);
     for (const ModelSide::Transition& transition : side.transitions) {
       std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
       for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
       for (const std::uint32_t place : transition.gives) to.push_back(shared[place]);
-      const auto draw = [&](const std::string& name, const Nodes& inputs, const Nodes& outputs) {
-        sheet_
-            .transition(name, joined(from, inputs), joined(to, outputs),
-                        transition.elapsed ? elapsed(channel, block) : net::Condition{})
-            .role = role_of(transition);
+      const auto draw = [&](const KnownFacts::Values& reads, const net::Condition& condition) {
+        FactPen(sheet_, facts_)
+            .draw(local(transition.name), reads, outcome(side, transition, block),
+                  [&](const std::string& name, const Nodes& inputs, const Nodes& outputs) {
+                    sheet_.transition(name, joined(from, inputs), joined(to, outputs), condition).role =
+                        role_of(transition);
+                  });
       };
-      FactPen(sheet_, facts_).draw(local(transition.name), {}, outcome(side, transition, block), draw);
+      if (choices.empty() || transition.from != ModelSide::in) {
+        draw({}, transition.elapsed ? elapsed(channel, block) : net::Condition{});
+        continue;
+      }
+      for (const Choice& choice : choices)
+        if (choice.sends.known(true).truth != net::Condition::Truth::never) draw(choice.values, choice.sends);
     }
     sheet_.in_block({});
     return nodes[ModelSide::out];
@@ -89,6 +123,48 @@ class BlockPen {
  private:
   using ModelSide = spec::ModelSide;
   using Nodes = std::vector<std::uint32_t>;
+
+  /// Empty: every iteration sends.
+  [[nodiscard]] std::vector<Choice> choices_of(const Block& block) const {
+    if (block.skippable == nullptr) return {};
+    KnownFacts::Expressions asked;
+    for (const spec::Expression& expression : block.skippable->when.expressions) asked.push_back(&expression);
+    std::vector<Choice> choices;
+    for (KnownFacts::Values& values : facts_.assignments(asked)) {
+      const auto sends = [&](bool failures) {
+        if (block.skippable->by_function) return net::Condition::Truth::free;
+        return truth(spec::truth_of(block.skippable->when, facts_.truths(behaviour_, values, failures)));
+      };
+      const auto made = [&](net::Condition::Kind kind, bool positive, std::string text) {
+        net::Condition condition{.kind = kind, .text = std::move(text)};
+        condition.truth = positive ? sends(false) : negation(sends(false));
+        condition.set_with_failures({positive ? sends(true) : negation(sends(true)), condition.exhaustive});
+        return condition;
+      };
+      const std::string text = text_of(*block.skippable);
+      net::Condition goes = made(net::Condition::Kind::send, true, text);
+      net::Condition skips = made(net::Condition::Kind::skip, false, "not (" + text + ")");
+      choices.push_back({std::move(values), std::move(goes), std::move(skips)});
+    }
+    return choices;
+  }
+
+  /// Nothing is sent: the token passes the block without a look at the channel. A send that was skipped has not
+  /// timed out.
+  void draw_skip(const Block& block, const Choice& choice, const Nodes& nodes) {
+    const net::FactId fact = facts_.set_by(block.channel, direction_);
+    KnownFacts::Values sets;
+    if (fact.valid()) sets.emplace_back(fact, KnownFacts::succeeded);
+    FactPen(sheet_, facts_)
+        .draw(block.name + "." + std::string(words::skip), choice.values, sets,
+              [&](const std::string& name, const Nodes& inputs, const Nodes& outputs) {
+                net::PageTransition& made =
+                    sheet_.transition(name, joined({nodes[ModelSide::in]}, inputs),
+                                      joined({nodes[ModelSide::out]}, outputs), choice.skips);
+                made.role = Step::skip;
+                made.span = block.skippable->span;
+              });
+  }
 
   static Nodes joined(Nodes nodes, const Nodes& more) {
     nodes.insert(nodes.end(), more.begin(), more.end());
@@ -123,6 +199,7 @@ class BlockPen {
   const Draft& draft_;
   const KnownFacts& facts_;
   Sheet& sheet_;
+  spec::BehaviourId behaviour_;
   Direction direction_;
 };
 
@@ -173,10 +250,10 @@ net::PageId draw_communication(Draft& draft, net::PageId parent, net::SubsystemI
               std::string(sends ? words::send_page : words::receive_page), id, behaviour.span);
   sheet.drawn().behaviour = behaviour_id;
   std::vector<Block> blocks = blocks_of(draft.model, draft.wiring.used(id, behaviour, direction),
-                                        sends ? subsystem.outputs : subsystem.inputs, direction);
+                                        sends ? subsystem.outputs : subsystem.inputs, behaviour, direction);
   if (blocks.empty()) return draw_nothing(sheet);
   enlist(blocks, draft.net.parts, id, behaviour_id, direction);
-  BlockPen pen(draft, sheet, id, direction);
+  BlockPen pen(draft, sheet, id, behaviour_id, direction);
   if (behaviour.transfer == spec::Transfer::parallel && blocks.size() > 1)
     return draw_side_by_side(sheet, pen, blocks);
   return draw_chain(sheet, pen, blocks);

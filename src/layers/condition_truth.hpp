@@ -18,4 +18,10 @@ namespace tessera::layers {
   return net::Condition::Truth::free;
 }
 
+[[nodiscard]] constexpr net::Condition::Truth negation(net::Condition::Truth known) {
+  using Truth = net::Condition::Truth;
+  if (known == Truth::free) return known;
+  return known == Truth::always ? Truth::never : Truth::always;
+}
+
 }  // namespace tessera::layers

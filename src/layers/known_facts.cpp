@@ -23,6 +23,8 @@ void each_expression(const spec::Subsystem& subsystem, Visit visit) {
       for (const spec::Expression& expression : condition->expressions) visit(expression);
     for (const spec::Next& next : behaviour.next)
       if (next.when.kind == spec::When::Kind::expression) visit(next.when.text);
+    for (const spec::Skippable& output : behaviour.skippable)
+      for (const spec::Expression& expression : output.when.expressions) visit(expression);
   }
 }
 
@@ -302,7 +304,8 @@ void FactPen::draw(const std::string& name, const KnownFacts::Values& reads, con
   const auto node = [&](net::FactId fact, std::uint32_t value) {
     return sheet_.member(facts_.name_of(fact, value), facts_.place_of(fact, value));
   };
-  for (const KnownFacts::Values& before : befores) {
+  for (KnownFacts::Values& before : befores) {
+    std::ranges::sort(before);
     std::string full = name;
     Nodes inputs, outputs;
     for (const auto& [fact, value] : before) {

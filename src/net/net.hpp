@@ -44,7 +44,9 @@ struct Condition {
     terminal,  ///< t5: terminal, no error
     error,     ///< t6: error
     next,      ///< `entry` of `next` of the behaviour that is left is the first whose condition holds
-    elapsed    ///< the timeout of `channel` has passed since the token's arrival
+    elapsed,   ///< the timeout of `channel` has passed since the token's arrival
+    send,      ///< the iteration sends what it may skip
+    skip       ///< it does not
   } kind = Kind::none;
   /// The truth known before run time: `always` and `never` for constants, `free` for the rest.
   enum class Truth : std::uint8_t { free, always, never } truth = Truth::always;

@@ -135,6 +135,10 @@ bool fires_instead(const Condition& condition, const Condition& other) {
       return other.kind == Kind::next && rank(other) > rank(condition);
     case Kind::elapsed:
       return other.kind != Kind::elapsed;
+    case Kind::send:
+      return other.kind == Kind::skip;
+    case Kind::skip:
+      return other.kind == Kind::send;
     case Kind::go_on:
     case Kind::none:
       break;

@@ -26,6 +26,10 @@ std::string guard_of(const net::Condition& condition) {
       return "next:" + std::to_string(condition.entry.value_or(UINT32_MAX));
     case Kind::elapsed:
       return "elapsed";
+    case Kind::send:
+      return "send";
+    case Kind::skip:
+      return "skip";
   }
   return "";
 }

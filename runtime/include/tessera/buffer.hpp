@@ -29,6 +29,14 @@ struct Departure {
   bool tessera_assigned = false;  ///< assigned as a whole since the runtime reset this flag
 };
 
+/// The status of an output that some behaviour may skip: `skip: allowed` in the specification.
+struct SkippableDeparture : Departure {
+  bool tessera_skipped = false;  ///< by the transition function in this iteration
+  /// Sends nothing in this iteration, over any channel of the output. Its value stays; a receiver that blocks
+  /// waits. In a behaviour whose `send` does not allow it, this is a fault. No effect if the iteration fails.
+  void skip() { tessera_skipped = true; }
+};
+
 /// Notes that an output was written.
 template <class Status>
 void note_assignment(Status& status) {
@@ -97,6 +105,8 @@ template <class T>
 using Input = Buffer<T, Arrival>;
 template <class T>
 using Output = Buffer<T, Departure>;
+template <class T>
+using SkippableOutput = Buffer<T, SkippableDeparture>;
 
 /// Questions about the buffers of which there is one for each member of a fleet (`request: "Request[each robot]"`).
 /// holds: a function of one of them: `tessera::which(in.request, [](const auto& one) { return one.fresh; })`.

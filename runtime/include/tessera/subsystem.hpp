@@ -74,6 +74,13 @@ void fill_floats(T& value, double number) {
 /// How an iteration ended: which of the transitions t4, t5, t6 of the behaviour is to fire.
 enum class Outcome : std::uint8_t { go_on, terminal, error };
 
+/// Whether an iteration sends an output.
+enum class Sending : std::uint8_t {
+  sends,
+  skips,
+  by_function  ///< it is sent unless the transition function has skipped it, or has never written it
+};
+
 /// nullopt: `T` is neither a number nor a bool.
 template <class T>
 [[nodiscard]] constexpr std::optional<Scalar> scalar_of() {
@@ -132,6 +139,7 @@ struct Bindings {
     void (*fill)(void* value, double number) = nullptr;  ///< fill_floats; nullptr: there are none
     const ValueEncoding* encoding = nullptr;             ///< nullptr: cannot be recorded
     const WriteTrace* trace = nullptr;                   ///< of its type
+    bool* skipped = nullptr;  ///< whether the transition function has skipped it; nullptr: it cannot
   };
   struct RealOutgoing : Outgoing {
     std::shared_ptr<const void> safe;  ///< the safe command, of the same type
@@ -230,6 +238,11 @@ struct Bindings {
     for (std::size_t member = 0; member < Count; ++member) output(name_of(name, member), buffers[member]);
   }
   template <class T>
+  void output(std::string_view name, SkippableOutput<T>& buffer) {
+    outputs.push_back(outgoing(name, buffer));
+    outputs.back().skipped = &buffer.tessera_skipped;
+  }
+  template <class T>
   void real_output(std::string_view name, Output<T>& buffer, const T& safe, T* part = nullptr) {
     real_outputs.push_back({outgoing(name, buffer), std::make_shared<const T>(safe), part});
   }
@@ -323,8 +336,8 @@ struct Bindings {
         [](void*, std::span<const std::byte>) { return false; }};
     return &encoding;
   }
-  template <class T>
-  static Outgoing outgoing(std::string_view name, Output<T>& buffer) {
+  template <class T, class Status>
+  static Outgoing outgoing(std::string_view name, Buffer<T, Status>& buffer) {
     Outgoing made{name, &payload(buffer), sizeof(T), &buffer, value_type_of<T>()};
     made.encoding = value_encoding_of<T>();
     made.trace = write_trace_of<T>();
@@ -352,6 +365,10 @@ class Subsystem {
   /// The first entry of `next` whose condition holds, counted from 0; -1: none. failed: the behaviour ended
   /// by error.
   [[nodiscard]] virtual int route(std::uint16_t behaviour, bool failed) = 0;
+  /// Whether an iteration of a behaviour sends an output (a number among those bound).
+  [[nodiscard]] virtual Sending sends(std::uint16_t /*behaviour*/, std::uint32_t /*output*/) {
+    return Sending::sends;
+  }
   virtual void keep_outputs() = 0;     ///< remembers the outputs as sent
   virtual void restore_outputs() = 0;  ///< restores the sent outputs after a failed iteration
   [[nodiscard]] virtual Context& context() = 0;

@@ -24,9 +24,9 @@ class RealReceptor;
 class Subsystem;
 struct DriverOption;
 
-/// The operation that a token starts when it arrives in a place. The last three are no operations of the net:
-/// `decide` and `route` evaluate conditions when the token arrives, and store which of the conditional transitions
-/// behind the place may fire; `know` is of a place that stands for a value of a fact.
+/// The operation that a token starts when it arrives in a place. The last four are no operations of the net:
+/// `decide`, `route` and `ask` evaluate conditions when the token arrives, and store which of the conditional
+/// transitions behind the place may fire; `know` is of a place that stands for a value of a fact.
 struct Does {
   enum class Kind : std::uint8_t {
     nothing,
@@ -37,10 +37,13 @@ struct Does {
     begin,  ///< of a subsystem that receives first: waits for the instant of its rate, and counts
     decide,
     route,
-    know  ///< the subsystem may have a token in such places besides its own: a transition reads it
+    know,  ///< the subsystem may have a token in such places besides its own: a transition reads it
+    ask    ///< whether this iteration sends what it may skip
   } kind = Kind::nothing;
-  std::uint16_t subject = 0;  ///< behaviour (call, begin, decide, route), port (write, read) or fact (know)
-  std::uint16_t slot = 1;     ///< of the channel's memory, from 1 (write, read); the value of the fact (know)
+  /// behaviour (call, begin, decide, route), port (write, read, ask) or fact (know)
+  std::uint16_t subject = 0;
+  /// of the channel's memory, from 1 (write, read); the value of the fact (know); the behaviour (ask)
+  std::uint16_t slot = 1;
 };
 [[nodiscard]] constexpr Does calls(std::uint16_t behaviour) { return {Does::Kind::call, behaviour}; }
 [[nodiscard]] constexpr Does counts() { return {Does::Kind::count}; }
@@ -58,18 +61,32 @@ struct Does {
   return {Does::Kind::know, fact, value};
 }
 
+[[nodiscard]] constexpr Does asks(std::uint16_t port, std::uint16_t behaviour) {
+  return {Does::Kind::ask, port, behaviour};
+}
+
 /// Instead of the number of a behaviour or port: there is none.
 inline constexpr std::uint16_t nobody = UINT16_MAX;
 
 /// When an enabled transition may fire.
 struct Guard {
-  enum class Kind : std::uint8_t { none, go_on, terminal, error, next, elapsed } kind = Kind::none;
+  enum class Kind : std::uint8_t {
+    none,
+    go_on,
+    terminal,
+    error,
+    next,
+    elapsed,
+    send,  ///< the iteration sends what it may skip
+    skip   ///< it does not
+  } kind = Kind::none;
   std::uint16_t entry = 0;  ///< index into `next`, from 0
   /// elapsed: the port with the timeout; nobody: that of the channel that the transition touches
   std::uint16_t port = nobody;
 };
 inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::terminal},
-    if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed};
+    if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed}, if_sends{Guard::Kind::send},
+    if_skips{Guard::Kind::skip};
 [[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
 [[nodiscard]] constexpr Guard if_elapsed_at(std::uint16_t port) { return {Guard::Kind::elapsed, 0, port}; }
 

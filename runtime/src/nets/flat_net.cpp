@@ -27,6 +27,10 @@ namespace {
       return fmt::format("next:{}", guard.entry);
     case Guard::Kind::elapsed:
       return "elapsed";
+    case Guard::Kind::send:
+      return "send";
+    case Guard::Kind::skip:
+      return "skip";
   }
   return "";
 }

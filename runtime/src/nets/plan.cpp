@@ -90,6 +90,10 @@ class Compilation {
         if (place.does.slot == 0) fail(fmt::format("'{}': slots count from 1", place.name));
         entry.slot = static_cast<std::uint16_t>(place.does.slot - 1);
         break;
+      case Does::Kind::ask:
+        entry.subject = checked(place.does.subject, net_.ports.size(), "port");
+        entry.slot = checked(place.does.slot, net_.behaviours.size(), "behaviour");
+        break;
       case Does::Kind::know:
         entry.subject = checked(place.does.subject, net_.facts.size(), "fact");
         entry.slot = place.does.slot;
@@ -143,6 +147,7 @@ class Compilation {
 
   void find_latch(const Transition& transition, Plan::TransitionEntry& entry) {
     const bool routed = entry.guard.kind == Guard::Kind::next;
+    const bool asked = entry.guard.kind == Guard::Kind::send || entry.guard.kind == Guard::Kind::skip;
     if (entry.guard.kind == Guard::Kind::none || entry.guard.kind == Guard::Kind::elapsed) {
       if (entry.guard.kind == Guard::Kind::elapsed && !entry.port.valid())
         fail(fmt::format("'{}' waits for the timeout of no channel", transition.name));
@@ -150,9 +155,12 @@ class Compilation {
     }
     for (std::uint32_t arc = entry.inputs; arc < entry.outputs; ++arc) {
       const Does::Kind does = plan_.places[plan_.arcs[arc]].does;
-      if (does == (routed ? Does::Kind::route : Does::Kind::decide)) entry.latch = {plan_.arcs[arc]};
+      if (does == (routed ? Does::Kind::route : asked ? Does::Kind::ask : Does::Kind::decide))
+        entry.latch = {plan_.arcs[arc]};
     }
-    entry.decided = routed ? entry.guard.entry : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
+    entry.decided = routed  ? entry.guard.entry
+                    : asked ? static_cast<std::int32_t>(entry.guard.kind == Guard::Kind::send)
+                            : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
     const bool asks_facts = std::any_of(plan_.arcs.begin() + entry.inputs, plan_.arcs.begin() + entry.outputs,
                                         [&](std::uint32_t place) { return plan_.places[place].fact; });
     if (entry.latch.valid() && entry.decided < 64 && !asks_facts)

@@ -207,6 +207,8 @@ void RerunSubsystem::fire(const RecordedMoment& moment) {
   const Plan::TransitionEntry& transition =
       plan_->transitions[moment.head->event.subject - first_transition_];
   if (transition.latch.valid()) compare_decision(transition);
+  if (transition.guard.kind == Guard::Kind::skip)
+    operations_.note_answer(plan_->places[transition.latch.value].subject);
   if (transition.tells_of_timeout) {
     if (transition.guard.kind == Guard::Kind::elapsed)
       operations_.note_timeout(transition.port.value);
@@ -239,6 +241,9 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
       break;
     case Does::Kind::route:
       decided_[place] = operations_.route(entry.subject, at_);
+      break;
+    case Does::Kind::ask:
+      decided_[place] = static_cast<int>(operations_.sends(entry.slot, entry.subject, at_));
       break;
     case Does::Kind::know:
       operations_.learn(entry.subject, entry.slot, at_);

@@ -41,6 +41,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
+  for (const Bindings::Outgoing& output : parts_.bindings.outputs)
+    if (output.skipped != nullptr) skippable_.push_back(&output);
   for (const Fact& fact : parts_.instance->net->facts) {
     KeptCell& kept = kept_.emplace_back();
     if (fact.kind != Fact::Kind::memory) continue;
@@ -119,6 +121,7 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   ++calls_;
   channels_.await_inputs(behaviour);
   parts_.subsystem->keep_outputs();
+  for (const Bindings::Outgoing* output : skippable_) *output->skipped = false;
   written_.keep();
   context_.now = now;
   context_.iteration = iteration_;
@@ -136,6 +139,28 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   written_.before_call();
   if (survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }))
     written_.after_call();
+  check_skips(behaviour);
+}
+
+/// What is skipped without permission would be missed by a receiver that waits for it.
+void Operations::check_skips(std::uint16_t behaviour) {
+  for (const Bindings::Outgoing* output : skippable_) {
+    if (failed_ || !*output->skipped) continue;
+    const auto number = static_cast<std::uint32_t>(output - parts_.bindings.outputs.data());
+    Sending sending = Sending::sends;
+    if (!survives(Fault::exception, behaviour,
+                  "a condition of `send`: ", [&] { sending = parts_.subsystem->sends(behaviour, number); }) ||
+        sending == Sending::by_function)
+      continue;
+    const std::string_view name = parts_.instance->net->behaviours[behaviour].name;
+    std::array<char, 256> text;
+    const auto end = fmt::format_to_n(
+        text.data(), text.size(),
+        "out.{0}.skip() in behaviour '{1}', whose `send` does not allow it (write send: {{ {0}: {{ skip: "
+        "allowed }} }} there)",
+        output->name, name);
+    fail(Fault::exception, behaviour, {text.data(), std::min(end.size, text.size())});
+  }
 }
 
 void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
@@ -285,6 +310,20 @@ int Operations::route(std::uint16_t behaviour, Time now) {
     entry = parts_.subsystem->route(behaviour, erroneous_);
   });
   return known ? entry : unknown_entry;
+}
+
+/// If a condition throws, the iteration has failed. Then the output is sent, as invalid.
+bool Operations::sends(std::uint16_t behaviour, std::uint16_t port, Time now) {
+  refresh_ages(now);
+  const std::uint32_t output = parts_.ports[port].buffer;
+  const ChannelValues::OutcomesShown shown(channels_);
+  Sending sending = Sending::sends;
+  if (!survives(Fault::exception, behaviour,
+                "a condition of `send`: ", [&] { sending = parts_.subsystem->sends(behaviour, output); }))
+    return true;
+  if (sending != Sending::by_function) return sending == Sending::sends;
+  const bool skipped = !failed_ && *parts_.bindings.outputs[output].skipped;
+  return !skipped && written_.has(output);
 }
 
 // -------------------------------------------------------------------------------------------- services

@@ -64,6 +64,8 @@ class Operations final : public ContextServices {
   /// no_entry: no entry holds. unknown_entry: a condition has thrown; this has been logged.
   static constexpr int no_entry = -1, unknown_entry = -2;
   [[nodiscard]] int route(std::uint16_t behaviour, Time now);
+  /// Whether this iteration sends over the port what it may skip.
+  [[nodiscard]] bool sends(std::uint16_t behaviour, std::uint16_t port, Time now);
 
   [[nodiscard]] bool has_failed() const { return failed_; }
   /// Marks the last transition function as failed, for the reason that it had in a recorded run.
@@ -104,6 +106,7 @@ class Operations final : public ContextServices {
   void fail_late(std::uint64_t missed);
   void check_watchdog(Time now);
   void check_outputs();
+  void check_skips(std::uint16_t behaviour);
   void refresh_ages(Time now);
   void fail_in(Fault fault, std::uint16_t behaviour, std::string_view activity, std::string_view what);
   void fail(Fault fault, std::uint16_t behaviour, std::string_view what);
@@ -123,8 +126,9 @@ class Operations final : public ContextServices {
     const Bindings::KeptCell* cell = nullptr;  // nullptr: the fact is no memory
     std::uint16_t value = 0;
   };
-  std::vector<KeptCell> kept_;                      // per fact of the net
-  std::vector<const Bindings::Outgoing*> checked_;  // outputs that must be finite
+  std::vector<KeptCell> kept_;                        // per fact of the net
+  std::vector<const Bindings::Outgoing*> checked_;    // outputs that must be finite
+  std::vector<const Bindings::Outgoing*> skippable_;  // outputs that some behaviour may skip
   Time called_at_{};
   Time began_at_{};              // the behaviour: its first call
   bool has_ended_ = true;        // the last behaviour; the next call is the first of another

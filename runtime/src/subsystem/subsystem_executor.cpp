@@ -293,6 +293,9 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
     case Does::Kind::route:
       route(place);
       break;
+    case Does::Kind::ask:
+      ask(place);
+      break;
     case Does::Kind::know:
       operations_.learn(entry.subject, entry.slot, now());
       if (memory_ != nullptr) memory_->show();
@@ -346,6 +349,19 @@ void SubsystemExecutor::route(std::uint32_t place) {
   if (token.latched == Operations::no_entry) fault(place, "no condition of `next` holds");
   if (token.latched == Operations::unknown_entry) fault(place, "a condition of `next` has thrown");
   if (token.latched >= 0) check_way_out(place);
+}
+
+void SubsystemExecutor::ask(std::uint32_t place) {
+  Token& token = tokens_[place];
+  const Plan::PlaceEntry& entry = places_[place];
+  if (const Plan::TransitionEntry* next = decided_by_script(place)) {
+    token.latched = next->decided;
+  } else {
+    token.latched =
+        static_cast<std::int32_t>(operations_.sends(entry.slot, entry.subject, time_of_conditions()));
+    check_way_out(place);
+  }
+  if (token.latched == 0) operations_.note_answer(entry.subject);  // what was not sent has not timed out
 }
 
 void SubsystemExecutor::arrive_at_end() {

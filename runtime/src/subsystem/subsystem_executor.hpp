@@ -194,6 +194,7 @@ class SubsystemExecutor {
   [[nodiscard]] bool script_ends_without_choice() const;
   void decide(std::uint32_t place);
   void route(std::uint32_t place);
+  void ask(std::uint32_t place);
   [[nodiscard]] Time script_deadline(std::uint32_t transition) const;
 
   [[nodiscard]] bool register_waits();

@@ -18,6 +18,10 @@ std::string_view forced_by(Guard::Kind guard) {
       return "error";
     case Guard::Kind::next:
       return "this initial condition";
+    case Guard::Kind::send:
+      return "to send";
+    case Guard::Kind::skip:
+      return "to send nothing";
     case Guard::Kind::none:
     case Guard::Kind::elapsed:  // the script has waited for it
       break;

@@ -119,10 +119,20 @@ void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector
 /// The uses of a buffer in one list of `send` or `receive`. Without changes, the list is that of the subsystem.
 void add_list_items(const TextEditor& editor, const Path& at, const std::string& buffer,
                     std::vector<Path>& paths) {
-  const Node* list = editor.list(at);
-  if (list == nullptr) return;
   std::vector<Path> hits;
   bool changes = false;
+  const Node* list = editor.list(at);
+  if (list == nullptr) {  // the map form of `send`
+    const std::vector<std::string> keys = editor.keys(at);
+    for (const std::string& key : keys) {
+      const bool sign = key.starts_with('+') || key.starts_with('-');
+      changes = changes || sign;
+      if (key.substr(sign ? 1 : 0) == buffer) hits.push_back(at / key);
+    }
+    if (changes && hits.size() == keys.size()) hits = {at};
+    paths.insert(paths.end(), hits.begin(), hits.end());
+    return;
+  }
   for (std::size_t item = 0; item < list->items.size(); ++item) {
     const std::string& text = list->items[item].value->text;
     const bool sign = text.starts_with('+') || text.starts_with('-');

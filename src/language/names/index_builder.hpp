@@ -36,6 +36,10 @@ class IndexBuilder {
   void use(const Node& scalar, const NamesOf& names);
   /// Buffers of `send` or `receive`, or changes of the list of the subsystem: [+request, -grip].
   void use_list(const Node& list, const NamesOf& names);
+  /// "+request"
+  void use_signed(Extent at, std::string_view text, const NamesOf& names);
+  /// `terminal`, `error`, and `when` of an output: an expression, the name of a shared one, or a map of both.
+  void use_condition(const UnitNames& unit, const Node& condition);
   void use_type(const Node& value);
   void use_types();
   void use_in_unit(UnitNames& unit);

@@ -17,11 +17,22 @@ void IndexBuilder::use(const Node& scalar, const NamesOf& names) {
 
 void IndexBuilder::use_list(const Node& list, const NamesOf& names) {
   for (const Entry& order : list.entries) use_list(*order.value, names);
-  for (const Entry& item : list.items) {
-    const Node& text = *item.value;
-    if (!text.is_scalar() || !text.verbatim) continue;
-    const std::size_t sign = text.text.starts_with('+') || text.text.starts_with('-') ? 1 : 0;
-    use({text.extent.begin + sign, text.extent.end}, names, std::string_view(text.text).substr(sign));
+  for (const Entry& item : list.items)
+    if (item.value->is_scalar() && item.value->verbatim)
+      use_signed(item.value->extent, item.value->text, names);
+}
+
+void IndexBuilder::use_signed(Extent at, std::string_view text, const NamesOf& names) {
+  const std::size_t sign = text.starts_with('+') || text.starts_with('-') ? 1 : 0;
+  use({at.begin + sign, at.end}, names, text.substr(sign));
+}
+
+void IndexBuilder::use_condition(const UnitNames& unit, const Node& condition) {
+  use_expression(unit, condition);
+  use(condition, unit.shared);
+  for (const Entry& named : condition.entries) {
+    use_expression(unit, *named.value);
+    if (is_nothing(*named.value)) use(named.extent, unit.shared, named.key);
   }
 }
 
@@ -106,17 +117,14 @@ void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviou
   static const NamesOf nothing;
   const auto found = unit.conditions.find(behaviour.key);
   const NamesOf& conditions = found == unit.conditions.end() ? nothing : found->second;
-  for (const char* key : {"terminal", "error"}) {
-    use_expression(unit, body[key]);
-    use(body[key], unit.shared);
-    for (const Entry& named : body[key].entries) {
-      use_expression(unit, *named.value);
-      if (is_nothing(*named.value)) use(named.extent, unit.shared, named.key);
-    }
-  }
+  for (const char* key : {"terminal", "error"}) use_condition(unit, body[key]);
   use(body["send"], unit.outputs);
   use(body["receive"], unit.inputs);
   use_list(body["send"], unit.outputs);
+  for (const Entry& output : body["send"].entries) {
+    use_signed(output.extent, output.key, unit.outputs);
+    use_condition(unit, (*output.value)["when"]);
+  }
   use_list(body["receive"], unit.inputs);
   use_sets(unit, body["sets"]);
   const auto step = [&](const Node& next) {

@@ -105,6 +105,8 @@ void Completer::key_names(const Way& way) {
     return add_names(kept_cells(*unit_));
   if (inside.size() == 3 && inside[0] == "behaviours" && (inside[2] == "terminal" || inside[2] == "error"))
     return add_names(unit_->shared);
+  if (inside.size() == 3 && inside[0] == "behaviours" && inside[2] == "send")
+    return add_names(unit_->outputs);
   if (inside.size() < 2) return;
   const NamesOf& cells = inside[0] == "safe" ? unit_->real : unit_->memory;
   if (inside[0] != "safe" && !(inside[0] == "memory" && inside.size() > 2 && inside[2] == "initial")) return;
@@ -190,6 +192,12 @@ bool Completer::value_in_unit() {
   if (value_of_change()) return true;
   const std::string& key = inside_[2];
   const std::string& last = inside_.back();
+  if (key == "send" && inside_.size() > 4) {
+    if (last != "when") return false;  // the words of the schema
+    if (inside_.size() == 5 && chain().empty() && place_.scalar->extent.begin >= begin_)
+      add_names(unit_->shared);
+    return expression(), true;
+  }
   if (last == "when") {
     if (value_after_comparison()) return true;
     if (const auto names = unit_->conditions.find(inside_[1]); names != unit_->conditions.end())

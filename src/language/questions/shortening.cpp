@@ -43,10 +43,15 @@ bool is_same(const spec::Next& a, const spec::Next& b) {
 
 bool is_same(const spec::Behaviour& a, const spec::Behaviour& b) {
   return a.name == b.name && is_same(a.terminal, b.terminal) && is_same(a.error, b.error) &&
-         is_same(a.sets, b.sets) && a.send == b.send && a.receive == b.receive && a.transfer == b.transfer &&
-         a.takes == b.takes && std::ranges::equal(a.next, b.next, [](const auto& one, const auto& other) {
-           return is_same(one, other);
-         });
+         is_same(a.sets, b.sets) && a.send == b.send &&
+         std::ranges::equal(a.skippable, b.skippable,
+                            [](const spec::Skippable& one, const spec::Skippable& other) {
+                              return one.output == other.output && one.by_function == other.by_function &&
+                                     is_same(one.when, other.when);
+                            }) &&
+         a.receive == b.receive && a.transfer == b.transfer && a.takes == b.takes &&
+         std::ranges::equal(a.next, b.next,
+                            [](const auto& one, const auto& other) { return is_same(one, other); });
 }
 
 /// Whether all behaviours are the same. Nothing else is changed.

@@ -30,30 +30,34 @@ std::vector<std::string> labels_of(const std::vector<BehaviourId>& behaviours, c
 
 std::string line_of(Span span) { return "line " + std::to_string(span.line); }
 
+/// The name in a list, or the key of the map form.
+struct Item : Node {
+  const Entry* option = nullptr;  ///< that key, if something stands behind it
+};
+
 /// Reads one list of buffers.
 class ListReader {
  public:
   ListReader(const Entry& at, const ListScope& scope, ListDefault& around, Diagnostics& out)
       : at_(at), scope_(scope), around_(around), out_(out) {}
 
-  std::vector<BufferId> read(const std::vector<const Node*>& items) {
-    std::vector<const Node*> texts;
-    for (const Node* item : items)
-      if (const Node* text = text_of(*item, at_.span, "an " + std::string(scope_.what), out_))
-        texts.push_back(text);
+  /// The buffers of each key of the map form with something behind it.
+  [[nodiscard]] std::vector<ListedOption> options() { return std::move(options_); }
+
+  std::vector<BufferId> read(const std::vector<Item>& items) {
     const auto changes =
-        std::count_if(texts.begin(), texts.end(), [](const Node* one) { return sign(*one) != 0; });
+        std::count_if(items.begin(), items.end(), [](const Item& one) { return sign(one) != 0; });
     if (changes == 0) {
-      for (const Node* text : texts) read_name(*text);
+      for (const Item& item : items) read_name(item);
       return std::move(list_);
     }
     around_.used = true;
-    if (static_cast<std::size_t>(changes) < texts.size()) {
-      complain_about_mixture(texts);
+    if (static_cast<std::size_t>(changes) < items.size()) {
+      complain_about_mixture(items);
       return std::move(list_);
     }
     list_ = around_.list.value_or(all());
-    for (const Node* text : texts) read_change(*text);
+    for (const Item& item : items) read_change(item);
     return std::move(list_);
   }
 
@@ -113,8 +117,8 @@ class ListReader {
     return std::find(list_.begin(), list_.end(), buffer) != list_.end();
   }
 
-  void read_name(const Node& text) {
-    for (const BufferId buffer : find(text, text.text)) {
+  void read_name(const Item& text) {
+    for (const BufferId buffer : find_for(text, text.text)) {
       if (!is_listed(buffer)) {
         list_.push_back(buffer);
         continue;
@@ -125,12 +129,12 @@ class ListReader {
     }
   }
 
-  void read_change(const Node& text) {
-    for (const BufferId buffer : find(text, std::string_view(text.text).substr(1)))
+  void read_change(const Item& text) {
+    for (const BufferId buffer : find_for(text, std::string_view(text.text).substr(1)))
       if (!change(text, buffer)) return;
   }
 
-  bool change(const Node& text, BufferId buffer) {
+  bool change(const Item& text, BufferId buffer) {
     const std::string name = text.text.substr(1);
     const std::string subject = std::string(scope_.what) + " " + in_quotes(name);
     if (std::find(changed_.begin(), changed_.end(), buffer) != changed_.end()) {
@@ -138,7 +142,13 @@ class ListReader {
       return false;
     }
     changed_.push_back(buffer);
+    if (sign(text) == '-' && text.option != nullptr) {
+      out_.error("E328", text.option->span, subject + " is not sent, so nothing says when",
+                 "leave the map behind -" + name + " out");
+      return false;
+    }
     if (sign(text) == '+' && is_listed(buffer)) {
+      if (text.option != nullptr) return true;  // it says when the output is sent
       out_.error("E272", text.span, subject + " is " + done() + " already",
                  source() + "; leave +" + name + " out");
       return false;
@@ -154,6 +164,12 @@ class ListReader {
     return true;
   }
 
+  std::vector<BufferId> find_for(const Item& text, std::string_view name) {
+    std::vector<BufferId> found = find(text, name);
+    if (text.option != nullptr && sign(text) != '-') options_.push_back({text.option, found});
+    return found;
+  }
+
   [[nodiscard]] std::string done() const { return scope_.what == "output" ? "sent" : "received"; }
 
   /// The origin of the list around this one.
@@ -165,9 +181,9 @@ class ListReader {
     return "the list of the subsystem is on " + line_of(around_.entry->span);
   }
 
-  void complain_about_mixture(const std::vector<const Node*>& texts) {
-    const Node* plain =
-        *std::find_if(texts.begin(), texts.end(), [](const Node* one) { return sign(*one) == 0; });
+  void complain_about_mixture(const std::vector<Item>& items) {
+    const auto plain =
+        std::find_if(items.begin(), items.end(), [](const Item& one) { return sign(one) == 0; });
     out_.error("E274", plain->span, in_quotes(plain->text) + " stands beside changes by + and -",
                "write +" + plain->text +
                    " to add it to the list of the subsystem, or every name without a sign "
@@ -179,6 +195,7 @@ class ListReader {
   ListDefault& around_;
   Diagnostics& out_;
   std::vector<BufferId> list_, changed_;
+  std::vector<ListedOption> options_;
 };
 
 }  // namespace
@@ -251,8 +268,26 @@ void check_used(const OnError& on_error, Diagnostics& out) {
 }
 
 std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at, const ListScope& scope,
-                                       ListDefault& around, Diagnostics& out) {
-  return ListReader(at, scope, around, out).read(items_of(value, at.span, in_quotes(at.key), out));
+                                       ListDefault& around, Diagnostics& out,
+                                       std::vector<ListedOption>* options) {
+  std::vector<Item> items;
+  if (value.is_map()) {
+    for (const Entry& entry : value.entries) {
+      Item& key = items.emplace_back();
+      key.kind = Node::Kind::scalar;
+      key.span = entry.span;
+      key.text = entry.key;
+      if (!entry.value->is_null()) key.option = &entry;
+    }
+  } else {
+    for (const Node* item : items_of(value, at.span, in_quotes(at.key), out))
+      if (const Node* text = text_of(*item, at.span, "an " + std::string(scope.what), out))
+        static_cast<Node&>(items.emplace_back()) = *text;
+  }
+  ListReader reader(at, scope, around, out);
+  std::vector<BufferId> list = reader.read(items);
+  if (options != nullptr) *options = reader.options();
+  return list;
 }
 
 void check_used(const ListDefault& list, Diagnostics& out) {

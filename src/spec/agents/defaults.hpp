@@ -58,16 +58,23 @@ struct ListScope {
   const Member* member = nullptr;  ///< for which the list is, so that it may name request[i]; null: for none
 };
 
+/// A key of the map form with something behind it, and the buffers that it names.
+struct ListedOption {
+  const Entry* entry;
+  std::vector<BufferId> buffers;
+};
+
 /// The list of `send` or `receive`: names, or changes of the list around it such as [+request, -grip].
 ///
-/// value:  a list; `at` is its key.
+/// value:  a list, or a map whose keys are the list (sending.hpp reads its values); `at` is its key.
 /// around: `-x` and `+x` change it; without a list all buffers, as declared. Its `used` is set then.
 /// Errors: E101 unknown buffer; E104 no list; E107 one twice; E272 `+x` of what is listed; E273 `-x` of what is not;
-///         E274 changes beside names; E286, those of number_of: indices. A name without index of which there is one
+///         E274 changes beside names; E328 `-x` with a value; E286, those of number_of: indices. A name without index of which there is one
 ///         buffer for each member means all of them.
 [[nodiscard]] std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at,
                                                      const ListScope& scope, ListDefault& around,
-                                                     Diagnostics& out);
+                                                     Diagnostics& out,
+                                                     std::vector<ListedOption>* options = nullptr);
 
 /// Warnings: W361 every behaviour has a list of its own.
 void check_used(const ListDefault& list, Diagnostics& out);

@@ -119,6 +119,11 @@ ListDefault read_list(const Entry* entry, const ListScope& scope, Diagnostics& o
   ListDefault none;
   const Entry* list = entry == nullptr ? nullptr : list_of(*entry);
   if (list == nullptr) return none;
+  if (entry->value->is_map() && scope.what == "output") {
+    out.error("E331", entry->span, "'send' of a subsystem is a list: only a behaviour says when it sends",
+              "write the map under 'send' of the behaviour, such as send: { NAME: { when: CONDITION } }");
+    return none;
+  }
   ListDefault read;
   read.entry = entry;
   read.list = read_buffer_list(*list->value, *list, scope, none, out);

@@ -42,6 +42,9 @@ class UnreceivedInputs {
         for (const Expression& expression : condition->expressions) check(one, expression, /*decides=*/true);
       for (const Next& next : one.next)
         if (next.when.kind == When::Kind::expression) check(one, next.when.text, /*decides=*/false);
+      for (const Skippable& output : one.skippable)
+        for (const Expression& expression : output.when.expressions)
+          check(one, expression, /*decides=*/false);
     }
   }
 

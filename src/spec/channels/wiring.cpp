@@ -106,7 +106,8 @@ class WiringCheck {
     };
     const auto sends = [&](ChannelId i) {
       const Channel& channel = model_.channels[i];
-      return model_.sender_waits(channel) && is_listed(behaviour.send, channel.from.buffer);
+      return model_.sender_waits(channel) && is_listed(behaviour.send, channel.from.buffer) &&
+             behaviour.skips(channel.from.buffer) == nullptr;
     };
     return behaviour.takes > Duration{0} ||
            std::any_of(in_[instance].begin(), in_[instance].end(), receives) ||

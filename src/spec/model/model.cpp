@@ -54,6 +54,12 @@ std::string Behaviour::identifier() const {
   return text;
 }
 
+const Skippable* Behaviour::skips(BufferId output) const {
+  for (const Skippable& one : skippable)
+    if (one.output == output) return &one;
+  return nullptr;
+}
+
 bool Subsystem::may_be_non_finite(RealId buffer, std::string_view field) const {
   bool allowed = non_finite_allowed;
   std::size_t nearest = 0;

@@ -168,6 +168,14 @@ struct Group {
   std::optional<Expression> until;  ///< holds: the group is left after this iteration
 };
 
+/// An output that an iteration of a behaviour may skip: then nothing is sent over its channels.
+struct Skippable {
+  BufferId output{};
+  bool by_function = false;  ///< `skip: allowed`: the transition function decides, and `when` means nothing
+  Condition when{};          ///< it is sent if this holds
+  Span span{};
+};
+
 /// A behaviour, or a group of behaviours, which stands before what is in it. A group, too, has `next`, `sets` and an
 /// ending: terminal if a behaviour in it leads to `end`, or its `until` holds; otherwise one that has left the group.
 struct Behaviour {
@@ -180,6 +188,7 @@ struct Behaviour {
   bool next_given = false;      ///< false: that `end` is the default
   /// Output buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> send;
+  std::vector<Skippable> skippable{};  ///< of these outputs, in the order listed
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
@@ -193,6 +202,8 @@ struct Behaviour {
   [[nodiscard]] std::string_view label() const;
   /// "charge_ask": its name in C++.
   [[nodiscard]] std::string identifier() const;
+  /// nullptr: every iteration sends it, or none.
+  [[nodiscard]] const Skippable* skips(BufferId output) const;
 };
 
 // -------------------------------------------------------------------------------------- subsystems, agents

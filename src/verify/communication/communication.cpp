@@ -80,7 +80,11 @@ class SubsystemReader {
         return read_end(number, at);
       }
       const std::optional<PlaceId> next = advance(at, stages);
-      if (!next) return fail("starts nothing that we know", at), false;
+      if (!next)
+        return fail(may_be_skipped(steps_, at) ? "begins a send that an iteration may skip"
+                                               : "starts nothing that we know",
+                    at),
+               false;
       at = *next;
     }
     return fail("is passed for ever", at), false;

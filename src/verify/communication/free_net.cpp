@@ -143,6 +143,15 @@ bool asks_facts(const net::Net& net, const net::Property& property) {
   });
 }
 
+bool facts_decide_sends(const net::Net& net) {
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const Condition::Kind kind = net[TransitionId{index}].condition.kind;
+    const bool decides = kind == Condition::Kind::send || kind == Condition::Kind::skip;
+    if (decides && uses_facts(net, {index})) return true;
+  }
+  return false;
+}
+
 std::optional<std::vector<TransitionId>> lifted(const net::Net& free, const net::Net& net,
                                                 const std::vector<TransitionId>& run) {
   std::map<Common, std::vector<TransitionId>> copies;

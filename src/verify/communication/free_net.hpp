@@ -24,6 +24,10 @@ struct FreeNet {
 [[nodiscard]] std::optional<FreeNet> free_net(const net::Net& net,
                                               const std::vector<net::Invariant>& invariants);
 
+/// Whether facts decide if something is sent. In the free net a subsystem can then skip a send that would wait, and
+/// in the net it cannot: there is not always something that the net can choose.
+[[nodiscard]] bool facts_decide_sends(const net::Net& net);
+
 /// Whether the property speaks of values of facts, which the free net does not have.
 [[nodiscard]] bool asks_facts(const net::Net& net, const net::Property& property);
 

@@ -117,7 +117,9 @@ class Teller {
     });
     if (sends) deed.alone = "sends " + buffer;
     if (touches_wait(net_, net_.preset(id))) deed.text = "is acknowledged";
-    if (net_[id].role == Step::skip) deed.text = "finds nothing new in " + buffer;
+    if (net_[id].role == Step::skip)
+      deed.text =
+          (net_[id].condition.kind == Condition::Kind::skip ? "sends no " : "finds nothing new in ") + buffer;
     deed.then_waits = touches_wait(net_, net_.postset(id));
   }
 

@@ -9,9 +9,10 @@ bool carries_over(const Question& question, Facts& free, const net::Net& net) {
   switch (question.kind) {
     case Kind::safe:
     case Kind::exclusive_channels:
+      return true;
     case Kind::deadlock_free:
     case Kind::sound_pages:
-      return true;
+      return !facts_decide_sends(net);
     case Kind::goes_on:
     case Kind::channels_flow: {
       const NetUnderAssumption& given = free.under(question.assume);

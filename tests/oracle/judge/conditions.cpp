@@ -196,7 +196,20 @@ std::vector<const Asked*> expressions_of(const Behaviour& behaviour) {
   for (const Entry& entry : behaviour.next)
     if (entry.when == Entry::When::expression && entry.truth == Truth::open && entry.asked)
       all.push_back(&*entry.asked);
+  for (const Skip& skip : behaviour.skips)
+    if (skip.asked) all.push_back(&*skip.asked);
   return all;
+}
+
+std::vector<std::map<int, int>> values_of_skip(const FlatNet& net, int behaviour, const Skip& skip) {
+  std::vector<const Asked*> all;
+  if (skip.asked) all.push_back(&*skip.asked);
+  return values_of(net, behaviour, all);
+}
+
+Truth sends(const FlatNet& net, int behaviour, const Skip& skip, bool exceptions,
+            const std::map<int, int>& values) {
+  return skip.asked ? Knowledge(net, behaviour, exceptions, values).of(*skip.asked) : Truth::open;
 }
 
 std::vector<std::map<int, int>> values_of_ending(const FlatNet& net, int behaviour) {
@@ -300,7 +313,10 @@ FlatNet abstract_net(const FlatNet& flat, bool exceptions) {
   for (std::size_t t = 0; t < net.transitions.size(); ++t) {
     const FlatTransition& transition = net.transitions[t];
     bool possible = true;
-    if (transition.role != Role::plain) {
+    if (transition.role == Role::sends || transition.role == Role::skips) {
+      const Truth truth = sends(flat, transition.behaviour, *transition.skip, exceptions, transition.facts);
+      possible = truth != (transition.role == Role::sends ? Truth::no : Truth::yes);
+    } else if (transition.role != Role::plain) {
       const Ways of = ways_of(flat, transition.behaviour, exceptions, transition.facts);
       if (transition.role == Role::t4) possible = of.go_on;
       if (transition.role == Role::t5) possible = of.terminal;

@@ -41,6 +41,11 @@ std::vector<const Asked*> expressions_of(const Behaviour& behaviour);
 /// One without values: it asks for none.
 std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour);
 std::vector<std::map<int, int>> values_of_ending(const FlatNet& net, int behaviour);
+/// The same of what decides whether an output is skipped.
+std::vector<std::map<int, int>> values_of_skip(const FlatNet& net, int behaviour, const Skip& skip);
+/// Whether an iteration sends it if facts have these values.
+Truth sends(const FlatNet& net, int behaviour, const Skip& skip, bool exceptions,
+            const std::map<int, int>& values);
 /// ".i0.came.o1.in_time": how names end.
 std::string suffix(const FlatNet& net, const std::map<int, int>& values);
 

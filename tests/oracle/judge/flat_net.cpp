@@ -363,6 +363,65 @@ class Builder {
     return of == 1 ? buffer_of(c, send) : buffer_of(c, send) + "#" + std::to_string(number);
   }
 
+  const Skip* skip_of(const FlatNet::BehaviourInfo& info, int c) const {
+    for (const Skip& skip : info.of->skips)
+      if (skip.output == buffer_of(c, true)) return &skip;
+    return nullptr;
+  }
+
+  /// A transition that begins a block. If the iteration may skip it: one for each value of the facts that its
+  /// condition asks for, with which it may be sent.
+  void add_begin(const std::string& name, const std::vector<int>& pre, const std::vector<int>& post) {
+    if (skip_ == nullptr) {
+      add_transition(name, pre, post);
+      return;
+    }
+    for (const std::map<int, int>& values : values_of_skip(net_, behaviour_, *skip_)) {
+      if (sends(net_, behaviour_, *skip_, true, values) == Truth::no) continue;
+      FlatTransition& made = add_transition(name + suffix(net_, values), pre, post);
+      made.role = Role::sends;
+      read_facts(made, values);
+    }
+  }
+
+  void read_facts(FlatTransition& made, const std::map<int, int>& values) {
+    made.skip = skip_;
+    made.facts = values;
+    for (const auto& [fact, value] : values) {
+      const int place = net_.facts[static_cast<std::size_t>(fact)].places[static_cast<std::size_t>(value)];
+      made.pre.push_back(place);
+      made.post.push_back(place);
+    }
+  }
+
+  /// The way past a block, without a look at the channel. What was not sent has not timed out.
+  void add_skip(int c, const std::string& prefix, int in, int out) {
+    int own = -1;
+    for (std::size_t f = 0; f < net_.facts.size(); ++f) {
+      const std::vector<int>& set_by = net_.facts[f].channels;
+      if (net_.facts[f].sends && std::find(set_by.begin(), set_by.end(), c) != set_by.end())
+        own = static_cast<int>(f);
+    }
+    for (const std::map<int, int>& values : values_of_skip(net_, behaviour_, *skip_)) {
+      if (sends(net_, behaviour_, *skip_, true, values) == Truth::yes) continue;
+      for (int before = 0; before < 2; ++before) {
+        std::map<int, int> taken = values;
+        if (own >= 0 && values.contains(own) && values.at(own) != before) continue;
+        if (own >= 0) taken[own] = before;
+        FlatTransition& made = add_transition(prefix + ".skip" + suffix(net_, taken), {in}, {out});
+        made.role = Role::skips;
+        std::map<int, int> read = taken;
+        if (own >= 0) read.erase(own);
+        read_facts(made, read);
+        made.facts = values;
+        if (own < 0) break;
+        made.pre.push_back(
+            net_.facts[static_cast<std::size_t>(own)].places[static_cast<std::size_t>(before)]);
+        made.post.push_back(net_.facts[static_cast<std::size_t>(own)].places[0]);
+      }
+    }
+  }
+
   void communication(const FlatNet::BehaviourInfo& info, bool send, const std::string& path, int in,
                      int out) {
     const std::size_t places_before = net_.places.size(), transitions_before = net_.transitions.size();
@@ -371,7 +430,8 @@ class Builder {
     for (const int c : channels) {
       fused += share(c);
       const Channel& of = *net_.channels[static_cast<std::size_t>(c)].of;
-      if (send ? of.send_blocking : of.receive_blocking) waits_.insert(path.substr(0, path.size() - 4));
+      if (send ? of.send_blocking && skip_of(info, c) == nullptr : of.receive_blocking)
+        waits_.insert(path.substr(0, path.size() - 4));
     }
     if (channels.empty()) {
       add_transition(path + ".t1", {in}, {out});
@@ -381,6 +441,7 @@ class Builder {
         const std::string prefix = path + "." + block_name(c, send);
         ins.push_back(add_place(prefix + ".in"));
         outs.push_back(add_place(prefix + ".out"));
+        skip_ = send ? skip_of(info, c) : nullptr;
         block(c, send, prefix, ins.back(), outs.back());
       }
       add_transition(path + ".fork", {in}, ins);
@@ -389,6 +450,7 @@ class Builder {
       for (std::size_t k = 0; k < channels.size(); ++k) {
         const std::string prefix = path + "." + block_name(channels[k], send);
         const int after = k + 1 == channels.size() ? out : add_place(prefix + ".out");
+        skip_ = send ? skip_of(info, channels[k]) : nullptr;
         block(channels[k], send, prefix, in, after);
         in = after;
       }
@@ -426,6 +488,7 @@ class Builder {
   void block(int c, bool send, const std::string& prefix, int in, int out) {
     FlatNet::ChannelInfo& channel = net_.channels[static_cast<std::size_t>(c)];
     if (!send) channel.received = true;
+    if (skip_ != nullptr) add_skip(c, prefix, in, out);
     if (const Model* model = model_of(*channel.of))
       return model_block(channel, send ? model->send : model->receive, send, prefix, in, out);
     const int two = add_place(prefix + ".2");
@@ -433,7 +496,7 @@ class Builder {
     if (!send) channel.reads.push_back(static_cast<int>(net_.transitions.size()));
     if (channel.shared.contains("channel")) {
       const int memory = channel.shared.at("channel");
-      add_transition(prefix + ".t1", {in, memory}, {two});
+      add_begin(prefix + ".t1", {in, memory}, {two});
       add_transition(prefix + ".t2", {two}, {out, memory});
     } else if (send) {
       send_block(c, channel, prefix, in, two, out);
@@ -445,9 +508,9 @@ class Builder {
   void send_block(int c, const FlatNet::ChannelInfo& channel, const std::string& prefix, int in, int two,
                   int out) {
     const int empty = channel.shared.at("empty"), full = channel.shared.at("full");
-    add_transition(prefix + ".t1", {in, empty}, {two});
+    add_begin(prefix + ".t1", {in, empty}, {two});
     if (!channel.of->send_blocking) {
-      add_transition(prefix + ".t1o", {in, full}, {two});
+      add_begin(prefix + ".t1o", {in, full}, {two});
       add_transition(prefix + ".t2", {two}, {out, full});
       return;
     }
@@ -486,7 +549,11 @@ class Builder {
         reads = reads || (!send && slot_of[name] > 0);
       }
       if (reads) channel.reads.push_back(static_cast<int>(net_.transitions.size()));
-      add_transition(prefix + "." + one.name, pre, post);
+      const bool begins = std::find(one.from.begin(), one.from.end(), "in") != one.from.end();
+      if (begins)
+        add_begin(prefix + "." + one.name, pre, post);
+      else
+        add_transition(prefix + "." + one.name, pre, post);
     }
   }
 
@@ -504,6 +571,7 @@ class Builder {
   std::map<std::string, int> by_path_;
   std::set<std::string> waits_;
   int subsystem_ = -1, behaviour_ = -1;
+  const Skip* skip_ = nullptr;  // of the block that is drawn
 };
 
 }  // namespace

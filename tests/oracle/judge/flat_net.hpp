@@ -11,7 +11,7 @@
 namespace oracle {
 
 /// The meaning of a transition, as far as conditions are concerned.
-enum class Role { plain, t4, t5, t6, next, none };
+enum class Role { plain, t4, t5, t6, next, none, sends, skips };
 
 struct FlatTransition {
   std::string name;
@@ -21,6 +21,7 @@ struct FlatTransition {
   int behaviour = -1;
   int entry = -1;              // of `next`
   std::map<int, int> facts{};  // values of facts that its condition was evaluated with
+  const Skip* skip = nullptr;  // of one that begins a send or skips it
 };
 
 struct FlatNet {

@@ -26,7 +26,8 @@ namespace {
 
 class Generator {
  public:
-  explicit Generator(std::uint64_t seed) : random_(seed), asks_(~seed), remembers_(seed + (1ULL << 63U)) {}
+  explicit Generator(std::uint64_t seed)
+      : random_(seed), asks_(~seed), remembers_(seed + (1ULL << 63U)), skips_(seed ^ 0x5C1B5U) {}
 
   Specification make() {
     if (random_.percent(15)) specification_.models = random_models(random_);
@@ -35,6 +36,7 @@ class Generator {
     for (int c = 0; c < channels; ++c) channel();
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
+    if (skips_.percent(35)) skip();
     time();
     if (remembers_.percent(55)) remember();
     if (asks_.percent(60)) ask();
@@ -277,6 +279,22 @@ class Generator {
           }
           for (Entry& entry : behaviour.next)
             if (entry.when == Entry::When::expression) entry.asked = some_question(subsystem);
+          for (Skip& skip : behaviour.skips)
+            if (!skip.by_function) skip.asked = some_question(subsystem);
+        }
+  }
+
+  /// Lets some behaviours skip outputs. It has random numbers of its own.
+  void skip() {
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems)
+        for (Behaviour& behaviour : subsystem.behaviours) {
+          std::vector<Skip> skips;
+          for (const std::string& output : behaviour.send.value_or(subsystem.outputs))
+            if (skips_.percent(45)) skips.push_back({output, skips_.percent(30)});
+          if (skips.empty()) continue;
+          if (!behaviour.send) behaviour.send = subsystem.outputs;
+          behaviour.skips = std::move(skips);
         }
   }
 
@@ -310,7 +328,7 @@ class Generator {
     return question;
   }
 
-  RandomNumbers random_, asks_, remembers_;
+  RandomNumbers random_, asks_, remembers_, skips_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

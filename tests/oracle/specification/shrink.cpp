@@ -146,7 +146,10 @@ void simplify_behaviours(const Specification& from, Candidates& into) {
   behaviour_candidate(from, into, [&](Behaviour& b) { return set(b.parallel, false, b.parallel); });
   behaviour_candidate(from, into, [&](Behaviour& b) { return set(b.takes, false, b.takes); });
   behaviour_candidate(from, into,
-                      [&](Behaviour& b) { return set(b.send, std::nullopt, b.send.has_value()); });
+                      [&](Behaviour& b) { return set(b.skips, std::vector<Skip>{}, !b.skips.empty()); });
+  behaviour_candidate(from, into, [&](Behaviour& b) {
+    return set(b.send, std::nullopt, b.send.has_value() && b.skips.empty());
+  });
   behaviour_candidate(from, into,
                       [&](Behaviour& b) { return set(b.receive, std::nullopt, b.receive.has_value()); });
   for (Condition Behaviour::*which : {&Behaviour::terminal, &Behaviour::error}) {

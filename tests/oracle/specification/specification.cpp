@@ -73,6 +73,22 @@ std::string entry(const Entry& of, const Subsystem& owner, Expressions& expressi
   return "{ to: " + of.to + ", when: " + when + sets + " }";
 }
 
+/// The map form of `send`, in which outputs say when they are sent.
+std::string sent(const Behaviour& of, Expressions& expressions) {
+  if (of.skips.empty()) return list(*of.send);
+  std::vector<std::string> keys;
+  for (const std::string& output : *of.send) {
+    keys.push_back(output);
+    for (const Skip& skip : of.skips)
+      if (skip.output == output)
+        keys.back() +=
+            skip.by_function
+                ? ": { skip: allowed }"
+                : ": { when: " + expressions.next(Truth::open, skip.asked ? &*skip.asked : nullptr) + " }";
+  }
+  return map(keys);
+}
+
 std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& expressions) {
   std::vector<std::string> keys;
   if (of.terminal.form != Condition::Form::absent)
@@ -84,7 +100,7 @@ std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& 
     for (const Entry& one : of.next) entries.push_back(entry(one, owner, expressions));
     keys.push_back("next: " + list(entries));
   }
-  if (of.send) keys.push_back("send: " + list(*of.send));
+  if (of.send) keys.push_back("send: " + sent(of, expressions));
   if (of.receive) keys.push_back("receive: " + list(*of.receive));
   if (of.parallel) keys.push_back("transfer: parallel");
   if (of.takes) keys.push_back("takes: 3 ms");

@@ -58,6 +58,13 @@ struct Entry {
   std::vector<Change> sets{};
 };
 
+/// An output that an iteration may skip: the transition function decides, or an expression whose truth is open.
+struct Skip {
+  std::string output;
+  bool by_function = false;
+  std::optional<Asked> asked{};
+};
+
 struct Behaviour {
   std::string name;
   Condition terminal, error;
@@ -66,6 +73,7 @@ struct Behaviour {
   bool parallel = false;
   bool takes = false;
   std::vector<Change> sets{};  // when it begins
+  std::vector<Skip> skips{};   // of outputs in `send`, which is then written
 };
 
 struct Subsystem {

@@ -74,7 +74,7 @@ enum class Step : std::uint8_t {
   page,       ///< on a page, but in none of its blocks
   transfer,   ///< in a block, and none of the following
   overwrite,  ///< a new value replaces one that was not read
-  skip,       ///< there is nothing to read
+  skip,       ///< there is nothing to read; or, of a sender, nothing is sent
   timeout,    ///< the wait has ended without success
   // The medium of a channel between processes. These transitions belong to no subsystem.
   deliver,        ///< the newest value arrives

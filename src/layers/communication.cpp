@@ -55,7 +55,6 @@ std::string in_words(spec::Duration duration) {
 
 /// "memory.ask", "asking or late".
 std::string text_of(const spec::Skippable& skippable) {
-  if (skippable.by_function) return "not skipped";
   std::string text;
   for (const spec::Expression& expression : skippable.when.expressions)
     text += (text.empty() ? "" : " or ") + (expression.name.empty() ? expression.text : expression.name);
@@ -141,9 +140,11 @@ class BlockPen {
         condition.set_with_failures({positive ? sends(true) : negation(sends(true)), condition.exhaustive});
         return condition;
       };
-      const std::string text = text_of(*block.skippable);
+      const bool by_function = block.skippable->by_function;
+      const std::string text = by_function ? "not skipped" : text_of(*block.skippable);
       net::Condition goes = made(net::Condition::Kind::send, true, text);
-      net::Condition skips = made(net::Condition::Kind::skip, false, "not (" + text + ")");
+      net::Condition skips =
+          made(net::Condition::Kind::skip, false, by_function ? "skipped" : "not (" + text + ")");
       choices.push_back({std::move(values), std::move(goes), std::move(skips)});
     }
     return choices;

@@ -60,6 +60,64 @@ TEST(Blocks, HaveTheArcsOfTheirModes) {
   }
 }
 
+/// The sending transitions of a case if iterations may skip the output.
+std::vector<std::string> with_skip(const std::vector<std::string>& snd, const std::string& sends,
+                                   const std::string& skips) {
+  std::vector<std::string> all{"y1.skip: in -> out [" + skips + "]"};
+  for (const std::string& transition : snd)
+    all.push_back(transition + (transition.find(": in ") == std::string::npos ? "" : " [" + sends + "]"));
+  return all;
+}
+
+TEST(Blocks, ThatMayBeSkippedHaveAWayPastTheChannel) {
+  for (const BlockCase& expected : block_cases) {
+    SCOPED_TRACE(expected.name);
+    spec::Model model = pair({expected.modes});
+    spec::Behaviour& give = model.definitions[0].subsystems[0].behaviours[0];
+    give.skippable.push_back({.output = {0}, .by_function = true});
+    const Built by_function = build(model);
+    EXPECT_THAT(transitions_of(by_function.pages, "a.control.give.snd"),
+                ElementsAreArray(with_skip(expected.snd, "not skipped", "skipped")));
+    EXPECT_THAT(transitions_of(by_function.pages, "a.motor.take.rcv"), ElementsAreArray(expected.rcv));
+
+    give.skippable.front().by_function = false;
+    give.skippable.front().when.kind = spec::Condition::Kind::expressions;
+    give.skippable.front().when.expressions.push_back({"", "memory.ask", {}});
+    EXPECT_THAT(transitions_of(build(model).pages, "a.control.give.snd"),
+                ElementsAreArray(with_skip(expected.snd, "memory.ask", "not (memory.ask)")));
+  }
+}
+
+TEST(Blocks, SideBySideAreSkippedEachAlone) {
+  spec::Model model = pair({{N, B}, {B, B}}, spec::Transfer::parallel);
+  model.definitions[0].subsystems[0].behaviours[0].skippable.push_back({.output = {1}, .by_function = true});
+  EXPECT_THAT(transitions_of(build(model).pages, "a.control.give.snd"),
+              testing::AllOf(testing::Contains("y2.skip: y2.in -> y2.out [skipped]"),
+                             testing::Not(testing::Contains(testing::HasSubstr("y1.skip")))));
+}
+
+/// What the net knows decides: only the ways that are possible with a value are drawn for it.
+TEST(Blocks, AreSkippedByValuesOfMemory) {
+  spec::Model model = pair({{B, B, true, false}});
+  spec::Subsystem& control = model.definitions[0].subsystems[0];
+  spec::Field mode{.name = "mode", .type = {}};
+  mode.few = spec::FewValues{};
+  mode.few->names = {"quiet", "loud"};
+  control.memory.push_back(mode);
+  spec::Behaviour& give = control.behaviours[0];
+  give.skippable.push_back({.output = {0}});
+  give.skippable.front().when.kind = spec::Condition::Kind::expressions;
+  give.skippable.front().when.expressions.push_back({"", "memory.mode == loud", {}});
+  give.terminal.kind = spec::Condition::Kind::expressions;
+  give.terminal.expressions.push_back({"", "out.y1.timed_out", {}});
+  std::vector<std::string> begun;
+  for (const std::string& transition : transitions_of(build(model).pages, "a.control.give.snd"))
+    if (transition.find("skip") != std::string::npos || transition.starts_with("y1.t1"))
+      begun.push_back(transition.substr(0, transition.find(':')));
+  EXPECT_THAT(begun, ElementsAre("y1.skip.y1.in_time.memory.mode.quiet",
+                                 "y1.skip.y1.timed_out.memory.mode.quiet", "y1.t1.memory.mode.loud"));
+}
+
 TEST(Blocks, InSequenceShareOutputAndInputPlaces) {
   const Built built = build(pair({{N, N}, {N, N}, {B, B}}));
   EXPECT_THAT(places_of(built.pages, "a.control.give.snd"),

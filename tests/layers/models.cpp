@@ -130,7 +130,7 @@ namespace {
 
 class RandomModel {
  public:
-  explicit RandomModel(std::uint32_t seed) : random_(seed) {}
+  explicit RandomModel(std::uint32_t seed) : random_(seed), skips_(seed + 1) {}
 
   spec::Model result() {
     const std::uint32_t agents = between(1, 3);
@@ -168,6 +168,8 @@ class RandomModel {
       if (coin()) made.send = some(outputs.size());
       if (coin()) made.receive = some(inputs.size());
       if (coin()) made.transfer = spec::Transfer::parallel;
+      for (std::uint32_t output = 0; output < outputs.size(); ++output)
+        if (skips_() % 4 == 0) made.skippable.push_back({.output = {output}, .by_function = true});
       behaviours.push_back(std::move(made));
     }
     spec::Subsystem made =
@@ -201,7 +203,7 @@ class RandomModel {
     if (channel.receive == Mode::blocking && coin()) channel.receive_timeout = 10ms;
   }
 
-  std::mt19937 random_;
+  std::mt19937 random_, skips_;
   ModelBuilder builder_;
   std::vector<spec::ChannelEnd> outputs_, inputs_;
 };

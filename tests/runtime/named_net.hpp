@@ -69,6 +69,9 @@ struct Does {
 [[nodiscard]] constexpr Does decides(std::string_view behaviour) { return {tessera::decides(0), behaviour}; }
 [[nodiscard]] constexpr Does routes(std::string_view behaviour) { return {tessera::routes(0), behaviour}; }
 
+/// Of a subsystem with one behaviour.
+[[nodiscard]] constexpr Does asks(std::string_view port) { return {tessera::asks(0, 0), port}; }
+
 struct Place {
   std::string_view name;
   Does does{};
@@ -122,7 +125,8 @@ template <class Rows>
   std::vector<Place>& made_places = all_places.emplace_back();
   for (const named::Place& place : places) {
     Does does = place.does.does;
-    const bool of_port = does.kind == Does::Kind::write || does.kind == Does::Kind::read;
+    const bool of_port =
+        does.kind == Does::Kind::write || does.kind == Does::Kind::read || does.kind == Does::Kind::ask;
     does.subject = of_port ? number_of(ports, place.does.subject) : number_of(behaviours, place.does.subject);
     made_places.push_back({place.name, does});
   }

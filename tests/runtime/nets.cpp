@@ -48,6 +48,25 @@ const named::Transition nb_send_persistent[] = {ENTER("run"), BEHAVIOUR_TRANSITI
                                                 NEXT("run", 0, "run"), B2(NB_SEND, SND)};
 const named::Transition b_send[] = {SENDER, B2(B_SEND, SND)};
 const named::Transition b_send_timed[] = {SENDER, B2(B_SEND, SND), B2(B_SEND_TIMEOUT, SND)};
+/// Iterations may skip the send.
+constexpr named::Place skipping_places[] = {{"in"},
+                                            {"out"},
+                                            {"run.in", named::calls("run")},
+                                            {"run.snd.in", named::asks("x")},
+                                            {"run.snd.out"},
+                                            {"run.2", named::counts()},
+                                            {"run.rcv.in"},
+                                            {"run.rcv.out", named::decides("run")},
+                                            {"run.out", named::routes("run")},
+                                            SEND_PLACES("run", "x"),
+                                            WAIT_PLACE("run", "x")};
+const named::Transition skipping_send[] = {
+    SENDER,
+    {"run.snd.x.skip", {"run.snd.in"}, {"run.snd.out"}, if_skips},
+    {"run.snd.x.t1", {"run.snd.in", "x/empty"}, {"run.snd.x.2"}, if_sends},
+    {"run.snd.x.t2", {"run.snd.x.2"}, {"run.snd.x.wait", "x/full"}},
+    {"run.snd.x.t3", {"run.snd.x.wait", "x/ack"}, {"run.snd.out"}},
+    B2(B_SEND_TIMEOUT, SND)};
 const named::Transition b_receive[] = {RECEIVER, B2(B_RECEIVE, RCV)};
 const named::Transition b_receive_timed[] = {RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_TIMEOUT, RCV)};
 const named::Transition nb_receive[] = {RECEIVER, B2(B_RECEIVE, RCV), B2(RECEIVE_SKIP, RCV)};
@@ -201,6 +220,7 @@ const SubsystemNet nb_sender = numbered(run_only, sends_x, sender_places, nb_sen
 const SubsystemNet nb_sender_persistent = numbered(run_only, sends_x, sender_places, nb_send_persistent);
 const SubsystemNet b_sender = numbered(run_only, sends_x, waiting_sender_places, b_send);
 const SubsystemNet b_sender_timed = numbered(run_only, sends_x, waiting_sender_places, b_send_timed);
+const SubsystemNet b_sender_skipping = numbered(run_only, sends_x, skipping_places, skipping_send);
 const SubsystemNet b_receiver = numbered(run_only, receives_x, receiver_places, b_receive);
 const SubsystemNet b_receiver_timed = numbered(run_only, receives_x, receiver_places, b_receive_timed);
 const SubsystemNet once_receiver = numbered(run_only, receives_x, receiver_places, once_receive);

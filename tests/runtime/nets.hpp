@@ -10,6 +10,7 @@ extern const SubsystemNet two_behaviours;  ///< first -> (0) second, (1) end; se
 extern const SubsystemNet async_sender, async_receiver;  ///< NB -> NB over port "x"
 extern const SubsystemNet nb_sender;                     ///< NB over a buffered port "x"
 extern const SubsystemNet b_sender, b_sender_timed;
+extern const SubsystemNet b_sender_skipping;  ///< as b_sender_timed; it may skip the send
 extern const SubsystemNet
     nb_sender_persistent;  ///< after an error or a terminal condition it goes on with "run"
 extern const SubsystemNet b_receiver, b_receiver_timed, nb_receiver;  ///< from a non-blocking sender

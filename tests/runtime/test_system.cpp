@@ -58,6 +58,9 @@ class ScriptSubsystem final : public Subsystem {
     return failed ? Outcome::error : script_.decide(state_);
   }
   int route(std::uint16_t, bool failed) override { return script_.route(state_, failed); }
+  Sending sends(std::uint16_t, std::uint32_t output) override {
+    return output == 0 ? script_.sends(state_) : Sending::sends;
+  }
   void keep_outputs() override { kept_ = {state_.out_x, state_.out_y, state_.command}; }
   void restore_outputs() override { std::tie(state_.out_x, state_.out_y, state_.command) = kept_; }
   Context& context() override { return state_.context; }
@@ -65,7 +68,7 @@ class ScriptSubsystem final : public Subsystem {
  private:
   const Script& script_;
   ScriptState state_;
-  std::tuple<Output<double>, Output<double>, Output<double>> kept_;
+  std::tuple<SkippableOutput<double>, Output<double>, Output<double>> kept_;
 };
 
 template <std::size_t N>

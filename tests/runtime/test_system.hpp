@@ -20,7 +20,8 @@ namespace tessera::testing {
 /// The data and actions of a Script subsystem. Values are doubles; x is the value in channels.
 struct ScriptState {
   Input<double> x, y;
-  Output<double> out_x, out_y;
+  SkippableOutput<double> out_x;
+  Output<double> out_y;
   Input<double> sensed;
   Output<double> command;
   double gain = 1;
@@ -39,6 +40,8 @@ struct Script {
   std::function<void(ScriptState&)> call = [](ScriptState&) {};
   std::function<Outcome(const ScriptState&)> decide = [](const ScriptState&) { return Outcome::go_on; };
   std::function<int(const ScriptState&, bool failed)> route = [](const ScriptState&, bool) { return 0; };
+  /// Of output x, which a net with such transitions may skip.
+  std::function<Sending(const ScriptState&)> sends = [](const ScriptState&) { return Sending::sends; };
   bool senses = false, acts = false;  ///< has a real receptor, a real effector
   bool remembers = false;             ///< has memory
   bool writes = true;                 ///< `call` follows a write of the present values of x and y

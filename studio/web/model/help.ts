@@ -51,6 +51,10 @@ function transitionHelp(page: Page, { role, condition }: PageTransition): string
       return `fires if the error condition holds${text ? ` (${text})` : ""}: the behaviour ends with an error.`;
     case "elapsed":
       return "fires when the timeout of the channel has passed.";
+    case "send":
+      return `begins to send if ${text}.`;
+    case "skip":
+      return `sends nothing in this iteration if ${text}.`;
     case "next":
       return text ? `leads to the next behaviour if ${text}.` : "leads to the next behaviour.";
   }

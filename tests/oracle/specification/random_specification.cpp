@@ -36,7 +36,7 @@ class Generator {
     for (int c = 0; c < channels; ++c) channel();
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
-    if (skips_.percent(35)) skip();
+    if (skips_.percent(60)) skip();
     time();
     if (remembers_.percent(55)) remember();
     if (asks_.percent(60)) ask();
@@ -291,7 +291,7 @@ class Generator {
         for (Behaviour& behaviour : subsystem.behaviours) {
           std::vector<Skip> skips;
           for (const std::string& output : behaviour.send.value_or(subsystem.outputs))
-            if (skips_.percent(45)) skips.push_back({output, skips_.percent(30)});
+            if (skips_.percent(60)) skips.push_back({output, skips_.percent(30)});
           if (skips.empty()) continue;
           if (!behaviour.send) behaviour.send = subsystem.outputs;
           behaviour.skips = std::move(skips);

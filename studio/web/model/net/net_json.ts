@@ -85,7 +85,7 @@ export interface PageTransition {
 }
 /** The condition of a transition. */
 export interface Condition {
-  kind: "go_on" | "terminal" | "error" | "next" | "elapsed";
+  kind: "go_on" | "terminal" | "error" | "next" | "elapsed" | "send" | "skip";
   truth: "free" | "always" | "never";
   /** The truth where transition functions may fail. */
   truth_with_failures: "free" | "always" | "never";

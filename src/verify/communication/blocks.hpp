@@ -70,7 +70,8 @@ struct Block {
 [[nodiscard]] bool may_be_skipped(const Steps& steps, net::PlaceId in);
 
 /// The block that starts at `in`: a built-in one if exactly the transitions of one start there, else one of
-/// the author's model, whose transitions share the name of their block and lead to one place. nullopt also for one that may be skipped.
+/// the author's model, whose transitions share the name of their block and lead to one place. nullopt also for one
+/// that may be skipped.
 [[nodiscard]] std::optional<Block> block_at(const Steps& steps, net::PlaceId in);
 
 }  // namespace tessera::verify

@@ -233,8 +233,8 @@ struct Bindings {
   void output(std::string_view name, Output<T>& buffer) {
     outputs.push_back(outgoing(name, buffer));
   }
-  template <class T, std::size_t Count>
-  void each_output(std::string_view name, std::array<Output<T>, Count>& buffers) {
+  template <class T, class Status, std::size_t Count>
+  void each_output(std::string_view name, std::array<Buffer<T, Status>, Count>& buffers) {
     for (std::size_t member = 0; member < Count; ++member) output(name_of(name, member), buffers[member]);
   }
   template <class T>

@@ -416,6 +416,7 @@ class BehaviourReader {
   std::map<std::pair<SlotId, std::string>, std::size_t> by_name_;  // in each group; into written_
   std::uint32_t count_ = 0;                                        // behaviours of the subsystem
   ReadBehaviours read_;
+  std::vector<ListedOption> options_;  // of the list that was read last
 };
 
 }  // namespace

@@ -35,7 +35,7 @@ void read_skip(const Entry& skip, Diagnostics& out) {
 std::optional<Skippable> read_skippable(const Entry& option, BufferId output, const ConditionScope& scope,
                                         SharedConditions& shared, Diagnostics& out) {
   if (option.value->is_null()) return std::nullopt;
-  const std::string name = scope.outputs[output.value].name;
+  const std::string name = option.key.substr(option.key.starts_with('+') ? 1 : 0);
   const std::string hint =
       "write " + name + ": { when: CONDITION }, " + name + ": { skip: allowed }, or " + name + " alone";
   if (!option.value->is_map() || option.value->entries.empty()) {

@@ -7,7 +7,6 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
-#include "spec/agents/families.hpp"
 #include "spec/agents/few_values.hpp"
 #include "spec/agents/groups.hpp"
 #include "spec/agents/sending.hpp"
@@ -94,8 +93,7 @@ class BehaviourReader {
     return each.value_or(EachMember{});  // without a fleet: nothing more is said about indices
   }
 
-  /// Calls `read` for every member of a behaviour, or once with null. All members are written by the same text: its
-  /// mistakes are those of the first.
+  /// Calls `read` for every member of a behaviour, or once with null. Mistakes are those of the first member.
   template <class Read>
   void each_member(const Written& one, Read read) {
     if (!one.each) {
@@ -187,7 +185,7 @@ class BehaviourReader {
     read_next(section.find("next"), scope, behaviour, slot.parent);
     behaviour.send =
         read_list(section.find("send"), {scope_.outputs, scope_.inputs, "output", member}, defaults_.send);
-    read_skippable_outputs(scope, behaviour);
+    behaviour.skippable = read_skippable(std::exchange(options_, {}), scope, defaults_.conditions, *out_);
     behaviour.receive = read_list(section.find("receive"), {scope_.inputs, scope_.outputs, "input", member},
                                   defaults_.receive);
     behaviour.transfer = read_transfer(section.find("transfer"));
@@ -362,39 +360,7 @@ class BehaviourReader {
                   "write it beside 'rate'; 'receive' of a behaviour lists its inputs");
       return std::nullopt;
     }
-    if (value.is_map() && scope.what == "input") {
-      out_->error("E329", entry->span, "'receive' is a list: an input has no condition",
-                  "write receive: [NAME, ...]; a channel with 'receive: non_blocking' does not wait");
-      return std::nullopt;
-    }
     return read_buffer_list(value, *entry, scope, around, *out_, &options_);
-  }
-
-  /// The options of the map form of `send`, which has just been read.
-  void read_skippable_outputs(const ConditionScope& scope, Behaviour& behaviour) {
-    for (const ListedOption& option : std::exchange(options_, {})) {
-      if (option.buffers.empty()) continue;  // which is reported
-      std::optional<Skippable> one =
-          read_skippable(*option.entry, option.buffers.front(), scope, defaults_.conditions, *out_);
-      if (!one) continue;
-      if (one->by_function) check_members(scope_.outputs[option.buffers.front().value], option.entry->span);
-      for (const BufferId output : option.buffers) {
-        one->output = output;
-        behaviour.skippable.push_back(*one);
-      }
-    }
-  }
-
-  /// A structure with a field `skip` hides the function of that name.
-  void check_members(const Field& output, Span at) {
-    const Type& type = output.type;
-    if (type.kind != Type::Kind::structure || type.extent > 0 || Types::is_unknown(type)) return;
-    const std::vector<Field>& fields = scope_.types.fields_of(type);
-    if (std::ranges::find(fields, "skip", &Field::name) != fields.end())
-      out_->error("E330", at,
-                  "the type of " + in_quotes(output.name) + " has a field 'skip', which hides out." +
-                      output.name + ".skip()",
-                  "rename the field, or write when: CONDITION in place of skip: allowed");
   }
 
   Transfer read_transfer(const Entry* entry) {

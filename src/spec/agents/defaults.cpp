@@ -270,6 +270,11 @@ void check_used(const OnError& on_error, Diagnostics& out) {
 std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at, const ListScope& scope,
                                        ListDefault& around, Diagnostics& out,
                                        std::vector<ListedOption>* options) {
+  if (value.is_map() && scope.what == "input") {
+    out.error("E329", at.span, "'receive' is a list: an input has no condition",
+              "write receive: [NAME, ...]; a channel with 'receive: non_blocking' does not wait");
+    return {};
+  }
   std::vector<Item> items;
   if (value.is_map()) {
     for (const Entry& entry : value.entries) {

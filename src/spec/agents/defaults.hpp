@@ -69,8 +69,8 @@ struct ListedOption {
 /// value:  a list, or a map whose keys are the list (sending.hpp reads its values); `at` is its key.
 /// around: `-x` and `+x` change it; without a list all buffers, as declared. Its `used` is set then.
 /// Errors: E101 unknown buffer; E104 no list; E107 one twice; E272 `+x` of what is listed; E273 `-x` of what is not;
-///         E274 changes beside names; E328 `-x` with a value; E286, those of number_of: indices. A name without index of which there is one
-///         buffer for each member means all of them.
+///         E274 changes beside names; E328 `-x` with a value; E329 a map of inputs; E286, those of number_of: indices.
+///         A name without index of which there is one buffer for each member means all of them.
 [[nodiscard]] std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at,
                                                      const ListScope& scope, ListDefault& around,
                                                      Diagnostics& out,

@@ -1,5 +1,7 @@
 #include "spec/agents/sending.hpp"
 
+#include <algorithm>
+#include <optional>
 #include <string>
 
 #include "diagnostics/utf8.hpp"
@@ -30,10 +32,8 @@ void read_skip(const Entry& skip, Diagnostics& out) {
               "write skip: allowed, and out.NAME.skip() in the transition function");
 }
 
-}  // namespace
-
-std::optional<Skippable> read_skippable(const Entry& option, BufferId output, const ConditionScope& scope,
-                                        SharedConditions& shared, Diagnostics& out) {
+std::optional<Skippable> read_one(const Entry& option, BufferId output, const ConditionScope& scope,
+                                  SharedConditions& shared, Diagnostics& out) {
   if (option.value->is_null()) return std::nullopt;
   const std::string name = option.key.substr(option.key.starts_with('+') ? 1 : 0);
   const std::string hint =
@@ -62,6 +62,37 @@ std::optional<Skippable> read_skippable(const Entry& option, BufferId output, co
   else
     read_skip(*skip, out);
   return made.when.kind == Condition::Kind::always ? std::nullopt : std::optional(made);
+}
+
+/// A structure with a field `skip` hides the function of that name.
+void check_members(const Field& output, Span at, const Types& types, Diagnostics& out) {
+  const Type& type = output.type;
+  if (type.kind != Type::Kind::structure || type.extent > 0 || Types::is_unknown(type)) return;
+  const std::vector<Field>& fields = types.fields_of(type);
+  if (std::ranges::find(fields, "skip", &Field::name) != fields.end())
+    out.error("E330", at,
+              "the type of " + in_quotes(output.name) + " has a field 'skip', which hides out." +
+                  output.name + ".skip()",
+              "rename the field, or write when: CONDITION in place of skip: allowed");
+}
+
+}  // namespace
+
+std::vector<Skippable> read_skippable(const std::vector<ListedOption>& options, const ConditionScope& scope,
+                                      SharedConditions& shared, Diagnostics& out) {
+  std::vector<Skippable> all;
+  for (const ListedOption& option : options) {
+    if (option.buffers.empty()) continue;  // which is reported
+    std::optional<Skippable> one = read_one(*option.entry, option.buffers.front(), scope, shared, out);
+    if (!one) continue;
+    if (one->by_function)
+      check_members(scope.outputs[option.buffers.front().value], option.entry->span, scope.types, out);
+    for (const BufferId output : option.buffers) {
+      one->output = output;
+      all.push_back(*one);
+    }
+  }
+  return all;
 }
 
 }  // namespace tessera::spec

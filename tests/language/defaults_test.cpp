@@ -142,35 +142,6 @@ TEST(Defaults, ChangeWithTheNamesThatTheyName) {
               HasSubstr("refused"));
 }
 
-/// The map form of `send`.
-TEST(Defaults, OfSendsWithConditionsFollowTheirNames) {
-  const std::string asking =
-      with_other(defaulted, "send: [+request]", "send: { +request: { when: paused }, -grip: }");
-  ASSERT_TRUE(reads_well(asking));
-  EXPECT_EQ(after_renaming(asking, position_of(asking, "+request", 2), "wish"),
-            after_renaming(asking, position_of(asking, "request: bool"), "wish"));
-  EXPECT_THAT(after_renaming(asking, position_of(asking, "+request", 2), "wish"),
-              HasSubstr("send: { +wish: { when: paused }, -grip: }"));
-  EXPECT_THAT(after_renaming(asking, position_of(asking, "grip: bool"), "claw"), HasSubstr("-claw: }"));
-  const std::string held = after_renaming(asking, position_of(asking, "when: paused }", 7), "held");
-  EXPECT_EQ(times(held, "paused"), 0U);
-  EXPECT_TRUE(reads_well(held));
-
-  const auto in_map = [&](const std::string& cursor) {
-    return labels_in(with_other(asking, "+request: { when: paused }", cursor));
-  };
-  EXPECT_THAT(in_map("+request: { when: ‸ }"), Contains("paused"));
-  EXPECT_THAT(in_map("+request: { when: in.‸ }"), ElementsAre("i", "j"));
-  EXPECT_THAT(in_map("+request: { skip: ‸ }"), ElementsAre("allowed"));
-  EXPECT_THAT(in_map("+request: { ‸ }"), UnorderedElementsAre("when", "skip"));
-
-  const std::string gone =
-      after_edit(asking, R"([{"do":"remove","at":["agents","robot","control","outputs","request"]}])");
-  EXPECT_THAT(gone, HasSubstr("send: { -grip: }"));
-  EXPECT_TRUE(reads_well(gone));
-  EXPECT_THAT(shortened(asking)->text, HasSubstr("+request: { when: paused }")) << "migrate keeps it";
-}
-
 TEST(Defaults, OfAnAgentChangeWithTheOnlyBehaviourThatTheyName) {
   const std::string outer = with_other(with_other(defaulted, "      on_error: safe\n", ""),
                                        "    control:", "    on_error: safe\n    control:");

@@ -38,8 +38,8 @@ struct Item : Node {
 /// Reads one list of buffers.
 class ListReader {
  public:
-  ListReader(const Entry& at, const ListScope& scope, ListDefault& around, Diagnostics& out)
-      : at_(at), scope_(scope), around_(around), out_(out) {}
+  ListReader(const ListScope& scope, ListDefault& around, Diagnostics& out)
+      : scope_(scope), around_(around), out_(out) {}
 
   /// The buffers of each key of the map form with something behind it.
   [[nodiscard]] std::vector<ListedOption> options() { return std::move(options_); }
@@ -190,7 +190,6 @@ class ListReader {
                    "to replace that list");
   }
 
-  const Entry& at_;
   const ListScope& scope_;
   ListDefault& around_;
   Diagnostics& out_;
@@ -273,7 +272,9 @@ std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at, const
   if (value.is_map() && scope.what == "input") {
     out.error("E329", at.span, "'receive' is a list: an input has no condition",
               "write receive: [NAME, ...]; a channel with 'receive: non_blocking' does not wait");
-    return {};
+    std::vector<BufferId> all;  // so that no warning about missing inputs follows
+    for (std::uint32_t buffer = 0; buffer < scope.buffers.size(); ++buffer) all.push_back({buffer});
+    return all;
   }
   std::vector<Item> items;
   if (value.is_map()) {
@@ -289,7 +290,7 @@ std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at, const
       if (const Node* text = text_of(*item, at.span, "an " + std::string(scope.what), out))
         static_cast<Node&>(items.emplace_back()) = *text;
   }
-  ListReader reader(at, scope, around, out);
+  ListReader reader(scope, around, out);
   std::vector<BufferId> list = reader.read(items);
   if (options != nullptr) *options = reader.options();
   return list;

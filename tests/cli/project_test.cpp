@@ -29,7 +29,7 @@ TEST_F(Project, NewMakesAProjectThatDrivesAndWhoseTestsPass) {
 TEST_F(Project, NewBeginsWithTheRobotThatWasAskedFor) {
   for (const auto& [robot, part] :
        {std::pair{"line_follower", "line_world.xml"}, std::pair{"rover", "src/robot/room.hpp"},
-        std::pair{"arm", "arm.xml"}, std::pair{"crossing", "junction.xml"}, std::pair{"fleet", "hall.xml"},
+        std::pair{"arm", "arm.xml"}, std::pair{"depot", "yard.xml"}, std::pair{"fleet", "hall.xml"},
         std::pair{"empty", "src/control.cpp"}}) {
     const std::string name = std::string("my_") + robot;
     const project::Exit made = tessera("new " + name + " --robot " + robot);
@@ -79,20 +79,20 @@ TEST_F(Project, AnArmKeepsOffTheWallUntilAMotionIsWrong) {
   EXPECT_NE(hit.text.find("arm, wall touch"), std::string::npos) << hit.text;
 }
 
-TEST_F(Project, TwoRoversShareACrossing) {
-  ASSERT_EQ(tessera("new depot --robot crossing").code, 0);
-  const nlohmann::json run = json("simulate depot --for 20s");
+TEST_F(Project, CarriersShareADock) {
+  ASSERT_EQ(tessera("new yard --robot depot").code, 0);
+  const nlohmann::json run = json("simulate yard --for 60s");
   ASSERT_EQ(run.at("checks").size(), 5U);
   for (const nlohmann::json& check : run.at("checks")) EXPECT_EQ(check.at("verdict"), "held") << check;
   EXPECT_GT(run.at("measures").at("nearest").at("least"), 0.3);
   EXPECT_EQ(run.at("measures").at("nearest").at("unit"), "m");
-  // One rover has another stop line: in the middle of the crossing.
-  const project::Exit hit = tessera("simulate depot --for 5s --set 'robot[1].control.stop=0.05'");
+  // One carrier waits in the dock.
+  const project::Exit hit = tessera("simulate yard --for 20s --set 'carrier[1].control.line=0.1'");
   EXPECT_EQ(hit.code, 1);
   EXPECT_NE(hit.text.find(" m (at "), std::string::npos) << hit.text;
-  EXPECT_NE(hit.text.find("check nobody touches: failed at 1."), std::string::npos) << hit.text;
-  EXPECT_NE(hit.text.find("robot[0], robot[1] touch"), std::string::npos) << hit.text;
-  const project::Exit tests = tessera("test depot");
+  EXPECT_NE(hit.text.find("check nobody touches: failed at "), std::string::npos) << hit.text;
+  EXPECT_NE(hit.text.find(" touch"), std::string::npos) << hit.text;
+  const project::Exit tests = tessera("test yard");
   EXPECT_EQ(tests.code, 0) << tests.text;
 }
 

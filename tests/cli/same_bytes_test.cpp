@@ -41,7 +41,7 @@ namespace {
 
 /// Two robots, a camera, and an arm without wheels; the long form has the others, too.
 [[nodiscard]] std::vector<std::string> examples() {
-  std::vector<std::string> names{"05_crossing", "06_sorting_cell", "09_arm"};
+  std::vector<std::string> names{"05_depot", "06_sorting_cell", "09_arm"};
   if (std::getenv("TESSERA_SEEDS") != nullptr)
     names.insert(names.end(), {"01_line_follower", "07_fleet", "08_rover"});
   return names;

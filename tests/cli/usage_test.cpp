@@ -70,7 +70,7 @@ TEST_F(Usage, EveryCommandShowsAnExample) {
 
 TEST_F(Usage, CompletionOffersCommandsOptionsAndValuesOfTheProject) {
   const std::string program = TESSERA_BINARY_DIR "/tessera";
-  const std::string example = std::string(TESSERA_SOURCE_DIR) + "/examples/05_crossing";
+  const std::string example = std::string(TESSERA_SOURCE_DIR) + "/examples/05_depot";
   write(folder_ / "complete.sh",
         "eval \"$(" + program +
             " completion bash)\"\n"
@@ -81,24 +81,24 @@ TEST_F(Usage, CompletionOffersCommandsOptionsAndValuesOfTheProject) {
             "try simulate --se\n"
             "try verify " +
             example +
-            " --property 'one is'\n"
+            " --property 'who is'\n"
             "try show " +
             example +
-            " --page = 'robot[1].control.turn.'\n"
+            " --page = 'carrier[1].control.leave.'\n"
             "try simulate " +
             example +
-            " --set 'robot[1].control.s'\n"
+            " --set 'carrier[1].control.l'\n"
             "try schedules 5 " +
             example +
-            " --set 'robot[1].control.sp'\n"
+            " --set 'carrier[1].control.sp'\n"
             "try new x --robot a\n"
             "try check compl\n"
             "try show nowhere --page r\n");
   const project::Exit done = shell("bash complete.sh");
   EXPECT_EQ(
       done.text,
-      "simulate\n--set|--seed\none is inside at a time\nrobot[1].control.turn.snd|robot[1].control.turn.rcv\n"
-      "robot[1].control.stop=|robot[1].control.speed=\nrobot[1].control.speed=\narm\ncomplete.sh\n\n");
+      "simulate\n--set|--seed\nwho is at the dock was lent it\ncarrier[1].control.leave.snd|carrier[1].control.leave.rcv\n"
+      "carrier[1].control.line=|carrier[1].control.lease=\ncarrier[1].control.speed=\narm\ncomplete.sh\n\n");
 }
 
 TEST_F(Usage, UnknownCommandsAndOptionsSayWhatIsMeant) {

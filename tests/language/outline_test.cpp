@@ -113,7 +113,7 @@ TEST(Language, AnswersAtTheEndOfEveryPrefix) {
 }
 
 TEST(Language, AnswersAboutAnyBytes) {
-  std::string text = read_text(example("05_crossing") / "spec.yaml");
+  std::string text = read_text(example("05_depot") / "spec.yaml");
   std::uint32_t state = 1;
   const std::string signs = "{}[]:,-\"'&*|>#\n \t\\\xff\xc3\r!?.";
   for (int round = 0; round < 300; ++round) {

@@ -56,7 +56,7 @@ async function judged(page, name, part = page) {
 }
 
 test("every tab looks as it did, at 640, 1024 and 1440 pixels", () =>
-  onPage(example("05_crossing"), async (page) => {
+  onPage(project("crossing"), async (page) => {
     await page.locator(".sheet .page").first().waitFor();
     const wrong = [];
     let before;

@@ -297,7 +297,7 @@ test("without a mouse: a behaviour is added, the text verified, undone and saved
   }));
 
 test("checks, measures, limits, templates and models have fields, which leave a clean diff that the check accepts", () =>
-  onPage(example("05_crossing"), async (page, server) => {
+  onPage(folder("crossing"), async (page, server) => {
     // A world without a floor picture offers no tracks.
     await tab(page, "Run").click();
     await page.getByLabel("Seed").waitFor();

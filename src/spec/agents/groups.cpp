@@ -22,12 +22,12 @@ const Entry* entry_in(const Entry& section, std::string_view key) {
 }
 
 using Keys = std::initializer_list<std::string_view>;
-constexpr Keys keys_of_behaviour = {"terminal", "error", "next", "send", "receive",
-                                    "transfer", "takes", "sets", "for"};
-constexpr Keys keys_of_group = {"behaviours", "start", "next", "on_error", "until", "sets"};
+const Keys keys_of_behaviour = {"terminal", "error", "next", "send", "receive",
+                                "transfer", "takes", "sets", "for"};
+const Keys keys_of_group = {"behaviours", "start", "next", "on_error", "until", "sets"};
 /// If there is an error about keys already.
-constexpr Keys all_keys = {"terminal", "error", "next",       "send",  "receive",  "transfer", "takes",
-                           "sets",     "for",   "behaviours", "start", "on_error", "until"};
+const Keys all_keys = {"terminal", "error", "next",       "send",  "receive",  "transfer", "takes",
+                       "sets",     "for",   "behaviours", "start", "on_error", "until"};
 
 /// A key that only behaviours or only groups have.
 struct OwnKey {

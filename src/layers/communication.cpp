@@ -129,7 +129,7 @@ class BlockPen {
     KnownFacts::Expressions asked;
     for (const spec::Expression& expression : block.skippable->when.expressions) asked.push_back(&expression);
     std::vector<Choice> choices;
-    for (KnownFacts::Values& values : facts_.assignments(asked)) {
+    for (KnownFacts::Values& values : facts_.assignments(asked, behaviour_)) {
       const auto sends = [&](bool failures) {
         if (block.skippable->by_function) return net::Condition::Truth::free;
         return truth(spec::truth_of(block.skippable->when, facts_.truths(behaviour_, values, failures)));

@@ -97,7 +97,8 @@ TEST_F(Usage, CompletionOffersCommandsOptionsAndValuesOfTheProject) {
   const project::Exit done = shell("bash complete.sh");
   EXPECT_EQ(
       done.text,
-      "simulate\n--set|--seed\nwho is at the dock was lent it\ncarrier[1].control.leave.snd|carrier[1].control.leave.rcv\n"
+      "simulate\n--set|--seed\nwho is at the dock was lent "
+      "it\ncarrier[1].control.leave.snd|carrier[1].control.leave.rcv\n"
       "carrier[1].control.line=|carrier[1].control.lease=\ncarrier[1].control.speed=\narm\ncomplete.sh\n\n");
 }
 

@@ -17,6 +17,7 @@ TEST(System, TheDockIsLentToTheCarrierThatAsks) {
       },
       "carrier[0].odometry");
   EXPECT_FALSE(system.run(8s).failed);
-  EXPECT_EQ(system.behaviours("carrier[0].control"), (std::vector<std::string>{"work", "to_line", "ask", "enter"}));
+  EXPECT_EQ(system.behaviours("carrier[0].control"),
+            (std::vector<std::string>{"work", "to_line", "ask", "enter"}));
   EXPECT_EQ(system.behaviours("carrier[1].control"), std::vector<std::string>{"work"});
 }

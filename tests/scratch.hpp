@@ -12,25 +12,19 @@
 
 namespace tessera {
 
-/// The other processes that work in a folder or have one of its files open.
+/// The other processes that work in a folder.
 inline std::vector<pid_t> processes_in(const std::filesystem::path& folder) {
   namespace fs = std::filesystem;
   std::error_code gone;  // processes end while they are looked at
   const std::string below = fs::weakly_canonical(folder, gone).string();
-  const auto is_below = [&](const fs::path& link) {
-    const std::string at = fs::read_symlink(link, gone).string();
-    return !gone && at.starts_with(below) && (at.size() == below.size() || at[below.size()] == '/');
-  };
   std::vector<pid_t> found;
   for (const auto& process : fs::directory_iterator("/proc", gone)) {
     const std::string name = process.path().filename();
     if (name.find_first_not_of("0123456789") != std::string::npos || name == std::to_string(getpid()))
       continue;
-    bool uses = is_below(process.path() / "cwd");
-    for (fs::directory_iterator file(process.path() / "fd", gone), end; !uses && !gone && file != end;
-         file.increment(gone))
-      uses = is_below(file->path());
-    if (uses) found.push_back(std::stoi(name));
+    const std::string at = fs::read_symlink(process.path() / "cwd", gone).string();
+    if (!gone && at.starts_with(below) && (at.size() == below.size() || at[below.size()] == '/'))
+      found.push_back(std::stoi(name));
   }
   return found;
 }

@@ -96,7 +96,7 @@ TEST(Blocks, SideBySideAreSkippedEachAlone) {
                              testing::Not(testing::Contains(testing::HasSubstr("y1.skip")))));
 }
 
-/// What the net knows decides: only the ways that are possible with a value are drawn for it.
+/// The known values decide: only the ways that are possible with a value are drawn for it.
 TEST(Blocks, AreSkippedByValuesOfMemory) {
   spec::Model model = pair({{B, B, true, false}});
   spec::Subsystem& control = model.definitions[0].subsystems[0];

@@ -69,7 +69,7 @@ struct Does {
 [[nodiscard]] constexpr Does decides(std::string_view behaviour) { return {tessera::decides(0), behaviour}; }
 [[nodiscard]] constexpr Does routes(std::string_view behaviour) { return {tessera::routes(0), behaviour}; }
 
-/// Of a subsystem with one behaviour.
+/// The question of a subsystem with one behaviour.
 [[nodiscard]] constexpr Does asks(std::string_view port) { return {tessera::asks(0, 0), port}; }
 
 struct Place {

@@ -40,7 +40,7 @@ struct Script {
   std::function<void(ScriptState&)> call = [](ScriptState&) {};
   std::function<Outcome(const ScriptState&)> decide = [](const ScriptState&) { return Outcome::go_on; };
   std::function<int(const ScriptState&, bool failed)> route = [](const ScriptState&, bool) { return 0; };
-  /// Of output x, which a net with such transitions may skip.
+  /// The answer for output x, which a net with such transitions may skip.
   std::function<Sending(const ScriptState&)> sends = [](const ScriptState&) { return Sending::sends; };
   bool senses = false, acts = false;  ///< has a real receptor, a real effector
   bool remembers = false;             ///< has memory

@@ -142,7 +142,7 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   check_skips(behaviour);
 }
 
-/// What is skipped without permission would be missed by a receiver that waits for it.
+/// A skip without permission is a failure: a receiver may wait for the value.
 void Operations::check_skips(std::uint16_t behaviour) {
   for (const Bindings::Outgoing* output : skippable_) {
     if (failed_ || !*output->skipped) continue;

@@ -7,7 +7,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
-#include "spec/agents/few_values.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/agents/groups.hpp"
 #include "spec/agents/sending.hpp"
 #include "spec/document/names.hpp"

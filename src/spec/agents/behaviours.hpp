@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "spec/agents/defaults.hpp"
-#include "spec/agents/families.hpp"
+#include "spec/document/families.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"

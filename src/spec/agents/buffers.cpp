@@ -3,7 +3,7 @@
 #include <unordered_map>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/agents/few_values.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/literals.hpp"

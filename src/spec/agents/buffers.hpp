@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "spec/agents/families.hpp"
+#include "spec/document/families.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"

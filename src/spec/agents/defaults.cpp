@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/agents/families.hpp"
-#include "spec/agents/few_values.hpp"
+#include "spec/document/families.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/model/endings.hpp"
 #include "tessera/nearest.hpp"
 

@@ -10,7 +10,7 @@
 #include "spec/agents/behaviours.hpp"
 #include "spec/agents/buffers.hpp"
 #include "spec/agents/conditions.hpp"
-#include "spec/agents/few_values.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/agents/groups.hpp"
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "spec/agents/defaults.hpp"
-#include "spec/agents/families.hpp"
+#include "spec/document/families.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"

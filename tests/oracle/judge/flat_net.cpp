@@ -394,7 +394,7 @@ class Builder {
     }
   }
 
-  /// The way past a block, without a look at the channel. What was not sent has not timed out.
+  /// The way past a block, without a look at the channel. A value that was not sent has not timed out.
   void add_skip(int c, const std::string& prefix, int in, int out) {
     int own = -1;
     for (std::size_t f = 0; f < net_.facts.size(); ++f) {

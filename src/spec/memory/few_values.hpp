@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "spec/agents/families.hpp"
+#include "spec/document/families.hpp"
 #include "spec/document/section.hpp"
 #include "spec/model/model.hpp"
 

@@ -1,4 +1,4 @@
-#include "spec/agents/few_values.hpp"
+#include "spec/memory/few_values.hpp"
 
 #include <algorithm>
 #include <array>

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/agents/few_values.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/conditions/known_truth.hpp"
 #include "spec/conditions/memory_part.hpp"
 #include "spec/model/endings.hpp"

@@ -1,4 +1,4 @@
-#include "spec/agents/families.hpp"
+#include "spec/document/families.hpp"
 
 #include <algorithm>
 #include <charconv>

@@ -1,6 +1,5 @@
 #pragma once
 
-#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -57,7 +56,8 @@ class Kept {
   }
   [[nodiscard]] static constexpr std::size_t capacity() {
     std::size_t longest = 0;
-    for (const std::string_view name : tessera_names_of(Value{})) longest = std::max(longest, name.size());
+    for (const std::string_view name : tessera_names_of(Value{}))
+      if (name.size() > longest) longest = name.size();
     return longest;
   }
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "spec/agents/defaults.hpp"
-#include "spec/document/families.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/document/document.hpp"
+#include "spec/document/families.hpp"
 #include "spec/model/model.hpp"
 
 namespace tessera::spec {

@@ -3,9 +3,9 @@
 #include <unordered_map>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/memory/few_values.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/values/literals.hpp"
 
 namespace tessera::spec {

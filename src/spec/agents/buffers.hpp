@@ -2,8 +2,8 @@
 
 #include <vector>
 
-#include "spec/document/families.hpp"
 #include "spec/document/document.hpp"
+#include "spec/document/families.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
 

@@ -1,8 +1,8 @@
 #pragma once
 
 #include "spec/agents/defaults.hpp"
-#include "spec/document/families.hpp"
 #include "spec/document/document.hpp"
+#include "spec/document/families.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
 

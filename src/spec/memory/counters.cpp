@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/memory/few_values.hpp"
 #include "spec/conditions/known_truth.hpp"
 #include "spec/conditions/memory_part.hpp"
+#include "spec/memory/few_values.hpp"
 #include "spec/model/endings.hpp"
 
 namespace tessera::spec {

@@ -23,7 +23,9 @@ namespace {
   script.call = [logs](ScriptState& state) {
     for (volatile bool for_ever = state.context.iteration == 2; for_ever;) {
       entered = true;
-      if (logs) state.context.log("still here");
+      if (!logs) continue;
+      state.context.log("still here");
+      std::this_thread::sleep_for(1ms);  // so that the terminal takes the lines of the others, too
     }
   };
   system.add("robot.a", nets::alone, script, 10ms);

@@ -59,9 +59,8 @@ std::optional<std::string> problem_with(const Document& document, TextEditor& ed
     if (std::optional<std::string> why = needed_by(document, editor, edit.at)) return why;
   if (changed(document, editor, edit)) return std::nullopt;
   if (edit.kind == Edit::Kind::make_template)
-    return "the agent is written in one line, with anchors, or beside templates of another layout: move it "
-           "in "
-           "the text";
+    return "the agent is written in one line, with anchors, or beside templates of another layout: "
+           "move it in the text";
   if (const Entry* entry = editor.entry(edit.at); entry != nullptr && entry->is_alias)
     return editor.value_text(edit.at) + " stands here; change what it stands for in the text";
   return not_there;

@@ -143,7 +143,7 @@ TEST(Stop, GivesUpADriverThatNeverReturnsAndNamesItsDevice) {
     return true;
   };
   system.add("robot.motor", nets::alone, motor, 1ms, 0ms, Kind::effector);
-  const auto [code, ended] = give_up(system, steady(20ms), 100ms, 1h);
+  const auto [code, ended] = give_up(system, steady(500ms), 100ms, 1h);
   EXPECT_EQ(code, 1);
   EXPECT_TRUE(ended.starts_with("duration; robot.motor has not returned from run 0.")) << ended;
   EXPECT_TRUE(ended.ends_with("s after the stop; robot.motor.command has not taken its safe command"))
@@ -158,7 +158,7 @@ TEST(Stop, GivesUpAReceptorThatIsNeverReadAndNamesIt) {
     for (;;) std::this_thread::sleep_for(1s);
   };
   system.add("robot.sonar", nets::alone, sonar, 1ms, 0ms, Kind::receptor);
-  const auto [code, ended] = give_up(system, steady(20ms), 1h, 100ms);
+  const auto [code, ended] = give_up(system, steady(500ms), 1h, 100ms);
   EXPECT_EQ(code, 1);
   EXPECT_TRUE(ended.starts_with("duration; read() of robot.sonar.sensed has not returned ")) << ended;
 }

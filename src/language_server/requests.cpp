@@ -152,7 +152,8 @@ void Session::add_function_fixes(const Specification& specification, language::R
   const language::Index& index = document.index();
   for (const language::DefinitionNames& definition : index.definitions())
     for (const language::UnitNames& unit : definition.units)
-      for (const auto& [name, id] : unit.behaviours) {
+      for (const auto& [name, path] : unit.functions) {
+        const language::SymbolId id = path.back();
         if (!overlaps(document.lines().range(index[id].definition), range)) continue;
         diagnostics::Diagnostics out(specification.uri, document.text());
         const std::optional<spec::Model> model = spec::parse(out);

@@ -4,6 +4,8 @@
 #include <set>
 
 #include "language/names/index_builder.hpp"
+#include "spec/agents/groups.hpp"
+#include "spec/document/families.hpp"
 #include "spec/model/few_values.hpp"
 
 namespace tessera::language {
@@ -14,6 +16,7 @@ void IndexBuilder::build() {
   define_all(root_["parameters"], Kind::parameter, {}, {"parameters"}, "", index_.parameters_);
   define_agents("templates", Kind::agent_template, index_.templates_);
   define_agents("agents", Kind::agent, index_.agents_);
+  define_member_values();
   define_all(root_["models"], Kind::model, {}, {"models"}, "", index_.models_);
   NamesOf processes;
   define_all(root_["deploy"]["processes"], Kind::process, {}, {"deploy", "processes"}, "", processes);
@@ -56,7 +59,10 @@ void IndexBuilder::define_all(const Node& map, Kind kind, SymbolId owner, const 
   for (const Entry& entry : map.entries) {
     if (entry.key.empty() || names.contains(entry.key)) continue;
     const SymbolId id = define(kind, entry, owner, way, above);
-    index_.symbols_[id].type = type_of(kind, *entry.value);
+    Symbol& symbol = index_.symbols_[id];
+    symbol.type = type_of(kind, *entry.value);
+    symbol.fleet = fleet_of(kind, *entry.value, symbol.type);
+    symbol.is_group = kind == Kind::behaviour && entry.value->find("behaviours") != nullptr;
     names.emplace(entry.key, id);
   }
 }
@@ -118,9 +124,8 @@ void IndexBuilder::define_unit(DefinitionNames& definition, const Entry& entry, 
   define_values(unit, body["memory"], path);
   part("real", Kind::real, unit.real);
   part("parameters", Kind::parameter, unit.parameters);
-  part("behaviours", Kind::behaviour, unit.behaviours);
   part("conditions", Kind::condition, unit.shared);
-  for (const Entry& behaviour : body["behaviours"].entries) define_conditions(unit, behaviour, path);
+  define_behaviours(unit, body["behaviours"], {});
   nodes_.push_back(&body);
   definition.units.push_back(std::move(unit));
 }
@@ -140,20 +145,59 @@ void IndexBuilder::define_values(UnitNames& unit, const Node& memory, const std:
     for (const Entry& item : list->value->items) {
       const Node& text = *item.value;
       if (!text.is_scalar() || !text.verbatim || text.text.empty() || values.contains(text.text)) continue;
+      if (spec::says_each(text.text)) continue;
       const Entry named{.key = text.text, .extent = text.extent, .value = &text};
       values.emplace(text.text, define(Kind::value, named, owner->second, way, path + "." + cell.key));
     }
   }
 }
 
-void IndexBuilder::define_conditions(UnitNames& unit, const Entry& behaviour, const std::string& path) {
-  const auto owner = unit.behaviours.find(behaviour.key);
-  if (owner == unit.behaviours.end()) return;
+void IndexBuilder::define_member_values() {
+  std::size_t at = 0;
+  for (DefinitionNames& definition : index_.definitions_)
+    for (UnitNames& unit : definition.units)
+      for (const Entry& cell : (*nodes_[at++])["memory"].entries) {
+        const auto values = unit.values.find(cell.key);
+        if (values == unit.values.end()) continue;
+        for (const Entry& item : (*cell.value)["values"].items) {
+          if (!spec::says_each(item.value->text)) continue;
+          const auto fleet = index_.agents_.find(fleet_in(item.value->text));
+          if (fleet != index_.agents_.end()) values->second.insert(*fleet);
+        }
+      }
+}
+
+void IndexBuilder::define_behaviours(UnitNames& unit, const Node& map, const std::vector<SymbolId>& around) {
+  const SymbolId owner = around.empty() ? unit.symbol : around.back();
+  const std::string above = index_.symbols_[owner].path;
+  Way way = around.empty() ? unit.way : index_.symbols_[owner].way;
+  way.emplace_back("behaviours");
+  NamesOf& names = around.empty() ? unit.behaviours : unit.groups[owner];
+  define_all(map, Kind::behaviour, owner, way, above, names);
+  std::string function;
+  for (const SymbolId group : around) function += index_.symbols_[group].name + "_";
+  for (const Entry& behaviour : map.entries) {
+    const auto found = names.find(behaviour.key);
+    if (found == names.end()) continue;
+    std::vector<SymbolId> inside = around;
+    inside.push_back(found->second);
+    // An alias repeats the names that its anchor has.
+    const bool is_known = unit.groups.contains(found->second) || unit.conditions.contains(found->second);
+    define_conditions(unit, behaviour, found->second);
+    if (!index_.symbols_[found->second].is_group)
+      unit.functions.emplace(function + behaviour.key, std::move(inside));
+    else if (!is_known && inside.size() <= spec::most_nested_groups)
+      define_behaviours(unit, (*behaviour.value)["behaviours"], inside);
+  }
+}
+
+void IndexBuilder::define_conditions(UnitNames& unit, const Entry& behaviour, SymbolId owner) {
+  const Symbol symbol = index_.symbols_[owner];
+  NamesOf& names = unit.conditions[owner];
   for (const char* key : {"terminal", "error"}) {
-    Way way = unit.way;
-    way.insert(way.end(), {"behaviours", behaviour.key, key});
+    Way way = symbol.way;
+    way.emplace_back(key);
     const Node& condition = (*behaviour.value)[key];
-    NamesOf& names = unit.conditions[behaviour.key];
     const auto share = [&](const std::string& name) {
       const auto shared = unit.shared.find(name);
       if (shared != unit.shared.end()) names.insert(*shared);
@@ -163,8 +207,7 @@ void IndexBuilder::define_conditions(UnitNames& unit, const Entry& behaviour, co
     for (const Entry& named : condition.entries) {
       if (named.key.empty() || (is_nothing(*named.value) && share(named.key)) || names.contains(named.key))
         continue;
-      names.emplace(named.key,
-                    define(Kind::condition, named, owner->second, way, path + "." + behaviour.key));
+      names.emplace(named.key, define(Kind::condition, named, owner, way, symbol.path));
     }
   }
 }

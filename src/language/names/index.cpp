@@ -29,6 +29,9 @@ constexpr std::array<Words, 15> words_of_kinds{{{"structure", "type"},
 }  // namespace
 
 std::string_view words_of(Kind kind) { return words_of_kinds[static_cast<std::size_t>(kind)].words; }
+std::string_view words_of(const Symbol& symbol) {
+  return symbol.is_group ? "group of behaviours" : words_of(symbol.kind);
+}
 std::string_view prefix_of(Kind kind) { return words_of_kinds[static_cast<std::size_t>(kind)].prefix; }
 
 const Use* Index::at(std::size_t offset) const {
@@ -57,6 +60,44 @@ const UnitNames* Index::unit_at(const Way& way) const {
       if (unit.way.size() <= way.size() && std::equal(unit.way.begin(), unit.way.end(), way.begin()))
         return &unit;
   return nullptr;
+}
+
+const NamesOf& UnitNames::behaviours_in(SymbolId group) const {
+  static const NamesOf nothing;
+  if (!group.valid()) return behaviours;
+  const auto found = groups.find(group);
+  return found == groups.end() ? nothing : found->second;
+}
+
+std::vector<SymbolId> UnitNames::all_behaviours() const {
+  std::vector<SymbolId> all;
+  for (const auto& [name, id] : behaviours) all.push_back(id);
+  for (const auto& [group, names] : groups)
+    for (const auto& [name, id] : names) all.push_back(id);
+  std::sort(all.begin(), all.end());  // as in the file
+  all.erase(std::unique(all.begin(), all.end()), all.end());
+  return all;
+}
+
+std::optional<PlaceInBehaviours> Index::behaviour_at(const UnitNames& unit, const Way& way) const {
+  std::size_t at = unit.way.size();
+  if (at >= way.size() || way[at] != "behaviours") return std::nullopt;
+  PlaceInBehaviours place;
+  while (at + 1 < way.size() && way[at] == "behaviours") {
+    if (place.behaviour.valid()) place.group = place.behaviour;
+    const NamesOf& names = unit.behaviours_in(place.group);
+    const auto found = names.find(way[at + 1]);
+    place.behaviour = found == names.end() ? SymbolId{} : found->second;
+    at += 2;
+    if (!place.behaviour.valid()) break;
+  }
+  if (at + 1 == way.size() && way[at] == "behaviours" && place.behaviour.valid()) {
+    place.group = place.behaviour;
+    place.behaviour = {};
+    ++at;
+  }
+  place.inside = std::min(at, way.size());
+  return place;
 }
 
 const DefinitionNames* Index::definition_of(std::string_view agent) const {

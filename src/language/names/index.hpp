@@ -43,13 +43,18 @@ enum class Kind : std::uint8_t {
 struct Symbol {
   Kind kind = Kind::type;
   std::string name;
-  std::string path;   ///< for people: "robot.control.line"
-  std::string type;   ///< of data: "float64 m/s"; empty: it has none
-  Extent definition;  ///< the name itself
-  Extent whole;       ///< with everything that belongs to it
+  std::string path;       ///< for people: "robot.control.line"
+  std::string type;       ///< of data: "float64 m/s"; empty: it has none
+  std::string fleet;      ///< there is one for each member of that fleet; empty: it is one
+  bool is_group = false;  ///< a behaviour that has behaviours
+  Extent definition;      ///< the name itself
+  Extent whole;           ///< with everything that belongs to it
   SymbolId owner{};
   Way way;  ///< of its value
 };
+
+/// In words: "input buffer", "group of behaviours".
+[[nodiscard]] std::string_view words_of(const Symbol& symbol);
 
 struct Use {
   Extent extent;
@@ -67,11 +72,27 @@ struct UnitNames {
   SubsystemRole role = SubsystemRole::control;
   std::string name;
   Way way;
-  NamesOf inputs, outputs, memory, real, parameters, behaviours;
-  NamesOf shared;                                      ///< `conditions`, which several behaviours may name
-  std::map<std::string, NamesOf, std::less<>> values;  ///< by memory cell with values
-  std::map<std::string, NamesOf, std::less<>>
-      conditions;  ///< by behaviour: named expressions, also shared ones
+  NamesOf inputs, outputs, memory, real, parameters;
+  NamesOf behaviours;                  ///< and groups, of the subsystem itself
+  std::map<SymbolId, NamesOf> groups;  ///< by group: the behaviours and groups in it
+  /// By function in C++, "charge_ask": the groups around its behaviour, the outermost first, and the behaviour.
+  std::map<std::string, std::vector<SymbolId>, std::less<>> functions;
+  NamesOf shared;  ///< `conditions`, which several behaviours may name
+  /// By memory cell with values. A fleet stands for the values of its members: `robot[0]`.
+  std::map<std::string, NamesOf, std::less<>> values;
+  std::map<SymbolId, NamesOf> conditions;  ///< by behaviour: named expressions, also shared ones
+
+  /// The behaviours and groups in a group; none: of the subsystem itself.
+  [[nodiscard]] const NamesOf& behaviours_in(SymbolId group) const;
+  /// All behaviours and groups, a group before what is in it.
+  [[nodiscard]] std::vector<SymbolId> all_behaviours() const;
+};
+
+/// A place in a behaviour, a group, or in `behaviours` of one.
+struct PlaceInBehaviours {
+  SymbolId group;          ///< the innermost group around the behaviour; none: the subsystem
+  SymbolId behaviour;      ///< or group; none: it is unknown, or the place is before its name
+  std::size_t inside = 0;  ///< where the way goes on behind the name of the behaviour
 };
 
 /// An agent described in full, or a template.
@@ -101,6 +122,10 @@ class Index {
   [[nodiscard]] const std::vector<DefinitionNames>& definitions() const { return definitions_; }
   /// The unit that contains the place `way`, or nullptr.
   [[nodiscard]] const UnitNames* unit_at(const Way& way) const;
+  /// The agents that are fleets.
+  [[nodiscard]] const NamesOf& fleets() const { return fleets_; }
+  /// Follows a way of the unit through its groups. nullopt: it does not lead to `behaviours`.
+  [[nodiscard]] std::optional<PlaceInBehaviours> behaviour_at(const UnitNames& unit, const Way& way) const;
   /// The definition of an agent, through `use`; or nullptr.
   [[nodiscard]] const DefinitionNames* definition_of(std::string_view agent) const;
   [[nodiscard]] const NamesOf& types() const { return types_; }

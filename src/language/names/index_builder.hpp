@@ -2,6 +2,7 @@
 
 #include <cstddef>
 #include <map>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -29,7 +30,11 @@ class IndexBuilder {
   void define_unit(DefinitionNames& definition, const Entry& entry, SubsystemRole role, const Way& above);
   /// The values of the memory cells of a unit, and the names of their enumerations.
   void define_values(UnitNames& unit, const Node& memory, const std::string& path);
-  void define_conditions(UnitNames& unit, const Entry& behaviour, const std::string& path);
+  /// What is in the map `behaviours` of the subsystem, or of a group. around: the groups around it.
+  void define_behaviours(UnitNames& unit, const Node& map, const std::vector<SymbolId>& around);
+  void define_conditions(UnitNames& unit, const Entry& behaviour, SymbolId owner);
+  /// Fleets whose members are values of memory cells.
+  void define_member_values();
 
   // uses.cpp
   void use(Extent extent, const NamesOf& names, std::string_view name);
@@ -41,6 +46,8 @@ class IndexBuilder {
   /// `terminal`, `error`, and `when` of an output: an expression, the name of a shared one, or a map of both.
   void use_condition(const UnitNames& unit, const Node& condition);
   void use_type(const Node& value);
+  /// "each robot", in `whole`, which begins at byte `at` of the file.
+  void use_each(std::size_t at, std::string_view whole);
   void use_types();
   void use_in_unit(UnitNames& unit);
   /// `on_error` of the system and of agents: the behaviour of the first subsystem that does not say it itself.
@@ -51,7 +58,9 @@ class IndexBuilder {
   /// The bytes of the file: several lines and escapes as they stand there.
   [[nodiscard]] std::string_view written(Extent extent) const;
   static Extent moved(Extent extent, std::size_t by);
-  void use_in_behaviour(const UnitNames& unit, const Entry& behaviour);
+  /// group: in which the behaviours stand; none: the subsystem.
+  void use_in_behaviours(const UnitNames& unit, const Node& map, SymbolId group, std::size_t depth);
+  void use_in_behaviour(const UnitNames& unit, const Entry& behaviour, SymbolId group);
   /// `sets: { lent_to: a }`
   void use_sets(const UnitNames& unit, const Node& sets);
   void use_expression(const UnitNames& unit, const Node& text);
@@ -74,6 +83,7 @@ class IndexBuilder {
   const Node& root_;
   Index& index_;
   std::map<std::size_t, SymbolId> defined_at_;  ///< an alias repeats definitions of its anchor
+  std::set<const Node*> walked_;                ///< `behaviours` of groups
   std::vector<const Node*> nodes_;              ///< the bodies of the units, in their order
   std::size_t next_node_ = 0;
 };

@@ -1,5 +1,7 @@
 #include "language/names/kinds.hpp"
 
+#include "spec/document/families.hpp"
+
 namespace tessera::language {
 
 bool is_nothing(const Node& node) { return node.kind == Node::Kind::null; }
@@ -33,6 +35,22 @@ std::string type_of(Kind kind, const Node& value) {
   if (kind == Kind::memory)
     if (const std::string few = few_values(value); !few.empty()) return few;
   return value["type"].text;
+}
+
+std::string_view fleet_in(std::string_view each) {
+  constexpr std::string_view blanks = " \t";
+  if (!spec::says_each(each)) return {};
+  each.remove_prefix(each.find("each") + 4);
+  const std::size_t begin = each.find_first_not_of(blanks);
+  if (begin == std::string_view::npos) return {};
+  return each.substr(begin, each.find_last_not_of(blanks) + 1 - begin);
+}
+
+std::string fleet_of(Kind kind, const Node& value, std::string_view type) {
+  if (kind == Kind::behaviour) return std::string(fleet_in(value["for"].text));
+  if (kind != Kind::input && kind != Kind::output) return {};
+  const std::optional<spec::EachInType> each = spec::each_in(type);
+  return each ? std::string(fleet_in(type.substr(each->begin + 1, each->end - each->begin - 2))) : "";
 }
 
 const NamesOf& members(const UnitNames& unit, Place place, std::string_view name) {

@@ -128,14 +128,24 @@ class CodeReader {
       add(token.extent, type->second);
     if (unit_ != nullptr && token.text == "Memory") in_memory(*unit_);
     if (unit_ == nullptr || !is(at_ + 1, "(")) return;
-    const auto behaviour = unit_->behaviours.find(token.text);
-    if (behaviour == unit_->behaviours.end()) return;
+    const auto behaviour = unit_->functions.find(token.text);
+    if (behaviour == unit_->functions.end()) return;
     const bool declared = is(at_ - 1, "void");
     if (declared && !is(at_ + 2, "Context")) return;
     const bool other_type = at_ > 0 && tokens_[at_ - 1].kind == Token::Kind::name && !declared &&
                             tokens_[at_ - 1].text != "return" && tokens_[at_ - 1].text != "else";
     if (other_type) return;
-    add(token.extent, behaviour->second, declared && has_body());
+    add_function(token.extent, behaviour->second, declared && has_body());
+  }
+
+  /// "charge_ask": the groups around the behaviour, then the behaviour itself.
+  void add_function(Extent extent, const std::vector<SymbolId>& path, bool defines) {
+    std::size_t begin = extent.begin;
+    for (const SymbolId part : path) {
+      const std::size_t end = begin + index_[part].name.size();
+      add({begin, end}, part, defines && part == path.back());
+      begin = end + 1;
+    }
   }
 
   /// Whether the parameters from here on are followed by a body.
@@ -163,8 +173,8 @@ class CodeReader {
     const UnitNames* inside = path.size() == 4 ? unit(definition(path[1]), path[2]) : nullptr;
     if (inside == nullptr) return;
     if (token.text == "Memory") in_memory(*inside);
-    if (const auto behaviour = inside->behaviours.find(token.text); behaviour != inside->behaviours.end())
-      add(token.extent, behaviour->second);
+    if (const auto behaviour = inside->functions.find(token.text); behaviour != inside->functions.end())
+      add_function(token.extent, behaviour->second, false);
   }
 
   /// Memory::LentTo::nobody, from `Memory` on.

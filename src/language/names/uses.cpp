@@ -3,12 +3,17 @@
 #include <algorithm>
 
 #include "language/names/index_builder.hpp"
+#include "spec/agents/groups.hpp"
+#include "spec/document/families.hpp"
 
 namespace tessera::language {
 
 void IndexBuilder::use(Extent extent, const NamesOf& names, std::string_view name) {
-  if (const auto found = names.find(name); found != names.end())
-    index_.uses_.push_back({extent, found->second, false});
+  // "lend[i]": the index is no part of the name.
+  const std::string_view without = name.substr(0, name.find('['));
+  if (const auto found = names.find(without); found != names.end())
+    index_.uses_.push_back(
+        {{extent.begin, extent.end - (name.size() - without.size())}, found->second, false});
 }
 
 void IndexBuilder::use(const Node& scalar, const NamesOf& names) {
@@ -42,6 +47,16 @@ void IndexBuilder::use_type(const Node& value) {
   const std::size_t end = std::min(text.text.find_first_of(" \t[<"), text.text.size());
   use({text.extent.begin, text.extent.begin + end}, index_.types_,
       std::string_view(text.text).substr(0, end));
+  if (const std::optional<spec::EachInType> each = spec::each_in(text.text))
+    use_each(text.extent.begin + each->begin + 1,
+             std::string_view(text.text).substr(each->begin + 1, each->end - each->begin - 2));
+}
+
+void IndexBuilder::use_each(std::size_t at, std::string_view whole) {
+  const std::string_view fleet = fleet_in(whole);
+  if (fleet.empty()) return;
+  at += static_cast<std::size_t>(fleet.data() - whole.data());
+  use({at, at + fleet.size()}, index_.agents_, fleet);
 }
 
 void IndexBuilder::use_types() {
@@ -56,6 +71,9 @@ void IndexBuilder::use_in_unit(UnitNames& unit) {
   for (const char* key : {"inputs", "outputs", "memory", "real"})
     for (const Entry& field : body[key].entries) use_type(*field.value);
   for (const Entry& cell : body["memory"].entries)
+    for (const Entry& value : (*cell.value)["values"].items)
+      if (value.value->verbatim) use_each(value.value->extent.begin, value.value->text);
+  for (const Entry& cell : body["memory"].entries)
     if (const auto symbol = unit.memory.find(cell.key); symbol != unit.memory.end() && cell.value->is_map())
       use_fields((*cell.value)["initial"], index_.symbols_[symbol->second].type);
   for (const Entry& command : body["safe"].entries) {
@@ -69,7 +87,7 @@ void IndexBuilder::use_in_unit(UnitNames& unit) {
   use_list(body["send"], unit.outputs);
   use_list(body["receive"], unit.inputs);
   for (const Entry& shared : body["conditions"].entries) use_expression(unit, *shared.value);
-  for (const Entry& behaviour : body["behaviours"].entries) use_in_behaviour(unit, behaviour);
+  use_in_behaviours(unit, body["behaviours"], {}, 0);
 }
 
 void IndexBuilder::use_on_errors() {
@@ -112,11 +130,33 @@ std::string_view IndexBuilder::written(Extent extent) const {
 
 Extent IndexBuilder::moved(Extent extent, std::size_t by) { return {extent.begin + by, extent.end + by}; }
 
-void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviour) {
+void IndexBuilder::use_in_behaviours(const UnitNames& unit, const Node& map, SymbolId group,
+                                     std::size_t depth) {
+  const NamesOf& names = unit.behaviours_in(group);
+  for (const Entry& behaviour : map.entries) {
+    use_in_behaviour(unit, behaviour, group);
+    const auto found = names.find(behaviour.key);
+    if (found == names.end() || !index_.symbols_[found->second].is_group || depth == spec::most_nested_groups)
+      continue;
+    // An alias repeats what its anchor says.
+    if (!walked_.insert((*behaviour.value).find("behaviours")->value).second) continue;
+    use_in_behaviours(unit, (*behaviour.value)["behaviours"], found->second, depth + 1);
+  }
+}
+
+void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviour, SymbolId group) {
   const Node& body = *behaviour.value;
   static const NamesOf nothing;
-  const auto found = unit.conditions.find(behaviour.key);
+  const NamesOf& behaviours = unit.behaviours_in(group);
+  const auto own = behaviours.find(behaviour.key);
+  const auto found = own == behaviours.end() ? unit.conditions.end() : unit.conditions.find(own->second);
   const NamesOf& conditions = found == unit.conditions.end() ? nothing : found->second;
+  if (own != behaviours.end() && index_.symbols_[own->second].is_group) {
+    use(body["start"], unit.behaviours_in(own->second));
+    use(body["on_error"], unit.behaviours_in(own->second));
+    use_expression(unit, body["until"]);
+  }
+  if (body["for"].verbatim) use_each(body["for"].extent.begin, body["for"].text);
   for (const char* key : {"terminal", "error"}) use_condition(unit, body[key]);
   use(body["send"], unit.outputs);
   use(body["receive"], unit.inputs);
@@ -128,8 +168,8 @@ void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviou
   use_list(body["receive"], unit.inputs);
   use_sets(unit, body["sets"]);
   const auto step = [&](const Node& next) {
-    use(next, unit.behaviours);
-    use(next["to"], unit.behaviours);
+    use(next, behaviours);
+    use(next["to"], behaviours);
     const Node& when = next["when"];
     use(when, conditions);
     use_expression(unit, when);

@@ -56,7 +56,14 @@ const NamesOf* IndexBuilder::use_path(const DottedPath& path, std::size_t base, 
   if (words.size() < 3) return nullptr;
   if (place == Place::formula && words.size() > 3 && words[2].name == "memory")
     return use_memory_path(*unit, path, base);
-  use(moved(words[2].extent, base), members(*unit, place, words[2].name), words[2].name);
+  const NamesOf* names = &members(*unit, place, words[2].name);
+  for (std::size_t at = 2; at < words.size(); ++at) {
+    const auto name = names->find(words[at].name);
+    if (name == names->end()) break;
+    use(moved(words[at].extent, base), *names, words[at].name);
+    names = &unit->behaviours_in(name->second);
+    if (place != Place::formula || !index_.symbols_[name->second].is_group) break;
+  }
   return nullptr;
 }
 

@@ -24,7 +24,15 @@ class Completer {
 
   void add(Proposal::Kind kind, const std::string& label, std::string detail = {}, std::string insert = {},
            std::string documentation = {});
-  void add_names(const NamesOf& names);
+  /// A name of which there is one for each member of a fleet.
+  enum class Form : std::uint8_t {
+    name,    ///< all of them: request
+    member,  ///< of one: request[i]
+    either
+  };
+  void add_names(const NamesOf& names, Form form = Form::name);
+  /// In quotes where YAML would read its brackets as a list.
+  [[nodiscard]] std::string quoted_if_needed(const std::string& text) const;
   [[nodiscard]] const std::string& step(std::size_t at) const;
   [[nodiscard]] bool colon_follows() const;
   void keys(const Way& way);
@@ -38,6 +46,20 @@ class Completer {
   void types();
   bool channel_value(const std::string& last);
   bool value_in_unit();
+  // completion_groups.cpp
+  /// Leaves the groups around out of `inside_`: ["behaviours", "ask", "next"].
+  void leave_groups();
+  /// Whether a key of behaviours may stand in the map at the cursor: a group has other keys.
+  [[nodiscard]] bool fits(const std::string& key) const;
+  /// Behind `start`, `on_error` and `until` of a group. false: the cursor is elsewhere.
+  bool value_of_group();
+  /// each robot
+  void each_fleet();
+  /// The index of the members for which the cursor's behaviour is; empty: it is for none.
+  [[nodiscard]] std::string own_fleet() const;
+  /// any(...), count(...)
+  void functions_of_members();
+
   void stop();
   /// Behind + only what the subsystem does not list, behind - only what it lists.
   void buffers(const std::string& key);
@@ -62,6 +84,10 @@ class Completer {
   static const NamesOf& ends(const UnitNames& unit, PathEnd end);
   /// fleet: the index that an agent of a fleet gets.
   void paths(PathEnd end, const std::string& fleet);
+  /// The names, with an index where there is one for each member of a fleet.
+  void members_of_fleets(const NamesOf& names, const std::string& index);
+  /// The behaviours in the group that a path names.
+  void behaviours_in_path(const UnitNames& unit, const std::vector<std::string>& names);
   /// The fields of the real buffer that a path names, or of a structure in it.
   void fields_of_path(const UnitNames& unit, const std::vector<std::string>& names);
   [[nodiscard]] std::vector<std::string> chain_of_key() const;
@@ -74,7 +100,9 @@ class Completer {
   std::string marked_;
   PlaceInText place_;
   const UnitNames* unit_ = nullptr;
-  Way inside_;  ///< from the unit on
+  Way inside_;                      ///< from the unit on, without the groups around
+  SymbolId group_{}, behaviour_{};  ///< at the cursor: the innermost group, and the behaviour or group in it
+  bool in_list_ = false;            ///< of behaviours: the cursor is where one of their names stands
   std::vector<Proposal> proposals_;
   std::set<std::string> seen_;
 };

@@ -30,8 +30,10 @@ std::vector<Proposal> Completer::complete() {
   if (!place) return {};
   place_ = *place;
   unit_ = index_.unit_at(place_.way);
-  if (unit_ != nullptr)
+  if (unit_ != nullptr) {
     inside_.assign(place_.way.begin() + static_cast<std::ptrdiff_t>(unit_->way.size()), place_.way.end());
+    leave_groups();
+  }
   if (place_.key != nullptr) {
     keys(place_.way);
   } else {
@@ -54,14 +56,21 @@ void Completer::add(Proposal::Kind kind, const std::string& label, std::string d
   proposals_.push_back(std::move(proposal));
 }
 
-void Completer::add_names(const NamesOf& names) {
+void Completer::add_names(const NamesOf& names, Form form) {
   std::vector<SymbolId> ids;
   for (const auto& [name, id] : names) ids.push_back(id);
   std::sort(ids.begin(), ids.end());  // as in the file
   for (const SymbolId id : ids) {
     const Symbol& symbol = index_[id];
-    add(Proposal::Kind::name, symbol.name,
-        symbol.type.empty() ? std::string(words_of(symbol.kind)) : symbol.type);
+    const std::string detail = symbol.type.empty() ? std::string(words_of(symbol)) : symbol.type;
+    // The agents among the values of a memory cell are those of its members.
+    const bool is_value = symbol.kind == Kind::agent;
+    const bool has_members = is_value || !symbol.fleet.empty();
+    const bool has_index = end_ < document_.text().size() && document_.text()[end_] == '[';
+    const std::string member = symbol.name + (own_fleet().empty() ? "[0]" : "[i]");
+    const bool of_one = has_members && !has_index && (form != Form::name || is_value);
+    if (of_one) add(Proposal::Kind::name, member, detail, quoted_if_needed(member));
+    if (!of_one || (form == Form::either && !is_value)) add(Proposal::Kind::name, symbol.name, detail);
   }
 }
 
@@ -88,7 +97,7 @@ void Completer::keys(const Way& way) {
   const bool has_colon = colon_follows();
   for (const bool needed : {true, false})
     for (const Grammar::Key& key : known) {
-      if (key.needed != needed || present.contains(key.name)) continue;
+      if (key.needed != needed || present.contains(key.name) || !fits(key.name)) continue;
       const bool flow = place_.parent != nullptr && place_.parent->flow;
       const char* end = has_colon ? "" : key.holds_lines && !flow ? ":" : ": ";
       add(Proposal::Kind::key, key.name, key.needed ? "needed" : "", key.name + end, key.description);
@@ -99,14 +108,14 @@ void Completer::key_names(const Way& way) {
   if (way == Way{"drivers"} || way == Way{"simulation", "drivers"}) return paths(PathEnd::real, "[*]");
   if (way == Way{"simulation", "models"}) return paths(PathEnd::agent, "[*]");
   if (unit_ == nullptr) return;
-  Way inside(way.begin() + static_cast<std::ptrdiff_t>(unit_->way.size()), way.end());
+  const Way& inside = inside_;
   if (inside == Way{"safe"} || inside == Way{"limits"}) return add_names(unit_->real);
   if (inside.size() > 2 && inside[0] == "behaviours" && inside.back() == "sets")
     return add_names(kept_cells(*unit_));
   if (inside.size() == 3 && inside[0] == "behaviours" && (inside[2] == "terminal" || inside[2] == "error"))
     return add_names(unit_->shared);
   if (inside.size() == 3 && inside[0] == "behaviours" && inside[2] == "send")
-    return add_names(unit_->outputs);
+    return add_names(unit_->outputs, own_fleet().empty() ? Form::name : Form::either);
   if (inside.size() < 2) return;
   const NamesOf& cells = inside[0] == "safe" ? unit_->real : unit_->memory;
   if (inside[0] != "safe" && !(inside[0] == "memory" && inside.size() > 2 && inside[2] == "initial")) return;
@@ -143,6 +152,8 @@ bool Completer::special_value() {
     return add_names(index_.templates()), true;
   if (last == "on_error" && (size == 1 || (size == 3 && (way[0] == "agents" || way[0] == "templates"))))
     return on_error(), true;
+  if (last == "for" && step(0) == "behaviours" && inside_.size() == 3) return each_fleet(), true;
+  if (last.empty() && size > 1 && way[size - 2] == "values" && step(0) == "memory") return each_fleet(), true;
   if (size >= 2 && way[0] == "channels") return channel_value(last);
   if (size >= 2 && way[0] == "properties" && last != "name" && value_after_comparison()) return true;
   if (size >= 2 && way[0] == "properties" && last != "name")
@@ -167,6 +178,12 @@ bool Completer::is_type_place() const {
 }
 
 void Completer::types() {
+  const std::string_view before =
+      std::string_view(marked_).substr(0, begin_).substr(std::min(place_.scalar->extent.begin, begin_));
+  if (const std::size_t open = before.rfind('['); open != std::string_view::npos) {
+    if (before.find(']', open) == std::string_view::npos && step(0) != "real") each_fleet();
+    return;
+  }
   if (begin_ > place_.scalar->extent.begin + (place_.scalar->quoted ? 1U : 0U)) return;  // the unit
   add_names(index_.types());
   constexpr std::array words{"bool",  "float64", "float32", "int8",   "int16",  "int32",
@@ -184,12 +201,12 @@ bool Completer::channel_value(const std::string& last) {
 }
 
 bool Completer::value_in_unit() {
-  if (inside_ == Way{"start"}) return add_names(unit_->behaviours), true;
+  if (inside_ == Way{"start"}) return add_names(unit_->behaviours, Form::member), true;
   if (inside_ == Way{"on_error"}) return add_names(unit_->behaviours), stop(), true;
   if ((step(0) == "send" || step(0) == "receive") && inside_.back().empty()) return buffers(step(0)), true;
   if (step(0) == "conditions" && inside_.size() == 2) return expression(), true;
   if (step(0) != "behaviours" || inside_.size() < 3) return false;
-  if (value_of_change()) return true;
+  if (value_of_change() || value_of_group()) return true;
   const std::string& key = inside_[2];
   const std::string& last = inside_.back();
   if (key == "send" && inside_.size() > 4) {
@@ -200,14 +217,17 @@ bool Completer::value_in_unit() {
   }
   if (last == "when") {
     if (value_after_comparison()) return true;
-    if (const auto names = unit_->conditions.find(inside_[1]); names != unit_->conditions.end())
+    if (const auto names = unit_->conditions.find(behaviour_); names != unit_->conditions.end())
       add_names(names->second);
+    if (chain().empty() && behaviour_.valid() && index_[behaviour_].is_group)
+      add(Proposal::Kind::word, "until", "the condition of the group ended it");
     if (chain().empty()) add(Proposal::Kind::word, "error", "the behaviour failed");
     return expression(), true;
   }
   if (key == "next") {
-    add_names(unit_->behaviours);
-    return add(Proposal::Kind::word, "end", "the subsystem ends"), true;
+    add_names(unit_->behaviours_in(group_), Form::member);
+    return add(Proposal::Kind::word, "end", group_.valid() ? "the group is left" : "the subsystem ends"),
+           true;
   }
   if (key == "send" || key == "receive") return buffers(key), true;
   if (key != "terminal" && key != "error") return false;
@@ -230,7 +250,7 @@ void Completer::buffers(const std::string& key) {
     };
     std::erase_if(names, [&](const auto& one) { return is_listed(one.first) != (sign == '-'); });
   }
-  add_names(names);
+  add_names(names, step(0) == "behaviours" && !own_fleet().empty() ? Form::either : Form::name);
 }
 
 void Completer::on_error() {
@@ -265,6 +285,7 @@ void Completer::expression() {
     for (const char* base : {"in", "out", "memory", "parameters"})
       if (!index_.members(*unit_, base)->empty())
         add(Proposal::Kind::word, base, "", std::string(base) + ".");
+    functions_of_members();
     if (place_.scalar->extent.begin >= begin_) {
       add(Proposal::Kind::word, "true");
       add(Proposal::Kind::word, "false");
@@ -273,7 +294,7 @@ void Completer::expression() {
   }
   const std::optional<NamesOf> members = index_.members(*unit_, names[0]);
   if (!members) return;
-  if (names.size() == 1) return add_names(*members);
+  if (names.size() == 1) return add_names(*members, Form::either);
   auto symbol = members->find(names[1]);
   if (symbol == members->end()) return;
   SymbolId id = symbol->second;

@@ -31,15 +31,36 @@ void Completer::paths(PathEnd end, const std::string& fleet) {
     if (names.size() == 1 && (end == PathEnd::behaviour || !ends(unit, end).empty()))
       add(Proposal::Kind::name, unit.name, "subsystem");
     if (names.size() == 2 && unit.name == names[1]) {
-      add_names(ends(unit, end));
+      if (end == PathEnd::behaviour || end == PathEnd::real)
+        add_names(ends(unit, end));
+      else
+        members_of_fleets(ends(unit, end), fleet);
       if (end == PathEnd::behaviour) add_names(unit.outputs);
       if (end == PathEnd::behaviour && !kept_cells(unit).empty())
         add(Proposal::Kind::word, "memory", "memory cells that the net knows", "memory.");
     }
     if (names.size() == 3 && end == PathEnd::behaviour && unit.name == names[1] && names[2] == "memory")
       add_names(kept_cells(unit));
+    if (names.size() > 2 && end == PathEnd::behaviour && unit.name == names[1])
+      behaviours_in_path(unit, names);
     if (names.size() > 2 && end == PathEnd::real && unit.name == names[1]) fields_of_path(unit, names);
   }
+}
+
+void Completer::members_of_fleets(const NamesOf& names, const std::string& index) {
+  for (const auto& [name, id] : names)
+    add(Proposal::Kind::name, index_[id].fleet.empty() ? name : name + index, index_[id].type);
+}
+
+void Completer::behaviours_in_path(const UnitNames& unit, const std::vector<std::string>& names) {
+  SymbolId group;
+  for (std::size_t at = 2; at < names.size(); ++at) {
+    const NamesOf& inside = unit.behaviours_in(group);
+    const auto found = inside.find(names[at]);
+    if (found == inside.end()) return;
+    group = found->second;
+  }
+  add_names(unit.behaviours_in(group));
 }
 
 void Completer::fields_of_path(const UnitNames& unit, const std::vector<std::string>& names) {
@@ -73,17 +94,26 @@ void Completer::whole_paths(PathEnd end, const std::string& fleet) {
     for (const UnitNames& unit : definition->units)
       for (const auto& [part, symbol] : ends(unit, end)) {
         if (proposals_.size() >= most_proposals) return;
-        add_path(name + "." + unit.name + "." + part, index_[symbol].type);
+        const std::string index = index_[symbol].fleet.empty() ? "" : fleet;
+        add_path(name + "." + unit.name + "." + part + index, index_[symbol].type);
+        if (end == PathEnd::behaviour && index_[symbol].is_group)
+          for (const SymbolId inside : unit.all_behaviours())
+            if (const std::string& path = index_[inside].path;
+                path.starts_with(index_[symbol].path + ".") && proposals_.size() < most_proposals)
+              add_path(name + "." + unit.name + "." + part + path.substr(index_[symbol].path.size()), "");
       }
   }
 }
 
-void Completer::add_path(const std::string& path, const std::string& detail) {
+std::string Completer::quoted_if_needed(const std::string& text) const {
   const bool starts = place_.key != nullptr || place_.scalar->extent.begin >= begin_;
   const bool quoted = place_.scalar != nullptr && place_.scalar->quoted;
   const bool flow = place_.parent != nullptr && place_.parent->flow;
-  const bool needs = path.find('[') != std::string::npos && starts && !quoted && flow;  // brackets of YAML
-  std::string insert = needs ? '"' + path + '"' : path;
+  return text.find('[') != std::string::npos && starts && !quoted && flow ? '"' + text + '"' : text;
+}
+
+void Completer::add_path(const std::string& path, const std::string& detail) {
+  std::string insert = quoted_if_needed(path);
   if (place_.key != nullptr && !colon_follows()) insert += ": ";
   add(Proposal::Kind::name, path, detail, std::move(insert));
 }

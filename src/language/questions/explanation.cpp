@@ -93,7 +93,8 @@ std::string inherited(const Document& document, const Symbol& symbol, const Unit
   for (const spec::Definition& definition : model->definitions)
     for (const spec::Subsystem& subsystem : definition.subsystems)
       for (const spec::Behaviour& behaviour : subsystem.behaviours)
-        if (behaviour.name == symbol.name && behaviour.span.line == line && text.empty())
+        if (behaviour.label().substr(0, behaviour.label().find('[')) == symbol.name &&
+            behaviour.span.line == line && text.empty())
           add(subsystem, behaviour);
   return text;
 }
@@ -135,20 +136,47 @@ std::string about_memory(const Document& document, SymbolId id) {
   return text + changes_of(document, id);
 }
 
+std::string about_function(const Document& document, SymbolId id, const UnitNames& unit) {
+  const auto function =
+      std::ranges::find_if(unit.functions, [&](const auto& one) { return one.second.back() == id; });
+  if (function == unit.functions.end()) return {};
+  std::string text = fmt::format(
+      "\n\nTransition function: `void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)`",
+      function->first);
+  if (!document.index()[id].fleet.empty()) text += "\n\nThe number of the member: `context.member`";
+  return text;
+}
+
+/// Begins with, contains, is left by.
+std::string about_group(const Document& document, SymbolId id, const UnitNames& unit) {
+  constexpr std::size_t most_shown = 12;
+  const Index& index = document.index();
+  const Node& body = node_at(document.outline(), index[id].way);
+  std::vector<SymbolId> inside;
+  for (const auto& [name, one] : unit.behaviours_in(id)) inside.push_back(one);
+  std::ranges::sort(inside);
+  if (inside.empty()) return {};
+  const std::string start = body["start"].text.empty() ? index[inside.front()].name : body["start"].text;
+  std::string text = "\n\nBegins with " + code(start) + ". In it: ";
+  for (std::size_t at = 0; at < std::min(inside.size(), most_shown); ++at)
+    text += (at == 0 ? "" : ", ") + code(index[inside[at]].name);
+  text += inside.size() > most_shown ? " …" : ".";
+  if (body["until"].is_scalar()) text += "\n\nLeft after the iteration in which " + code(body["until"].text);
+  if (body["on_error"].is_scalar()) text += "\n\nA failure in it leads to " + code(body["on_error"].text);
+  return text;
+}
+
 std::string about(const Document& document, SymbolId id) {
   const Index& index = document.index();
   const Symbol& symbol = index[id];
-  std::string text = fmt::format("**{}** — {}", symbol.path, words_of(symbol.kind));
+  std::string text = fmt::format("**{}** — {}", symbol.path, words_of(symbol));
+  if (!symbol.fleet.empty()) text += fmt::format(", one for each member of {}", code(symbol.fleet));
   if (!symbol.type.empty()) text += fmt::format("\n\n{}", code(symbol.type));
   if (const NamesOf* fields = index.fields_of(symbol.kind == Kind::type ? symbol.name : symbol.type))
     text += " " + code(fields_text(index, *fields));
-  if (symbol.kind == Kind::behaviour)
-    text += fmt::format(
-        "\n\nTransition function: `void {}(Context& context, const Inputs& in, Memory& memory, Outputs& "
-        "out)`",
-        symbol.name);
   if (const UnitNames* unit = index.unit_at(symbol.way); unit != nullptr && symbol.kind == Kind::behaviour)
-    text += inherited(document, symbol, *unit);
+    text += symbol.is_group ? about_group(document, id, *unit)
+                            : about_function(document, id, *unit) + inherited(document, symbol, *unit);
   if (symbol.kind == Kind::condition) {
     const Node& expression = node_at(document.outline(), symbol.way);
     if (expression.is_scalar()) text += "\n\n" + code(expression.text);
@@ -194,7 +222,7 @@ std::vector<Heading> headings(const Document& document) {
   const auto heading = [&](const auto& self, SymbolId id) -> Heading {
     const Symbol& symbol = symbols[id];
     Heading one{symbol.name,
-                symbol.type.empty() ? std::string(words_of(symbol.kind)) : symbol.type,
+                symbol.type.empty() ? std::string(words_of(symbol)) : symbol.type,
                 symbol.kind,
                 document.lines().range(symbol.whole),
                 document.lines().range(symbol.definition),

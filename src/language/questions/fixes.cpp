@@ -64,9 +64,10 @@ class Fixer {
   }
 
   const Symbol* behaviour_here(const UnitNames& unit, std::size_t offset) const {
-    for (const auto& [name, id] : unit.behaviours)
-      if (index_[id].whole.touches(offset)) return &index_[id];
-    return nullptr;
+    const Symbol* innermost = nullptr;
+    for (const SymbolId id : unit.all_behaviours())
+      if (index_[id].whole.touches(offset)) innermost = &index_[id];
+    return innermost;
   }
 
   /// Adds `key: value` to the map at `way`, in the style in which it is written.
@@ -91,7 +92,8 @@ class Fixer {
     const Symbol* behaviour = behaviour_here(unit, document_.lines().offset(at_.start));
     if (behaviour == nullptr) return;
     const Node& body = node_at(document_.outline(), behaviour->way);
-    const std::string entry = fmt::format("{{ to: {}, when: error }}", behaviour->name);
+    const std::string name = behaviour->fleet.empty() ? behaviour->name : '"' + behaviour->name + "[i]\"";
+    const std::string entry = fmt::format("{{ to: {}, when: error }}", name);
     const std::string title = fmt::format("After an error, run '{}' again", behaviour->name);
     const Node& next = body["next"];
     if (body.find("next") == nullptr)

@@ -205,6 +205,10 @@ std::initializer_list<std::string_view> keys_of(const Slot& slot, Diagnostics& o
   return !fit ? all_keys : slot.is_group ? keys_of_group : keys_of_behaviour;
 }
 
+std::initializer_list<std::string_view> known_keys(bool of_group) {
+  return of_group ? keys_of_group : keys_of_behaviour;
+}
+
 std::vector<SlotId> groups_around(const std::vector<Slot>& slots, SlotId innermost) {
   std::vector<SlotId> groups;
   for (SlotId at = innermost; at.valid(); at = slots[at.value].parent) groups.push_back(at);

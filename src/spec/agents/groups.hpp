@@ -35,6 +35,9 @@ inline constexpr std::size_t most_nested_groups = 8;
 /// The keys that it may have. Complains about those that only behaviours, or only groups, have. Errors: E344.
 [[nodiscard]] std::initializer_list<std::string_view> keys_of(const Slot& slot, Diagnostics& out);
 
+/// All keys of a group, or of a behaviour.
+[[nodiscard]] std::initializer_list<std::string_view> known_keys(bool of_group);
+
 /// The groups from the given one to the outermost, which comes first. innermost: may be none.
 [[nodiscard]] std::vector<SlotId> groups_around(const std::vector<Slot>& slots, SlotId innermost);
 

@@ -66,9 +66,9 @@ std::optional<language::Position> name_of_behaviour(const language::Document& do
   const language::Index& index = document.index();
   for (const language::DefinitionNames& definition : index.definitions())
     for (const language::UnitNames& unit : definition.units)
-      if (const auto found = unit.behaviours.find(name);
-          definition.name + "." + unit.name == subsystem && found != unit.behaviours.end())
-        return document.lines().position(index[found->second].definition.begin);
+      if (const auto found = unit.functions.find(name);
+          definition.name + "." + unit.name == subsystem && found != unit.functions.end())
+        return document.lines().position(index[found->second.back()].definition.begin);
   return std::nullopt;
 }
 
@@ -89,13 +89,19 @@ Sources::Renamed Sources::rename(const std::string& text, const language::Gramma
   const language::Document now(text, grammar);
   const auto here = name_of_behaviour(now, subsystem, function);
   if (!here) return {{}, Problem{"there is no behaviour " + subsystem + "." + function}};
-  const language::Renaming back = language::rename(now, nullptr, *here, {}, from);
+  // "charge_ask" in the group `charge`: only the last part is the name of the behaviour itself.
+  const std::size_t around =
+      function.size() - now.index()[now.index().at(now.lines().offset(*here))->symbol].name.size();
+  if (from.size() <= around || from.compare(0, around, function, 0, around) != 0)
+    return {{}, Problem{"there is no function " + from}};
+  const language::Renaming back = language::rename(now, nullptr, *here, {}, from.substr(around));
   if (back.problem) return {{}, Problem{*back.problem}};
   const language::Document before(language::edited(now, back.edits), grammar);
   const auto there = name_of_behaviour(before, subsystem, from);
   if (!there) return {{}, Problem{"there is no function " + from}};
   const std::vector<language::Source> sources = all();
-  const language::Renaming renaming = language::rename(before, nullptr, *there, sources, function);
+  const language::Renaming renaming =
+      language::rename(before, nullptr, *there, sources, function.substr(around));
   if (renaming.problem) return {{}, Problem{*renaming.problem}};
   Renamed renamed;
   std::vector<project::Replacement> files;

@@ -228,21 +228,25 @@ std::vector<KnownFacts::Question> KnownFacts::questions_of(std::span<const Token
 
 std::vector<KnownFacts::Values> KnownFacts::assignments(const Expressions& expressions,
                                                         spec::BehaviourId behaviour,
-                                                        const std::vector<const spec::Next*>& counted) const {
+                                                        const std::vector<const spec::Next*>& counted,
+                                                        const Expressions& last) const {
   std::vector<Values> all{{}};
   if (facts_.empty()) return all;
   std::vector<net::FactId> asked;
-  for (const spec::Expression* expression : expressions)
+  const auto ask = [&](const spec::Expression* expression) {
     each_part(*expression, [&](std::span<const Token> part) {
       for (const Question& question : questions_of(part, expression->member))
         if (question.fact.valid() && std::ranges::find(asked, question.fact) == asked.end())
           asked.push_back(question.fact);
     });
+  };
+  std::ranges::for_each(expressions, ask);
   for (const spec::Next* entry : counted)
     for (const spec::Change& change : entry->sets) {
       const net::FactId fact = fact_of(FactKind::memory, change.cell);
       if (change.step != 0 && std::ranges::find(asked, fact) == asked.end()) asked.push_back(fact);
     }
+  std::ranges::for_each(last, ask);
   std::size_t count = 1, kept = 0;
   while (kept < asked.size() && count * values_in(asked[kept], behaviour).size() <= most_assignments)
     count *= values_in(asked[kept++], behaviour).size();

@@ -47,9 +47,11 @@ class KnownFacts {
   /// All values of the facts that they ask for: one empty assignment if there are none. If there were more than
   /// `most_assignments`, the facts that are asked for last stay free choices.
   /// counted: entries of `next` among them, whose changes of counters are evaluated with the conditions.
+  /// last: further conditions, which ask after those.
   /// behaviour: in which they are evaluated; see values_in.
   [[nodiscard]] std::vector<Values> assignments(const Expressions& expressions, spec::BehaviourId behaviour,
-                                                const std::vector<const spec::Next*>& counted = {}) const;
+                                                const std::vector<const spec::Next*>& counted = {},
+                                                const Expressions& last = {}) const;
   static constexpr std::size_t most_assignments = 4096;
   /// The net knows the answers of any(...), all(...) and count(...) over at most so many members of a fleet.
   static constexpr std::uint32_t most_members = 4;

@@ -99,6 +99,21 @@ KnownFacts::Expressions expressions_of(const spec::Behaviour& behaviour) {
   return all;
 }
 
+/// Whether it matters for the list in which way the behaviour has ended: an entry, or the outcome that none holds,
+/// follows one of the two alone. t5 and t6 lead to the same place. So the list then asks what they asked, and an
+/// entry is drawn only for values with which the behaviour can end in a way that the entry follows.
+bool depends_on_ending(const spec::Behaviour& behaviour) {
+  const spec::Endings endings(behaviour);
+  if (behaviour.is_group() || !endings.possible(spec::Ending::terminal)) return false;
+  if (endings.none_possible(spec::Ending::terminal)) return true;
+  for (const spec::NextId entry : behaviour.next.ids()) {
+    const Condition::After follows =
+        after([&](spec::Ending ending) { return endings.taken(entry, ending) != spec::Truth::never; });
+    if (follows.terminal != follows.error) return true;
+  }
+  return false;
+}
+
 /// Whether a list has an entry for each of more members of a fleet than are looked at together.
 bool is_wide(const spec::Behaviour& behaviour) {
   return std::ranges::any_of(behaviour.next, [](const spec::Next& next) {
@@ -179,8 +194,12 @@ std::vector<Drawn> entries_of(const spec::Behaviour& behaviour, spec::BehaviourI
   std::vector<const spec::Next*> counted;
   for (const spec::Next& next : behaviour.next)
     if (next.may_be_blocked) counted.push_back(&next);
+  KnownFacts::Expressions of_ending;
+  if (depends_on_ending(behaviour))
+    for (const spec::Condition* condition : {&behaviour.terminal, &behaviour.error})
+      for (const spec::Expression& expression : condition->expressions) of_ending.push_back(&expression);
   const std::vector<KnownFacts::Values> assignments =
-      facts.assignments(expressions_of(behaviour), id, counted);
+      facts.assignments(expressions_of(behaviour), id, counted, of_ending);
   std::vector<Knowledge> knowledge;
   for (const KnownFacts::Values& values : assignments) {
     const auto allows = [&facts, values](const spec::Next& entry) { return facts.allows(entry, values); };

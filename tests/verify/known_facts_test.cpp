@@ -142,6 +142,35 @@ TEST(KnownFacts, TheNetOfAClientHasEachEndOfItsReceiveTwiceAndEntriesForTheAnswe
     }
 }
 
+/// A behaviour ends in one place, by t5 or t6. What the ending has asked decides which entry can follow.
+TEST(KnownFacts, AnEntryFollowsOnlyAnEndingThatIsPossibleWithTheKnownValues) {
+  struct Case {
+    const char *behaviour, *property;
+  };
+  for (const auto& [behaviour, property] : std::vector<Case>{
+           {"{ terminal: true, error: memory.m == v, next: [{ to: c, when: error }, b] }", "never c"},
+           {"{ terminal: true, error: { f: memory.m == v }, next: [{ to: c, when: f }, b] }", "never c"},
+           {"{ terminal: memory.m == v, error: memory.m == u, next: [{ to: b, when: error }, c] }", "never c"},
+           {"{ terminal: memory.m == v, next: [{ to: b, when: error }, c] }", "never c"},
+           {"{ terminal: memory.m == v, next: [{ to: b, when: error }, { to: b, when: elapsed > 1 s }] }",
+            "survives_exceptions"}}) {
+    const Proved all = proved(std::string(R"(tessera: 1
+system: endings
+agents:
+  a:
+    control:
+      rate: 20 Hz
+      memory: { m: { values: [u, v] } }
+      behaviours:
+        b: )") + behaviour + R"(
+        c: { next: { to: c, when: error } }
+properties:
+  - { name: never c, never: a.control.c }
+)");
+    EXPECT_EQ(all[property].verdict, Verdict::holds) << behaviour;
+  }
+}
+
 TEST(KnownFacts, TheFreeNetIsTheNetOfASpecificationThatAsksNothing) {
   const net::Net asks = flattened(lock("in.grant.fresh")), free = flattened(lock("memory.tired"));
   const std::optional<FreeNet> without = free_net(asks, {});

@@ -170,14 +170,18 @@ void find_facts(const FlatNet& net, int subsystem, const Asked& asked, std::vect
 }
 
 /// counters: facts that are asked for after those of the formulas.
+/// last: formulas that are asked after these.
 std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
                                           const std::vector<const Asked*>& all,
-                                          const std::vector<int>& counters = {}) {
+                                          const std::vector<int>& counters = {},
+                                          const std::vector<const Asked*>& last = {}) {
   std::vector<int> facts;
   for (const Asked* asked : all)
     find_facts(net, net.behaviours[static_cast<std::size_t>(behaviour)].subsystem, *asked, facts);
   for (const int fact : counters)
     if (std::find(facts.begin(), facts.end(), fact) == facts.end()) facts.push_back(fact);
+  for (const Asked* asked : last)
+    find_facts(net, net.behaviours[static_cast<std::size_t>(behaviour)].subsystem, *asked, facts);
   std::vector<std::map<int, int>> values{{}};
   for (const int fact : facts) {
     const std::size_t count = net.facts[static_cast<std::size_t>(fact)].values.size();
@@ -185,6 +189,20 @@ std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
     values = with_all_values(net, fact, values);
   }
   return values;
+}
+
+std::vector<const Asked*> asked_at_end(const Behaviour& behaviour) {
+  std::vector<const Asked*> all;
+  add_asked(behaviour.terminal, all);
+  add_asked(behaviour.error, all);
+  return all;
+}
+
+/// Whether some entry, or that none holds, follows one of the two endings alone, with nothing known.
+bool depends_on_ending(const FlatNet& net, int behaviour) {
+  const Ways ways = ways_of(net, behaviour, true, {});
+  return ways.terminal &&
+         (ways.after_terminal.entries != ways.after_error.entries || ways.after_terminal.none);
 }
 
 }  // namespace
@@ -213,11 +231,7 @@ Truth sends(const FlatNet& net, int behaviour, const Skip& skip, bool exceptions
 }
 
 std::vector<std::map<int, int>> values_of_ending(const FlatNet& net, int behaviour) {
-  const Behaviour& of = *net.behaviours[static_cast<std::size_t>(behaviour)].of;
-  std::vector<const Asked*> all;
-  add_asked(of.terminal, all);
-  add_asked(of.error, all);
-  return values_of(net, behaviour, all);
+  return values_of(net, behaviour, asked_at_end(*net.behaviours[static_cast<std::size_t>(behaviour)].of));
 }
 
 std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour) {
@@ -242,7 +256,8 @@ std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour
     for (const Change& change : changes)
       if (change.step != 0) counters.push_back(fact_of_cell(net, number, change.cell));
   }
-  return values_of(net, behaviour, all, counters);
+  return values_of(net, behaviour, all, counters,
+                   depends_on_ending(net, behaviour) ? asked_at_end(of) : std::vector<const Asked*>());
 }
 
 std::string suffix(const FlatNet& net, const std::map<int, int>& values) {

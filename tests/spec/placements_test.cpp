@@ -1,6 +1,7 @@
 // Models placed in the simulated world, expanded by fleet.
 
 #include <array>
+#include <cmath>
 #include <numbers>
 
 #include "spec_reading.hpp"
@@ -30,6 +31,19 @@ TEST(Placements, AGridIsFilledRowByRow) {
   EXPECT_DOUBLE_EQ(models[2].heading_rad, std::numbers::pi / 2);
   EXPECT_TRUE(models[2].is_agent);
   EXPECT_EQ(models[2].model, "cart.xml");
+}
+
+TEST(Placements, OnACircleTheyLookToTheCentre) {
+  const Reading reading(with_models(
+      R"("cart[*]": { model: cart.xml, circle: { at: [1, 0], radius: 2 m, from: 180 deg }, heading: 90 deg })"));
+  ASSERT_TRUE(reading.model) << reading.report();
+  const auto& models = reading.model->simulation->models;
+  ASSERT_EQ(models.size(), 3U);
+  EXPECT_NEAR(models[0].at_m->at(0), -1, 1e-12);
+  EXPECT_NEAR(models[0].heading_rad, std::numbers::pi / 2, 1e-12);
+  EXPECT_NEAR(models[1].at_m->at(0), 2, 1e-12);
+  EXPECT_NEAR(models[1].at_m->at(1), -std::sqrt(3), 1e-12);
+  EXPECT_NEAR(models[1].heading_rad, std::numbers::pi * 7 / 6, 1e-12);
 }
 
 TEST(Placements, AListHasOnePlaceForEach) {

@@ -140,6 +140,61 @@ TEST(EachMember, GivesTheNetOfTheSameWrittenOut) {
   EXPECT_EQ(transitions_of(once), transitions_of(out));
 }
 
+/// Asks one after the other. `next[i]`: where poll[i] leads; member 2 is the last.
+std::string polling(const std::string& behaviours, bool ring) {
+  std::string text = depot("3", R"(
+  dock:
+    control:
+      rate: 10 Hz
+      inputs: { request: "bool[each robot]", done: "bool[each robot]" }
+      outputs: { grant: "bool[each robot]" }
+      send: []
+      receive: []
+      behaviours:
+)" + behaviours + R"(
+channels:
+  - { from: "robot[i].control.request", to: "dock.control.request[i]", receive: blocking, timeout: 100 ms }
+  - { from: "robot[i].control.done", to: "dock.control.done[i]", receive: blocking, timeout: 100 ms }
+  - { from: "dock.control.grant[i]", to: "robot[i].control.grant", receive: blocking, timeout: 100 ms }
+)");
+  if (ring) text.insert(text.find("count: 3") + 8, ", ring: true");
+  return text;
+}
+
+/// "poll[0] -> poll[1]": where the behaviours `poll` of the dock lead.
+std::vector<std::string> leads(const std::string& text) {
+  const net::Net net = flattened(text);
+  const auto behaviour = [](const net::Net& all, net::PlaceId place) {
+    const std::string name = all[place].name.substr(std::string("dock.control.").size());
+    return name.substr(0, name.find('.'));
+  };
+  std::vector<std::string> found;
+  for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
+    const net::TransitionId id{index};
+    if (net[id].role != Step::leave || !net[id].name.starts_with("dock")) continue;
+    const std::string from = behaviour(net, net.preset(id).front().place);
+    const std::string to = behaviour(net, net.postset(id).front().place);
+    if (from.starts_with("poll") && to != "out") found.push_back(from + " -> " + to);  // out: a failure
+  }
+  std::ranges::sort(found);
+  return found;
+}
+
+TEST(EachMember, LeadsToItsNeighbour) {
+  const std::string poll =
+      "        poll: { for: each robot, receive: [\"request[i]\"], terminal: true, next: ";
+  const std::vector<std::string> round{"poll[0] -> poll[1]", "poll[1] -> poll[2]", "poll[2] -> poll[0]"};
+  EXPECT_EQ(leads(polling(poll + R"("poll[i+1]" })", /*ring=*/true)), round);
+  EXPECT_EQ(leads(polling(poll + R"(["poll[i+1]", "poll[0]"] })", /*ring=*/false)), round);
+  // Backwards, and farther than the fleet is long.
+  EXPECT_EQ(leads(polling(poll + R"("poll[i - 5]" })", /*ring=*/true)), round);
+  EXPECT_EQ(leads(polling(poll + R"(["poll[i-2]", "poll[i+1]", "poll[0]"] })", /*ring=*/false)), round);
+  // Once through the fleet, then something else.
+  const std::string rest = "        rest: { terminal: true, next: \"poll[0]\" }\n";
+  EXPECT_EQ(leads(polling(rest + poll + R"(["poll[i+1]", rest] })", /*ring=*/false)),
+            (std::vector<std::string>{"poll[0] -> poll[1]", "poll[1] -> poll[2]", "poll[2] -> rest"}));
+}
+
 TEST(EachMember, IsKnownToProofs) {
   for (const char* count : {"1", "2"}) {
     const Proved all = proved(depot(count, std::string(written_once) + R"yaml(

@@ -1,13 +1,13 @@
 #include "spec/agents/behaviours.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
 #include "spec/agents/groups.hpp"
+#include "spec/agents/neighbours.hpp"
 #include "spec/agents/sending.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
@@ -19,10 +19,6 @@ namespace tessera::spec {
 namespace {
 
 using diagnostics::in_quotes;
-
-/// Names that the generated code uses beside the transition functions.
-constexpr std::array generated =
-    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
 
 constexpr const char* next_hint = "write a behaviour, or a list such as [{ to: search, when: error }, end]";
 
@@ -40,7 +36,7 @@ class BehaviourReader {
       : slots_(slots_of(entries, out)), scope_(scope), defaults_(defaults), out_(&out) {
     for (std::size_t number = 0; number < slots_.size(); ++number) {
       const Slot& slot = slots_[number];
-      check(*slot.entry);
+      static_cast<void>(check_behaviour_name(slot.entry->key, slot.entry->span, *out_));
       Written written{&slot, {count_}, std::nullopt, {}, {}};
       if (const Entry* each = entry_of(*slot.entry, "for"))
         if (may_be_for(slot, *each)) written.each = read_for(*each, fleets);
@@ -114,17 +110,6 @@ class BehaviourReader {
     ConditionScope scope = scope_;
     scope.member = member;
     return scope;
-  }
-
-  void check(const Entry& entry) {
-    if (entry.key == "end") {
-      out_->error("E106", entry.span, "behaviour name 'end' is reserved", "'next: end' ends the subsystem");
-    } else if (std::find(generated.begin(), generated.end(), entry.key) != generated.end()) {
-      out_->error("E106", entry.span,
-                  "behaviour name " + in_quotes(entry.key) + " is taken by the generated code");
-    } else {
-      check_name(entry.key, entry.span, "behaviour", *out_);
-    }
   }
 
   /// Finds where a group begins. A behaviour that begins there begins with the group, and changes memory then.
@@ -249,13 +234,14 @@ class BehaviourReader {
       return;
     }
     behaviour.next_given = true;
+    neighbours_.clear();
     if (!entry->value->is_sequence()) {
       read_step(*entry->value, entry->span, scope, behaviour, parent);
-      return;
-    }
-    if (entry->value->items.empty()) out_->error("E104", entry->span, "'next' lists nothing", next_hint);
+    } else if (entry->value->items.empty())
+      out_->error("E104", entry->span, "'next' lists nothing", next_hint);
     for (const Node* item : entry->value->items)
       read_step(*item, item->is_null() ? entry->span : item->span, scope, behaviour, parent);
+    choose_neighbours(neighbours_, behaviour, *out_);
   }
 
   /// One item of `next`. It is an entry for each member if it leads to lend[i] from outside.
@@ -271,7 +257,7 @@ class BehaviourReader {
     Target target{at, nullptr, {}};
     if (to != nullptr) target = read_target(*to->value, to->span, parent);
     const bool fans_out = target.written != nullptr && target.written->each && scope.member == nullptr &&
-                          target.name.index == IndexedName::Index::variable;
+                          target.name.index == IndexedName::Index::variable && !target.name.is_neighbour();
     if (!fans_out) {
       add_step(target, section.find("when"), section.find("sets"), scope, behaviour);
       return;
@@ -299,7 +285,7 @@ class BehaviourReader {
   void add_step(const Target& target, const Entry* when, const Entry* sets, const ConditionScope& scope,
                 Behaviour& behaviour) {
     Next step{{}, {}, target.span};
-    step.behaviour = behaviour_of(target, scope.member);
+    step.behaviour = behaviour_of(target, scope.member, behaviour.next.next_id());
     if (when != nullptr) step.when = read_when(*when, behaviour, scope, defaults_.conditions, *out_);
     step.sets = read_changes(sets, scope_.memory, scope.member, *out_);
     if (step.behaviour.valid()) {
@@ -340,12 +326,17 @@ class BehaviourReader {
   }
 
   /// The behaviour to which an entry leads; none: `end`, or an error.
-  BehaviourId behaviour_of(const Target& target, const Member* member) {
+  BehaviourId behaviour_of(const Target& target, const Member* member, NextId entry) {
     if (target.written == nullptr) return {};
     const Written& to = *target.written;
     if (!to.each) return check_single(target.name, "behaviour", *out_) ? to.first : BehaviourId{};
-    const auto number =
-        number_of(target.name, to.each->member(to.slot->entry->key, 0), member, "behaviour", *out_);
+    IndexedName own = target.name;
+    const std::int64_t offset = std::exchange(own.offset, 0);
+    auto number = number_of(own, to.each->member(to.slot->entry->key, 0), member, "behaviour", *out_);
+    if (number && offset != 0 && !to.each->fleet.empty()) {
+      number = to.each->neighbour(*number, offset);
+      if (!to.each->ring) neighbours_.push_back({entry.value, target.name, *to.each, number.has_value()});
+    }
     return number ? BehaviourId{to.first.value + *number} : BehaviourId{};
   }
 
@@ -382,7 +373,8 @@ class BehaviourReader {
   std::map<std::pair<SlotId, std::string>, std::size_t> by_name_;  // in each group; into written_
   std::uint32_t count_ = 0;                                        // behaviours of the subsystem
   ReadBehaviours read_;
-  std::vector<ListedOption> options_;  // of the list that was read last
+  std::vector<ListedOption> options_;       // of the list that was read last
+  std::vector<NeighbourEntry> neighbours_;  // of the list `next` that is read
 };
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 #include <optional>
 
 #include "diagnostics/utf8.hpp"
@@ -43,6 +44,25 @@ struct Grid {
   }
 };
 
+/// The models of which the first stands at the angle `from`, the others to the left of it, as seen from the centre.
+struct Circle {
+  Point at{};
+  double radius_m = 1, from_rad = 0;
+
+  [[nodiscard]] double angle(std::uint32_t number, std::uint32_t count) const {
+    return from_rad + 2 * std::numbers::pi * number / count;
+  }
+  [[nodiscard]] Point point(double angle) const {
+    return {at[0] + radius_m * std::cos(angle), at[1] + radius_m * std::sin(angle), at[2]};
+  }
+};
+
+/// One point for each member, one for all, or none; and what is added to the heading of each.
+struct Places {
+  std::vector<Point> points;
+  std::vector<double> turned_rad{};  ///< empty: nothing
+};
+
 class PlacementReader {
  public:
   PlacementReader(const Model& model, const AgentGroups& groups, Diagnostics& out)
@@ -55,16 +75,16 @@ class PlacementReader {
 
  private:
   void read_one(const Entry& entry) {
-    const Section section(*entry.value, entry.span, "a placed model",
-                          {"model", "at", "heading", "grid", "scatter", "apart", "count", "pose", "vary"},
-                          out_);
+    const Section section(
+        *entry.value, entry.span, "a placed model",
+        {"model", "at", "heading", "grid", "circle", "scatter", "apart", "count", "pose", "vary"}, out_);
     if (!section.readable()) return;
     const auto members = members_of(entry, section);
     ModelPlacement common;
     common.span = entry.span;
     read_common(section, common);
     if (!members) return;
-    const std::vector<Point> points = read_points(section, *members);
+    const auto [points, turned] = read_places(section, *members);
     const std::vector<double> headings = read_headings(section, *members);
     for (std::uint32_t number = 0; number < members->count; ++number) {
       ModelPlacement one = common;
@@ -72,6 +92,7 @@ class PlacementReader {
       one.is_agent = members->is_agent;
       if (!points.empty()) one.at_m = points[std::min<std::size_t>(number, points.size() - 1)];
       if (!headings.empty()) one.heading_rad = headings[std::min<std::size_t>(number, headings.size() - 1)];
+      if (!turned.empty()) one.heading_rad += turned[number];
       if (!is_first(one)) return;
       placements_.push_back(std::move(one));
     }
@@ -186,12 +207,11 @@ class PlacementReader {
     }
   }
 
-  /// One point for each member, one for all, or none.
-  std::vector<Point> read_points(const Section& section, const Members& members) {
+  Places read_places(const Section& section, const Members& members) {
     const Entry *const at = section.find("at"), *const grid = section.find("grid"),
-                       *const scatter = section.find("scatter");
+                       *const circle = section.find("circle"), *const scatter = section.find("scatter");
     const Entry* first = nullptr;
-    for (const Entry* way : {at, grid, scatter}) {
+    for (const Entry* way : {at, grid, circle, scatter}) {
       if (way == nullptr) continue;
       if (first != nullptr)
         out_.error("E107", way->span, "a model is placed in one way",
@@ -202,10 +222,11 @@ class PlacementReader {
     if (first == nullptr && members.count > 1)
       out_.error("E103", section.find("model") != nullptr ? section.find("model")->span : Span{},
                  std::to_string(members.count) + " models need places",
-                 "write grid, scatter, or a list for `at`");
-    if (first == at && at != nullptr) return read_at(*at, members);
-    if (first == grid && grid != nullptr) return read_grid(*grid, members);
-    return {};
+                 "write grid, circle, scatter, or a list for `at`");
+    if (first == nullptr || first == scatter) return {};
+    if (first == at) return {read_at(*at, members)};
+    if (first == grid) return {read_grid(*grid, members)};
+    return read_circle(*circle, members);
   }
 
   std::vector<Point> read_at(const Entry& at, const Members& members) {
@@ -224,7 +245,7 @@ class PlacementReader {
     if (!point) return {};
     if (members.count > 1)
       out_.error("E307", at.span, "1 place for " + std::to_string(members.count) + " models",
-                 "write grid, scatter, or a list of places");
+                 "write grid, circle, scatter, or a list of places");
     return {*point};
   }
 
@@ -267,6 +288,29 @@ class PlacementReader {
     std::vector<Point> points;
     for (std::uint32_t number = 0; number < members.count; ++number) points.push_back(grid.point(number));
     return points;
+  }
+
+  Places read_circle(const Entry& entry, const Members& members) {
+    const Section section(*entry.value, entry.span, "a circle", {"at", "radius", "from"}, out_);
+    if (!section.readable()) return {};
+    Circle circle;
+    if (const Entry* at = section.find("at"))
+      circle.at = read_point(*at->value, at->span).value_or(circle.at);
+    if (const Entry* radius = section.require("radius", "for example radius: 1.2 m")) {
+      const auto length = read_length(*radius->value, radius->span, "radius", out_);
+      if (length && *length <= 0) out_.error("E206", radius->value->span, "radius must be positive");
+      circle.radius_m = length.value_or(circle.radius_m);
+    }
+    if (const Entry* from = section.find("from"))
+      circle.from_rad = read_angle(*from->value, from->span, "from", out_).value_or(0);
+    Places places;
+    for (std::uint32_t number = 0; number < members.count; ++number) {
+      const double angle = circle.angle(number, members.count);
+      places.points.push_back(circle.point(angle));
+      places.turned_rad.push_back(
+          std::remainder(angle + std::numbers::pi, 2 * std::numbers::pi));  // to the centre
+    }
+    return places;
   }
 
   std::vector<double> read_headings(const Section& section, const Members& members) {

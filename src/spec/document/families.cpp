@@ -14,6 +14,7 @@ using diagnostics::in_quotes;
 
 constexpr std::string_view each_word = "each";
 constexpr std::uint32_t largest_fleet_size = 100'000;  // as fleets.cpp has it
+constexpr std::int64_t largest_offset = 1'000'000;     // more than any fleet has
 
 const Entry* key_of(const Node& agent, std::string_view key) {
   const auto found = std::ranges::find(agent.entries, key, &Entry::key);
@@ -27,6 +28,11 @@ std::uint32_t count_in(const Node& text) {
   const auto [stop, error] = std::from_chars(text.text.data(), end, count);
   const bool good = stop == end && error == std::errc() && count >= 1 && count <= largest_fleet_size;
   return good ? count : 1;
+}
+
+bool is_ring(const Node& agent) {
+  const Entry* ring = key_of(agent, "ring");
+  return ring != nullptr && ring->value->text == "true" && !ring->value->quoted;
 }
 
 bool is_blank_letter(char letter) { return letter == ' ' || letter == '\t'; }
@@ -45,11 +51,13 @@ FleetSizes::FleetSizes(const Entry* agents) {
   for (const Entry& agent : agents->value->entries) {
     const Entry* count = key_of(*agent.value, "count");
     const bool is_fleet = count != nullptr && key_of(*agent.value, "use") != nullptr;
-    sizes_.emplace(agent.key, is_fleet ? std::optional(count_in(*count->value)) : std::nullopt);
+    sizes_.emplace(agent.key, is_fleet
+                                  ? std::optional(FleetSize{count_in(*count->value), is_ring(*agent.value)})
+                                  : std::nullopt);
   }
 }
 
-std::optional<std::uint32_t> FleetSizes::find(const std::string& name) const {
+std::optional<FleetSize> FleetSizes::find(const std::string& name) const {
   const auto found = sizes_.find(name);
   return found == sizes_.end() ? std::nullopt : found->second;
 }
@@ -64,6 +72,13 @@ std::vector<std::string> FleetSizes::names() const {
   for (const auto& [name, count] : sizes_)
     if (count) all.push_back(name);
   return all;
+}
+
+std::optional<std::uint32_t> EachMember::neighbour(std::uint32_t number, std::int64_t offset) const {
+  const std::int64_t size = count;
+  const std::int64_t at = number + offset % (ring ? size : largest_offset);
+  if (ring) return static_cast<std::uint32_t>((at + size) % size);
+  return at >= 0 && at < size ? std::optional(static_cast<std::uint32_t>(at)) : std::nullopt;
 }
 
 bool says_each(std::string_view text) {
@@ -89,7 +104,7 @@ std::optional<EachMember> read_each(const Node& text, std::size_t offset, std::s
   }
   const std::string fleet(name);
   if (fleets != nullptr)
-    if (const auto count = fleets->find(fleet)) return EachMember{fleet, *count};
+    if (const auto size = fleets->find(fleet)) return EachMember{fleet, size->count, size->ring};
   if (fleets != nullptr && fleets->is_one_agent(fleet)) {
     out.error("E285", span(name), in_quotes(fleet) + " is one agent, not a fleet",
               "make it a template with a count: " + fleet + ": { use: NAME, count: 2 }");
@@ -112,6 +127,25 @@ std::optional<EachInType> each_in(std::string_view type) {
   return std::nullopt;
 }
 
+namespace {
+
+/// "i", "i+1", "i - 2": what is added to i.
+std::optional<std::int64_t> offset_in(std::string_view index) {
+  if (!index.starts_with('i')) return std::nullopt;
+  index = trimmed(index.substr(1));
+  if (index.empty()) return 0;
+  const char sign = index.front();
+  const std::string_view digits = trimmed(index.substr(1));
+  std::int64_t offset = 0;
+  const char* const end = digits.data() + digits.size();
+  const auto [stop, error] = std::from_chars(digits.data(), end, offset);
+  const bool good = (sign == '+' || sign == '-') && !digits.empty() && digits.front() != '-' && stop == end &&
+                    error == std::errc() && offset < largest_offset;
+  return good ? std::optional(sign == '-' ? -offset : offset) : std::nullopt;
+}
+
+}  // namespace
+
 std::optional<IndexedName> read_indexed(const Node& text, std::size_t offset, Diagnostics& out) {
   const std::string_view all = std::string_view(text.text).substr(offset);
   IndexedName read;
@@ -122,8 +156,9 @@ std::optional<IndexedName> read_indexed(const Node& text, std::size_t offset, Di
   const std::string_view written = all.substr(open + 1, all.size() - open - 2);
   const std::string_view index = trimmed(written);
   read.index_span = text.part(offset + open + 1, std::max<std::size_t>(written.size(), 1));
-  if (index == "i") {
+  if (const auto offset = offset_in(index)) {
     read.index = IndexedName::Index::variable;
+    read.offset = *offset;
     return read;
   }
   const char* const end = index.data() + index.size();
@@ -160,6 +195,11 @@ std::optional<std::uint32_t> number_of(const IndexedName& name, const Member& fa
     out.error("E288", name.index_span, "'i' stands for no member here",
               "it does within a behaviour with 'for: each " + family.fleet +
                   "', and in an entry of 'next' that leads to such a behaviour");
+    return std::nullopt;
+  }
+  if (member->fleet == family.fleet && name.is_neighbour()) {
+    out.error("E289", name.index_span, "only an entry of 'next' leads to another member than i",
+              "write " + name.name + "[i], or " + name.name + "[0]");
     return std::nullopt;
   }
   if (member->fleet == family.fleet) return member->number;

@@ -12,6 +12,10 @@ namespace {
 
 constexpr std::size_t longest_name = 64;
 
+/// Names that the generated code uses beside the transition functions.
+constexpr std::array beside_functions =
+    std::to_array<std::string_view>({"Context", "Inputs", "Outputs", "Memory", "Parameters", "Real"});
+
 constexpr std::array keywords = std::to_array<std::string_view>(
     {"alignas",     "alignof",  "and",        "and_eq",    "asm",       "auto",         "bitand",
      "bitor",       "bool",     "break",      "case",      "catch",     "char",         "char16_t",
@@ -104,6 +108,18 @@ bool check_system_name(std::string_view name, diagnostics::Span span, diagnostic
   if (!is_global_name(name)) return true;
   out.error("E106", span, "system name " + diagnostics::in_quotes(name) + " is taken by the C or C++ library",
             with_agent_number(name));
+  return false;
+}
+
+bool check_behaviour_name(std::string_view name, diagnostics::Span span, diagnostics::Diagnostics& out) {
+  const bool is_generated = std::ranges::find(beside_functions, name) != beside_functions.end();
+  if (name == "end")
+    out.error("E106", span, "behaviour name 'end' is reserved", "'next: end' ends the subsystem");
+  else if (is_generated)
+    out.error("E106", span,
+              "behaviour name " + diagnostics::in_quotes(name) + " is taken by the generated code");
+  else
+    return check_name(name, span, "behaviour", out);
   return false;
 }
 

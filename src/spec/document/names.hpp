@@ -17,6 +17,11 @@ bool check_name(std::string_view name, diagnostics::Span span, std::string_view 
 /// The same for the name of the system, which becomes a namespace beside the functions of the C library.
 bool check_system_name(std::string_view name, diagnostics::Span span, diagnostics::Diagnostics& out);
 
+/// The same for the name of a behaviour, which becomes a function beside the types of its subsystem.
+///
+/// Errors: also E106 `end`.
+bool check_behaviour_name(std::string_view name, diagnostics::Span span, diagnostics::Diagnostics& out);
+
 /// A letter or underscore, then letters, digits and underscores.
 [[nodiscard]] bool is_identifier(std::string_view text);
 

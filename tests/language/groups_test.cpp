@@ -2,7 +2,11 @@
 
 #include <gmock/gmock.h>
 
+#include <nlohmann/json.hpp>
+
 #include "examples.hpp"
+#include "language/edits/edit_json.hpp"
+#include "language/edits/edits.hpp"
 #include "language/names/sources.hpp"
 #include "spec/parser.hpp"
 
@@ -224,6 +228,65 @@ TEST(Groups, StandNestedInTheOutline) {
   EXPECT_EQ(find(find(all, "carrier")->inside, "control") != nullptr, true);
   EXPECT_EQ(find(find(find(all, "carrier")->inside, "control")->inside, "charge")->detail,
             "group of behaviours");
+}
+
+std::string moved_text(const std::string& in, const std::string& at, const std::string& group) {
+  const auto read = edits_of(
+      nlohmann::ordered_json::parse(R"([{"do":"move","at":)" + at + R"(,"text":")" + group + "\"}]"));
+  EXPECT_TRUE(read) << at;
+  const Document document(in, grammar());
+  const Renaming done = edit(document, *read, {});
+  return done.problem ? "refused: " + *done.problem : edited(document, done.edits);
+}
+
+const std::string in_control = R"("templates","carrier","control","behaviours")";
+
+TEST(Groups, BehavioursAreMovedWithTheirComments) {
+  const std::string commented =
+      replaced_in(grouped, "            retreat: {", "            # back off\n            retreat: {");
+  const std::string retreat = "[" + in_control + R"(,"charge","behaviours","retreat"])";
+  const std::string out = moved_text(commented, retreat, "");
+  EXPECT_THAT(
+      out,
+      HasSubstr(
+          "        safe: {}\n        # back off\n        retreat: { terminal: true, next: ask }\nagents:"));
+  EXPECT_EQ(moved_text(out, "[" + in_control + R"(,"retreat"])", "charge"), commented);
+  EXPECT_THAT(moved_text(commented, retreat, "charge.dock"),
+              HasSubstr("                roll: { terminal: true, next: end }\n                # back off\n   "
+                        "             retreat: {"));
+  const std::string group = moved_text(grouped, "[" + in_control + R"(,"charge","behaviours","dock"])", "");
+  EXPECT_THAT(group, HasSubstr("        safe: {}\n        dock:\n          next: end\n          "
+                               "behaviours:\n            turn: {"));
+}
+
+TEST(Groups, AMoveThatWouldLoseSomethingIsRefused) {
+  const std::string charge = "[" + in_control + R"(,"charge"])";
+  EXPECT_THAT(moved_text(grouped, charge, "charge.dock"),
+              HasSubstr("refused: a group cannot stand in itself"));
+  EXPECT_THAT(moved_text(grouped, "[" + in_control + R"(,"work"])", "nowhere"),
+              HasSubstr("refused: the text has changed"));
+  const std::string twice = replaced_in(grouped, "turn: {", "work: {");
+  EXPECT_THAT(moved_text(twice, "[" + in_control + R"(,"work"])", "charge.dock"),
+              HasSubstr("refused: 'work' is taken there"));
+  const std::string alone = replaced_in(grouped, "                roll: { terminal: true, next: end }\n", "");
+  EXPECT_THAT(
+      moved_text(alone, "[" + in_control + R"(,"charge","behaviours","dock","behaviours","turn"])", ""),
+      HasSubstr("is all that the group has"));
+}
+
+TEST(Groups, ARemovedBehaviourTakesTheEntriesOfItsGroupThatNameIt) {
+  const auto read = edits_of(nlohmann::ordered_json::parse(R"([{"do":"remove","at":[)" + in_control +
+                                                           R"(,"charge","behaviours","ask"]}])"));
+  const Document document(grouped, grammar());
+  const Renaming done = edit(document, *read, {});
+  EXPECT_EQ(done.problem, std::nullopt);
+  EXPECT_THAT(edited(document, done.edits),
+              AllOf(Not(HasSubstr("start: ask")), Not(HasSubstr("next: ask")),
+                    HasSubstr("retreat: { terminal: true }"), HasSubstr("dock:\n")));
+  const auto each = edits_of(nlohmann::ordered_json::parse(
+      R"([{"do":"remove","at":["agents","desk","control","behaviours","lend"]}])"));
+  const Renaming gone = edit(document, *each, {});
+  EXPECT_THAT(edited(document, gone.edits), HasSubstr("next: [wait]"));
 }
 
 TEST(Members, HaveAnIndexInProposals) {

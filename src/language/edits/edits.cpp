@@ -45,6 +45,7 @@ bool changed(const Document& document, TextEditor& editor, const Edit& edit) {
       return next_changed(editor, edit);
     case Edit::Kind::make_template:
       return make_template(editor, edit.at);
+    case Edit::Kind::move:
     case Edit::Kind::rename:
       break;
   }
@@ -57,6 +58,7 @@ std::optional<std::string> problem_with(const Document& document, TextEditor& ed
     return fmt::format("'{}' is there already", edit.key);
   if (edit.kind == Edit::Kind::remove)
     if (std::optional<std::string> why = needed_by(document, editor, edit.at)) return why;
+  if (edit.kind == Edit::Kind::move) return move_to_group(editor, edit.at, edit.text);
   if (changed(document, editor, edit)) return std::nullopt;
   if (edit.kind == Edit::Kind::make_template)
     return "the agent is written in one line, with anchors, or beside templates of another layout: "

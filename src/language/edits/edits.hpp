@@ -25,6 +25,7 @@ struct Edit {
     channel,  ///< some of the same fields, or model, of the channel `at`
     next,     ///< `fields` to, when and sets of the entry `key` of the behaviour `at`; no key: a new one
     make_template,  ///< of the agent `at`
+    move,           ///< the behaviour `at` to the group `text`, "charge.dock"; empty: to the subsystem itself
   } kind = Kind::set;
   Path at;
   std::string key;

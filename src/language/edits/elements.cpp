@@ -109,8 +109,10 @@ void add_uses_of_behaviour(const TextEditor& editor, const Path& at, std::vector
     if (other == name) continue;
     const std::vector<Path> entries = next_entries(editor, behaviours / other);
     std::vector<Path> gone;
-    std::ranges::copy_if(entries, std::back_inserter(gone),
-                         [&](const Path& entry) { return read_entry(editor, entry).to == name; });
+    std::ranges::copy_if(entries, std::back_inserter(gone), [&](const Path& entry) {
+      const std::string to = read_entry(editor, entry).to;
+      return to.substr(0, to.find('[')) == name;  // lend[i]
+    });
     if (!gone.empty() && gone.size() == entries.size()) gone = {behaviours / other / "next"};
     paths.insert(paths.end(), gone.begin(), gone.end());
   }

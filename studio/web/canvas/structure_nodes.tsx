@@ -2,8 +2,8 @@ import { Handle, Position, useStore as useFlow, type NodeProps } from "@xyflow/r
 import { Fragment, type CSSProperties } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useRunning } from "../hooks/use_stage";
-import type { Agent, Buffer, Subsystem } from "../model/structure/structure";
-import { chipWidth, head, ports, row } from "../model/structure/structure_layout";
+import { behavioursIn, withoutIndex, type Agent, type Buffer, type Subsystem } from "../model/structure/structure";
+import { chipText, chipWidth, head, ports, row } from "../model/structure/structure_layout";
 import { linesIn } from "./detail";
 
 interface Complaint {
@@ -98,23 +98,51 @@ export function SubsystemNode({ data, height = 0 }: NodeProps) {
         <Ports buffers={of("output")} selected={selected} side="out" />
       </div>
       <div className="chips">
-        {subsystem.behaviours.map((behaviour) => (
-          <button
-            key={behaviour.name}
-            style={{ width: chipWidth(behaviour, subsystem) }}
-            className={`chip${now === behaviour.name ? " running" : ""}`}
-            data-path={behaviour.path}
-            aria-pressed={selected === behaviour.path}
-            title={behaviour.name}
-            aria-label={`behaviour ${behaviour.name}${now === behaviour.name ? ", running" : ""}`}
-          >
-            {behaviour.name}
-            <Flag of={complaints.get(behaviour.path)} />
-          </button>
-        ))}
+        <Chips subsystem={subsystem} group="" selected={selected} complaints={complaints} now={now && withoutIndex(now)} />
       </div>
     </div>
   );
+}
+
+/** The behaviours of a subsystem or of a group. A group stands on lines of its own, with what is in it. */
+function Chips({
+  subsystem,
+  group,
+  ...shown
+}: {
+  subsystem: Subsystem;
+  group: string;
+  selected: string | null;
+  complaints: ReadonlyMap<string, Complaint>;
+  now: string | undefined;
+}) {
+  return behavioursIn(subsystem, group).map((behaviour) => {
+    const { selected, complaints, now } = shown;
+    const own = behaviour.path.slice(subsystem.path.length + 1);
+    const runs = now === own || (behaviour.isGroup && now?.startsWith(`${own}.`));
+    const what = behaviour.isGroup ? "group" : "behaviour";
+    const chip = (
+      <button
+        key={behaviour.path}
+        style={{ width: chipWidth(behaviour, subsystem) }}
+        className={`chip${behaviour.isGroup ? " group" : ""}${runs ? " running" : ""}`}
+        data-path={behaviour.path}
+        aria-pressed={selected === behaviour.path}
+        title={behaviour.for ? `${own}, for ${behaviour.for}` : own}
+        aria-label={`${what} ${own}${runs ? ", running" : ""}`}
+      >
+        {chipText(behaviour)}
+        <Flag of={complaints.get(behaviour.path)} />
+      </button>
+    );
+    if (!behaviour.isGroup) return chip;
+    return (
+      <div key={behaviour.path} className="chip-group">
+        {chip}
+        <Chips subsystem={subsystem} group={behaviour.path} {...shown} />
+      </div>
+    );
+  });
 }
 
 function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: string | null; side: "in" | "out" }) {

@@ -404,7 +404,7 @@ export interface FunctionShown {
 }
 /** Does something with one part of a specification (src/language/edits/edits.hpp). */
 export interface Edit {
-  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template";
+  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template" | "move";
   at?: EditPath;
   key?: string;
   text?: string;

@@ -55,8 +55,8 @@ export function runningBehaviours(net: NetModel, marking: Marking): Map<number, 
   marking.forEach((tokens, index) => {
     if (tokens === 0) return;
     const place = net.places.at(index)!;
-    const behaviour = place.subsystem === null ? null : net.behaviourOf(place.page);
-    if (behaviour) running.set(place.subsystem!, behaviour.name);
+    const behaviour = place.subsystem === null ? undefined : net.behaviourName(place.page);
+    if (behaviour) running.set(place.subsystem!, behaviour);
   });
   return running;
 }

@@ -155,6 +155,20 @@ export class NetModel {
     return null;
   }
 
+  /** The name of that behaviour, with the groups around it: "charge.ask". */
+  behaviourName(page: number | null): string | undefined {
+    const own = this.behaviourOf(page);
+    if (!own) return undefined;
+    let name = own.name;
+    for (let at = own.parent; at !== null; at = this.page(at).parent) {
+      const { parent, layer } = this.page(at);
+      // The page of a group is of the layer of subsystems, and stands in one of it.
+      if (layer !== "subsystem" || parent === null || this.page(parent).layer !== "subsystem") break;
+      name = `${this.page(at).name}.${name}`;
+    }
+    return name;
+  }
+
   /** The subsystem pages, in the order of the specification. */
   subsystemPages(): number[] {
     return this.elements.subsystemPages();

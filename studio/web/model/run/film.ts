@@ -87,7 +87,7 @@ function runningOn(net: NetModel, drawn: Drawn, from: Marking) {
     if (count === 0) return null;
     const { subsystem, page } = net.places.at(place)!;
     if (subsystem === null || !pages.has(subsystem)) return null;
-    const behaviour = net.behaviourOf(page)?.name;
+    const behaviour = net.behaviourName(page);
     if (behaviour === undefined) return null;
     const inside = tokens.get(subsystem) ?? new Map<string, number>();
     tokens.set(subsystem, inside.set(behaviour, (inside.get(behaviour) ?? 0) + count));

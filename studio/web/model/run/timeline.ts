@@ -18,6 +18,14 @@ export interface Lane {
   since: number;
 }
 
+/** The names of the behaviours on a page, also of those in groups. */
+const behaviourNames = (net: NetModel, page: number): string[] =>
+  net
+    .children(page)
+    .flatMap((child) =>
+      net.page(child).layer === "subsystem" ? behaviourNames(net, child) : (net.behaviourName(child) ?? net.page(child).name),
+    );
+
 /** The number of segments that are kept in an endless run. */
 const most = 20_000;
 
@@ -37,7 +45,7 @@ export class Timeline {
     this.lanes = net.subsystemPages().map((page, lane) => {
       const { path, subsystem } = net.page(page);
       if (subsystem !== null) this.laneOf.set(subsystem, lane);
-      const behaviours = net.children(page).map((child) => net.page(child).name);
+      const behaviours = behaviourNames(net, page);
       return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours, since: -Infinity };
     });
   }
@@ -46,7 +54,7 @@ export class Timeline {
     let known = this.entered.get(transition);
     if (known === undefined) {
       const pages = this.net.transitions.at(transition)!.outputs.map(({ place }) => this.net.places.at(place)!.page);
-      known = pages.map((page) => this.net.behaviourOf(page)?.name).find(Boolean) ?? "";
+      known = pages.map((page) => this.net.behaviourName(page)).find(Boolean) ?? "";
       this.entered.set(transition, known);
     }
     return known;

@@ -18,9 +18,17 @@ export interface Buffer {
   yaml: YamlPath;
   line: number;
 }
+/** A behaviour, or a group of behaviours, which stands before what is in it. */
 export interface Behaviour {
   name: string;
   path: string;
+  /** The path of the group that it is in; empty: it is in the subsystem itself. */
+  group: string;
+  isGroup: boolean;
+  /** The function in C++: "charge_ask". */
+  function: string;
+  /** "each robot": there is one for each member of a fleet; empty: it is one. */
+  for: string;
   yaml: YamlPath;
   line: number;
   terminal: string;
@@ -39,6 +47,7 @@ export interface Subsystem {
   endLine: number;
   rate: string;
   start: string;
+  /** Also those in groups, in the order of the file. */
   behaviours: Behaviour[];
   buffers: Buffer[];
 }
@@ -176,7 +185,7 @@ function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: Y
       };
     }),
   );
-  const behaviours = yaml.keys([...at, "behaviours"]).map((own) => readBehaviour(yaml, path, [...at, "behaviours", own]));
+  const behaviours = readBehaviours(yaml, path, [...at, "behaviours"]);
   const field = (key: string) => yaml.valueText([...at, key]) ?? "";
   return {
     name,
@@ -192,11 +201,35 @@ function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: Y
   };
 }
 
-function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behaviour {
+/** Groups are at most that deep in one another (src/spec/agents/groups.hpp). */
+const deepestGroup = 8;
+
+function readBehaviours(yaml: YamlText, subsystem: string, at: YamlPath, around = "", depth = 0): Behaviour[] {
+  return yaml.keys(at).flatMap((own) => {
+    const behaviour = readBehaviour(yaml, subsystem, [...at, own], around);
+    const inside = behaviour.isGroup && depth < deepestGroup;
+    const group = behaviour.path.slice(subsystem.length + 1);
+    return [behaviour, ...(inside ? readBehaviours(yaml, subsystem, [...at, own, "behaviours"], group, depth + 1) : [])];
+  });
+}
+
+/** The behaviours and groups of a group, by its path; those of the subsystem itself. */
+export const behavioursIn = ({ behaviours }: Subsystem, group = "") => behaviours.filter((one) => one.group === group);
+
+/** The names that an entry of `next`, `start` and `on_error` have: with an index of a member, if there is one for each. */
+export const targetsIn = (subsystem: Subsystem, group = "", index = "[0]") =>
+  behavioursIn(subsystem, group).map((one) => (one.for ? one.name + index : one.name));
+
+function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath, around: string): Behaviour {
   const name = String(at.at(-1));
+  const path = around ? `${subsystem}.${around}.${name}` : `${subsystem}.${name}`;
   return {
     name,
-    path: `${subsystem}.${name}`,
+    path,
+    group: around && `${subsystem}.${around}`,
+    isGroup: yaml.pair([...at, "behaviours"]) !== undefined,
+    function: path.slice(subsystem.length + 1).replaceAll(".", "_"),
+    for: yaml.valueText([...at, "for"]) ?? "",
     yaml: at,
     line: yaml.line(at),
     terminal: yaml.lineText([...at, "terminal"]),
@@ -209,7 +242,7 @@ function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath): Behavio
 /** A default of behaviours, and the part of the specification that says it. */
 export interface Default {
   text: string;
-  of: "subsystem" | "agent" | "system";
+  of: "group" | "subsystem" | "agent" | "system";
 }
 
 /** `on_error` as it holds at a subsystem or agent; `around`: only what is said around it. */
@@ -260,9 +293,16 @@ export function exampleOf(cells: readonly KeptCell[]): string {
   return `{ ${changes.join(", ")} }`;
 }
 
+/** `on_error` of a group: without it, a failure leaves the group. */
+function onErrorOf({ yaml }: Structure, group: Behaviour): Default | undefined {
+  const text = yaml.valueText([...group.yaml, "on_error"]);
+  return text ? { text, of: "group" } : undefined;
+}
+
 /** The behaviour to which `on_error` leads the failures of one that no entry of its `next` names. */
 export function leadsFailures(structure: Structure, subsystem: Subsystem, behaviour: Behaviour): Default | undefined {
-  const found = onError(structure, subsystem.yaml);
+  const group = subsystem.behaviours.find((one) => one.path === behaviour.group);
+  const found = group ? onErrorOf(structure, group) : onError(structure, subsystem.yaml);
   const isNamed = behaviour.next.some(({ when }) => when === "error");
   return !found || found.text === "stop" || found.text === behaviour.name || isNamed ? undefined : found;
 }
@@ -326,13 +366,15 @@ export function findThing(structure: Structure, selection: string): Thing | unde
   const template = /^template:(.*)$/.exec(agentName ?? "")?.[1];
   const agent =
     template === undefined ? structure.agents.find((one) => one.name === agentName) : readTemplate(structure, template);
-  if (!agent || rest.length > 2) return undefined;
+  if (!agent) return undefined;
   if (rest.length === 0) return { kind: template === undefined ? "agent" : "template", of: agent };
   const subsystem = agent.subsystems.find((one) => one.name === rest[0]);
   if (!subsystem) return undefined;
   if (rest.length === 1) return { kind: "subsystem", of: subsystem, agent };
-  const behaviour = direction ? undefined : subsystem.behaviours.find((one) => one.name === rest[1]);
+  const inside = `${subsystem.path}.${rest.slice(1).join(".")}`;
+  const behaviour = direction ? undefined : subsystem.behaviours.find((one) => one.path === inside);
   if (behaviour) return { kind: "behaviour", of: behaviour, subsystem };
+  if (rest.length > 2) return undefined;
   const buffer = subsystem.buffers.find((one) => one.name === rest[1] && (!direction || one.direction === direction));
   return buffer && { kind: "buffer", of: buffer, subsystem };
 }

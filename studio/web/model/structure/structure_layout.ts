@@ -1,4 +1,4 @@
-import type { Behaviour, Subsystem } from "./structure";
+import { behavioursIn, type Behaviour, type Subsystem } from "./structure";
 
 /**
  * Sizes of the boxes of the structure view. Far away, letters are drawn larger, up to 18.4 units, which have
@@ -15,17 +15,32 @@ export const ports = (subsystem: Subsystem) => {
   return Math.max(count("input"), count("output"), 1);
 };
 
+/** The text of the chip of a behaviour: "lend[i]" stands for one for each member of a fleet. */
+export const chipText = (one: Behaviour) => (one.for ? `${one.name}[i]` : one.name);
+
+/** The space left of what is in a group. */
+const indent = 10;
+const depthOf = (group: string, subsystem: Subsystem) =>
+  group === "" ? 0 : group.slice(subsystem.path.length + 1).split(".").length;
+const roomIn = (group: string, subsystem: Subsystem) => width[subsystem.kind] - 20 - indent * depthOf(group, subsystem);
+
 /** The width of the chip that names a behaviour. A name that is too long for a line is cut. */
-export const chipWidth = ({ name }: Behaviour, { kind }: Subsystem) => Math.min(width[kind] - 20, name.length * 9 + 20);
+export const chipWidth = (behaviour: Behaviour, subsystem: Subsystem) =>
+  Math.min(roomIn(behaviour.isGroup ? behaviour.path : behaviour.group, subsystem), chipText(behaviour).length * 9 + 20);
 
 /** Lines of the chips of a subsystem. */
-export function chipLines(subsystem: Subsystem): number {
-  const room = width[subsystem.kind] - 20;
-  let [lines, used] = [1, 0];
-  for (const behaviour of subsystem.behaviours) {
+export const chipLines = (subsystem: Subsystem): number => linesIn("", 0, subsystem);
+
+/** used: the space that a chip before them takes. */
+function linesIn(group: string, used: number, subsystem: Subsystem): number {
+  const room = roomIn(group, subsystem);
+  let lines = 1;
+  for (const behaviour of behavioursIn(subsystem, group)) {
     const chip = chipWidth(behaviour, subsystem);
-    if (used > 0 && used + chip > room) [lines, used] = [lines + 1, 0];
-    used += chip + 4;
+    if (used > 0 && (behaviour.isGroup || used + chip > room)) [lines, used] = [lines + 1, 0];
+    if (behaviour.isGroup) lines += linesIn(behaviour.path, chip + 4, subsystem) - 1;
+    // What follows a group stands on the next line.
+    used = behaviour.isGroup ? room : used + chip + 4;
   }
   return lines;
 }

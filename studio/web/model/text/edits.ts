@@ -98,7 +98,12 @@ export const freshAgent = { control: fresh("10 Hz") };
 
 export const addSubsystem = (agent: Agent, kind: SubsystemKind, name: string): Edit =>
   insert(kind === "control" ? agent.body : [...agent.body, `${kind}s`], kind === "control" ? kind : name, fresh("50 Hz"));
-export const addBehaviour = (subsystem: Subsystem, name: string): Edit => insert([...subsystem.yaml, "behaviours"], name, "{}");
+/** of: the subsystem or the group. */
+export const addBehaviour = (of: { yaml: At }, name: string): Edit => insert([...of.yaml, "behaviours"], name, "{}");
+export const addGroup = (of: { yaml: At }, name: string): Edit =>
+  insert([...of.yaml, "behaviours"], name, { behaviours: { act: "{}" } });
+/** Moves a behaviour to a group, by its path in the subsystem: "charge.dock"; empty: out of all groups. */
+export const moveTo = (behaviour: Behaviour, group: string): Edit => ({ do: "move", at: path(behaviour.yaml), text: group });
 
 const bufferKey = { input: "inputs", output: "outputs", real: "real" } as const;
 export const addBuffer = (subsystem: Subsystem, direction: Buffer["direction"], name: string, type: string): Edit =>

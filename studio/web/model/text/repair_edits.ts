@@ -1,5 +1,5 @@
 import type { Cause } from "../causes";
-import { channelOf, findThing, withoutIndex, type Channel, type Structure } from "../structure/structure";
+import { channelOf, findThing, targetsIn, withoutIndex, type Channel, type Structure } from "../structure/structure";
 import type { Edit } from "../protocol";
 import { addNext, remove, set, setChannel } from "./edits";
 
@@ -65,9 +65,14 @@ function followers(structure: Structure, path: string, name: string): Candidate[
   const thing = findThing(structure, `${path}.${name}`);
   if (thing?.kind !== "behaviour") return [];
   const { of, subsystem } = thing;
-  const start = subsystem.start || subsystem.behaviours[0]!.name;
-  return [...new Set([start, of.name])].map((to) => ({
-    title: to === name ? `Otherwise, repeat ${name}` : `Otherwise, go on to ${to}`,
+  const group = subsystem.behaviours.find((one) => one.path === of.group);
+  const given = group ? structure.yaml.valueText([...group.yaml, "start"]) : subsystem.start;
+  // One of those for each member of a fleet goes on by itself: its index is i there.
+  const own = of.for ? `${of.name}[i]` : of.name;
+  const first = targetsIn(subsystem, of.group)[0]!;
+  const start = given || (withoutIndex(first) === of.name ? own : first);
+  return [...new Set([start, own])].map((to) => ({
+    title: to === own ? `Otherwise, repeat ${name}` : `Otherwise, go on to ${to}`,
     meaning: `After ${name}, if no other condition holds, ${to} follows in ${withoutIndex(path)}.`,
     edits: [addNext(of, { to, when: "" })],
   }));

@@ -1,9 +1,12 @@
+import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
 import {
   exampleOf,
   keptCells,
   leadsFailures,
   listAround,
+  targetsIn,
+  withoutIndex,
   type Behaviour,
   type Structure,
   type Subsystem,
@@ -12,32 +15,139 @@ import { CodeForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
 
-export function BehaviourForm({
-  structure,
-  behaviour,
-  subsystem,
-}: {
+interface Shown {
   structure: Structure;
   behaviour: Behaviour;
   subsystem: Subsystem;
-}) {
+}
+
+export const BehaviourForm = (shown: Shown) => (shown.behaviour.isGroup ? <GroupForm {...shown} /> : <OneForm {...shown} />);
+
+function NameField({ behaviour, subsystem }: Shown) {
+  const edit = useEdit();
+  return (
+    <Field
+      label="Name"
+      value={behaviour.name}
+      wrong={nameProblem(behaviour.name, namesIn(subsystem, behaviour.group))}
+      hint={
+        behaviour.isGroup
+          ? "The C++ functions of what is in it begin with its name, and change with it"
+          : behaviour.group
+            ? `Its C++ function is ${behaviour.function}, and changes with it`
+            : "Its C++ function has the same name, and changes with it"
+      }
+      onChange={(name) => edit(edits.rename(behaviour.yaml, name), `${behaviour.group || subsystem.path}.${name}`)}
+    />
+  );
+}
+
+/** The group that a behaviour is in. A choice of another one moves it there. */
+function InGroup({ behaviour, subsystem }: Shown) {
+  const edit = useEdit();
+  const own = (path: string) => path.slice(subsystem.path.length + 1);
+  const groups = subsystem.behaviours.filter(
+    (one) => one.isGroup && one.path !== behaviour.path && !one.path.startsWith(`${behaviour.path}.`),
+  );
+  if (groups.length === 0) return null;
+  return (
+    <Choice
+      label="In the group"
+      value={own(behaviour.group)}
+      choices={[{ value: "", title: "none" }, ...groups.map(({ path }) => ({ value: own(path), title: own(path) }))]}
+      onChange={(group) =>
+        edit(edits.moveTo(behaviour, group), `${group ? `${subsystem.path}.${group}` : subsystem.path}.${behaviour.name}`)
+      }
+    />
+  );
+}
+
+/** A group has behaviours instead of conditions and communication. */
+function GroupForm(shown: Shown) {
+  const { structure, behaviour, subsystem } = shown;
+  const edit = useEdit();
+  const field = (key: string) => structure.yaml.lineText([...behaviour.yaml, key]);
+  const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
+  const inside = targetsIn(subsystem, behaviour.path);
+  const kept = keptCells(structure, subsystem);
+  const add = (wish: string, adding: typeof edits.addBehaviour) => {
+    const added = named(wish, keysNow([...behaviour.yaml, "behaviours"]), (name) => adding(behaviour, name));
+    void edit(added.wish, () => `${behaviour.path}.${added.name}`);
+  };
+  return (
+    <>
+      <p className="faint">group of behaviours: {inside.join(", ")}</p>
+      <NameField {...shown} />
+      <InGroup {...shown} />
+      <Field
+        label="Starts with"
+        value={field("start")}
+        placeholder={inside[0] ?? "the first one"}
+        choices={inside}
+        onChange={set("start")}
+      />
+      <Field
+        label="Until"
+        mono
+        value={field("until")}
+        placeholder="a behaviour in it leads to end"
+        hint="A condition, asked after each iteration in the group: it leaves the group"
+        onChange={set("until")}
+      />
+      <Field
+        label="On error"
+        value={field("on_error")}
+        placeholder="leave the group"
+        choices={inside}
+        hint="Where failures in it lead that no behaviour in it names"
+        onChange={set("on_error")}
+      />
+      {(kept.length > 0 || behaviour.sets) && (
+        <Field
+          label="Sets"
+          mono
+          value={behaviour.sets}
+          placeholder="no memory"
+          hint={`Memory when the group begins: ${exampleOf(kept)}`}
+          onChange={set("sets")}
+        />
+      )}
+      <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
+      <div className="buttons">
+        <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
+        <button onClick={() => add("group", edits.addGroup)}>Add group</button>
+        <Remove what="group" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
+      </div>
+    </>
+  );
+}
+
+function OneForm(shown: Shown) {
+  const { structure, behaviour, subsystem } = shown;
   const edit = useEdit();
   const field = (key: string) => structure.yaml.lineText([...behaviour.yaml, key]);
   const kept = keptCells(structure, subsystem);
   const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
+  // Groups have none for each member of a fleet.
+  const fleets = behaviour.group ? [] : structure.agents.filter(({ count }) => count).map(({ name }) => name);
   const list = (key: "send" | "receive", all: string) => {
     const around = listAround(structure, subsystem, key);
     return around ? `${around}, as the subsystem` : all;
   };
   return (
     <>
-      <Field
-        label="Name"
-        value={behaviour.name}
-        wrong={nameProblem(behaviour.name, namesIn(subsystem))}
-        hint="Its C++ function has the same name, and changes with it"
-        onChange={(name) => edit(edits.rename(behaviour.yaml, name), `${subsystem.path}.${name}`)}
-      />
+      <NameField {...shown} />
+      <InGroup {...shown} />
+      {(fleets.length > 0 || behaviour.for) && (
+        <Field
+          label="For"
+          value={behaviour.for}
+          placeholder="one behaviour"
+          choices={fleets.map((fleet) => `each ${fleet}`)}
+          hint="One for each member of a fleet; i is the number of the member"
+          onChange={set("for")}
+        />
+      )}
       <Field
         label="Terminal condition"
         mono
@@ -86,20 +196,20 @@ export function BehaviourForm({
       <CodeForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
       <div className="buttons">
-        <Remove what="behaviour" at={behaviour.yaml} select={subsystem.path} />
+        <Remove what="behaviour" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
       </div>
     </>
   );
 }
 
-function NextForm({ structure, behaviour, subsystem }: { structure: Structure; behaviour: Behaviour; subsystem: Subsystem }) {
+function NextForm({ structure, behaviour, subsystem }: Shown) {
   const edit = useEdit();
   const { next } = behaviour;
   const failures = leadsFailures(structure, subsystem, behaviour);
-  const targets = [...subsystem.behaviours.map((one) => one.name), "end"];
+  const targets = [...targetsIn(subsystem, behaviour.group, "[i]"), "end"];
   const change = (at: number, part: Partial<Behaviour["next"][number]>) => edit(edits.changeNext(behaviour, at, part));
   const kept = keptCells(structure, subsystem);
-  const other = targets.find((name) => name !== behaviour.name) ?? "end";
+  const other = targets.find((name) => withoutIndex(name) !== behaviour.name) ?? "end";
   return (
     <fieldset className="next">
       <legend>Then</legend>
@@ -108,7 +218,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
           {failures.text}, after a failure that no entry names: on_error of the {failures.of}
         </p>
       )}
-      {next.length === 0 && <p className="faint">the subsystem ends</p>}
+      {next.length === 0 && <p className="faint">{behaviour.group ? "the group is left" : "the subsystem ends"}</p>}
       {next.map((entry, at) => (
         <div key={at} className="next-entry">
           <Field
@@ -122,7 +232,7 @@ function NextForm({ structure, behaviour, subsystem }: { structure: Structure; b
             mono
             value={entry.when}
             placeholder="always"
-            choices={["error"]}
+            choices={behaviour.isGroup ? ["error", "until"] : ["error"]}
             onChange={(when) => change(at, { when })}
           />
           {(kept.length > 0 || entry.sets) && (

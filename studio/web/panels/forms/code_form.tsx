@@ -15,7 +15,7 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
   const text = useStore(studio.draft.store, (draft) => (draft.current ? draft.text : null));
   // Members of a fleet share the functions of their template.
   const owner = `${String(subsystem.yaml[1])}.${subsystem.name}`;
-  const known = functions.find((one) => one.subsystem === owner && one.function === behaviour.name);
+  const known = functions.find((one) => one.subsystem === owner && one.function === behaviour.function);
   const file = known?.state === "defined" ? known.file : undefined;
   useEffect(() => {
     if (text === null) return;
@@ -28,7 +28,7 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
   const source = file === undefined ? undefined : files.get(file)?.text;
   const found = known ? functionIn(source, known) : null;
   return (
-    <section className="code" aria-label={`C++ of ${behaviour.name}`}>
+    <section className="code" aria-label={`C++ of ${behaviour.function}`}>
       <h3>C++</h3>
       {problem && <p className="problem-hint">{problem}</p>}
       {!known && <p className="faint">The function is shown once the specification has no errors.</p>}
@@ -37,7 +37,7 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
         <p className="faint">A macro or a template may define it in {known.file}. The linker will tell.</p>
       )}
       {known && file && found && (
-        <Edited key={`${file} ${owner}.${behaviour.name}`} known={known} source={source!} found={found} />
+        <Edited key={`${file} ${owner}.${behaviour.function}`} known={known} source={source!} found={found} />
       )}
       {known && file && source !== undefined && !found && (
         <p className="faint">

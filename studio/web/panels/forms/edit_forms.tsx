@@ -1,7 +1,9 @@
 import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
 import {
+  behavioursIn,
   bufferSelection,
+  targetsIn,
   type Agent,
   type Buffer,
   type Structure,
@@ -85,11 +87,7 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
           onChange={(text) => edit(edits.set(agent.yaml, "ring", text))}
         />
       )}
-      <OnErrorField
-        structure={structure}
-        at={agent.body}
-        behaviours={agent.subsystems.flatMap(({ behaviours }) => behaviours.map((one) => one.name))}
-      />
+      <OnErrorField structure={structure} at={agent.body} behaviours={agent.subsystems.flatMap((one) => targetsIn(one))} />
       <SharedNote structure={structure} agent={agent} />
       {agent.template && <TemplateLink name={agent.template} />}
       <div className="buttons">
@@ -110,8 +108,8 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
     const added = named(wish, taken, (name) => edits.addBuffer(subsystem, direction, name, type));
     void edit(added.wish, () => bufferSelection(direction, `${subsystem.path}.${added.name}`));
   };
-  const addBehaviour = () => {
-    const added = named("act", taken, (name) => edits.addBehaviour(subsystem, name));
+  const add = (wish: string, adding: typeof edits.addBehaviour) => {
+    const added = named(wish, taken, (name) => adding(subsystem, name));
     void edit(added.wish, () => `${subsystem.path}.${added.name}`);
   };
   return (
@@ -130,16 +128,16 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
       )}
       <SharedNote structure={structure} agent={agent} />
       <Field label="Rate" value={subsystem.rate} placeholder="as its blocking channels say" onChange={set("rate")} />
-      {subsystem.behaviours.length > 1 && (
+      {behavioursIn(subsystem).length > 1 && (
         <Field
           label="Starts with"
           value={subsystem.start}
           placeholder={subsystem.behaviours[0]!.name}
-          choices={subsystem.behaviours.map((one) => one.name)}
+          choices={targetsIn(subsystem)}
           onChange={set("start")}
         />
       )}
-      <OnErrorField structure={structure} at={subsystem.yaml} behaviours={subsystem.behaviours.map((one) => one.name)} />
+      <OnErrorField structure={structure} at={subsystem.yaml} behaviours={targetsIn(subsystem)} />
       <Field
         label="Behaviours send"
         mono
@@ -168,7 +166,8 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         />
       )}
       <div className="buttons">
-        <button onClick={addBehaviour}>Add behaviour</button>
+        <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
+        <button onClick={() => add("group", edits.addGroup)}>Add group</button>
         <button onClick={() => addBuffer("input", "input")}>Add input</button>
         <button onClick={() => addBuffer("output", "output")}>Add output</button>
         {subsystem.kind !== "control" && <button onClick={() => addBuffer("real", "device")}>Add real buffer</button>}

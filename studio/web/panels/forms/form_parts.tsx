@@ -3,7 +3,14 @@ import { useStudio } from "../../hooks/use";
 import { changedLines } from "../../model/text/changed_lines";
 import type { Wish } from "../../live/editor";
 import { isName, remove } from "../../model/text/edits";
-import { sharersOf, structureOf, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
+import {
+  behavioursIn,
+  sharersOf,
+  structureOf,
+  type Agent,
+  type Structure,
+  type Subsystem,
+} from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";
 
 /** Why a name cannot be used for an element beside those that exist. */
@@ -19,7 +26,9 @@ export const nameProblem =
 /** The hint below the name of a subsystem, or of an agent or template with subsystems of its own. */
 export const namespaceHint = "Its C++ namespace and headers have the same name, and change with it";
 
-export const namesIn = (subsystem: Subsystem) => [...subsystem.behaviours, ...subsystem.buffers].map((one) => one.name);
+/** The names that are taken in a subsystem; in a group of it, those of its behaviours. */
+export const namesIn = (subsystem: Subsystem, group = "") =>
+  [...behavioursIn(subsystem, group), ...(group ? [] : subsystem.buffers)].map((one) => one.name);
 
 type Select = string | null | undefined;
 

@@ -1,5 +1,5 @@
 import { set } from "../../model/text/edits";
-import type { Structure } from "../../model/structure/structure";
+import { targetsIn, type Structure } from "../../model/structure/structure";
 import { Field } from "./field";
 import { useEdit } from "./form_parts";
 import { DriversForm } from "./driver_fields";
@@ -34,9 +34,7 @@ export function SystemForm({ structure }: { structure: Structure }) {
       <OnErrorField
         structure={structure}
         at={[]}
-        behaviours={structure.agents.flatMap(({ subsystems }) =>
-          subsystems.flatMap(({ behaviours }) => behaviours.map((one) => one.name)),
-        )}
+        behaviours={structure.agents.flatMap(({ subsystems }) => subsystems.flatMap((one) => targetsIn(one)))}
       />
       <MapForm
         structure={structure}

@@ -1,0 +1,69 @@
+import { describe, expect, it } from "vitest";
+import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
+import { chipLines, chipText, chipWidth } from "../../model/structure/structure_layout";
+
+const text = `agents:
+  robot: { use: carrier, count: 2 }
+  desk:
+    control:
+      on_error: work
+      behaviours:
+        work: { next: charge }
+        charge:
+          on_error: ask
+          start: dock
+          behaviours:
+            ask: { next: dock }
+            dock:
+              behaviours:
+                turn: {}
+            an_extremely_long_name_of_a_behaviour: {}
+        lend: { for: each robot, next: "lend[i]" }
+`;
+
+describe("groups of behaviours", () => {
+  const structure = readStructure(text);
+  const control = structure.agents[1]!.subsystems[0]!;
+  const of = (path: string) => control.behaviours.find((one) => one.path === `desk.control.${path}`)!;
+
+  it("are read with what is in them, in the order of the file", () => {
+    expect(control.behaviours.map(({ path }) => path.slice("desk.control.".length))).toEqual([
+      "work",
+      "charge",
+      "charge.ask",
+      "charge.dock",
+      "charge.dock.turn",
+      "charge.an_extremely_long_name_of_a_behaviour",
+      "lend",
+    ]);
+    expect(of("charge.dock.turn").function).toBe("charge_dock_turn");
+    expect(of("charge.dock").isGroup).toBe(true);
+    expect(of("work").group).toBe("");
+  });
+
+  it("have the targets of their own behaviours", () => {
+    expect(targetsIn(control)).toEqual(["work", "charge", "lend[0]"]);
+    expect(targetsIn(control, "desk.control.charge")).toEqual(["ask", "dock", "an_extremely_long_name_of_a_behaviour"]);
+    expect(behavioursIn(control, "desk.control.charge.dock").map(({ name }) => name)).toEqual(["turn"]);
+  });
+
+  it("are found by their path, also for each member", () => {
+    expect(findThing(structure, "desk.control.charge.dock.turn")).toMatchObject({ kind: "behaviour", of: { name: "turn" } });
+    expect(findThing(structure, "desk.control.lend[1]")).toMatchObject({ kind: "behaviour", of: { for: "each robot" } });
+    expect(findThing(structure, "desk.control.charge.turn")).toBeUndefined();
+    expect(thingAt(structure, 15)).toBe("desk.control.charge.dock.turn");
+  });
+
+  it("lead failures themselves", () => {
+    expect(leadsFailures(structure, control, of("charge.dock"))).toEqual({ text: "ask", of: "group" });
+    expect(leadsFailures(structure, control, of("charge.dock.turn"))).toBeUndefined();
+    expect(leadsFailures(structure, control, of("charge"))).toEqual({ text: "work", of: "subsystem" });
+  });
+
+  it("have room in the drawing", () => {
+    expect(chipText(of("lend"))).toBe("lend[i]");
+    expect(chipWidth(of("charge.an_extremely_long_name_of_a_behaviour"), control)).toBe(210);
+    // work | charge ask | dock turn | the long name | lend[i]
+    expect(chipLines(control)).toBe(5);
+  });
+});

@@ -344,6 +344,7 @@ bool make_template(TextEditor& editor, const Path& agent) {
   const Entry* whole = editor.entry(agent);
   const Node* body = editor.map(agent);
   if (whole == nullptr || body == nullptr || body->flow || body->find("use") != nullptr) return false;
+  if (body->find("count") != nullptr) return false;  // it stays at the agent
   const std::string name = whole->key;
   const Path templates{"templates"};
   const Node* others = editor.map(templates);

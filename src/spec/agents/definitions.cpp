@@ -39,10 +39,10 @@ Definition read_definition(const Entry& entry, bool is_template, const SystemSco
                         {"control", "receptors", "effectors", "on_error", "use", "count", "ring"}, out);
   Definition definition{entry.key, {}, is_template, entry.span};
   for (const char* key : {"count", "ring"}) {
-    if (const Entry* misplaced = section.find(key)) {
-      out.error("E103", misplaced->span, in_quotes(key) + " needs 'use'",
-                "put the agent under 'templates' and write { use: NAME, count: 50 }");
-    }
+    const Entry* misplaced = is_template ? section.find(key) : nullptr;
+    if (misplaced != nullptr)
+      out.error("E103", misplaced->span, in_quotes(key) + " belongs to an agent, not to a template",
+                "under 'agents', write robot: { use: " + entry.key + ", count: 50 }");
   }
   std::optional<OnError> on_error = read_on_error(section, out);
   SystemScope inside = around;

@@ -4,9 +4,10 @@
 
 namespace tessera::spec {
 
-/// Reads the body of an agent or template: control, receptors, effectors.
+/// Reads the body of an agent or template: control, receptors, effectors. `count` and `ring` of an agent are left to
+/// read_agents().
 ///
-/// Errors: E103 no control subsystem; E107 two subsystems of one name; those of subsystems.
+/// Errors: E103 no control subsystem, a template with `count`; E107 two subsystems of one name; those of subsystems.
 [[nodiscard]] Definition read_definition(const Entry& entry, bool is_template, const SystemScope& around,
                                          Diagnostics& out);
 

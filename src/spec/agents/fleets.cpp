@@ -61,6 +61,7 @@ class Builder {
     if (uses) {
       read_use(entry, group);
     } else {
+      read_size(entry.value->entries, group);
       group.definition = model_.definitions.next_id();
       model_.definitions.push_back(read_definition(entry, false, around_, out_));
     }
@@ -80,15 +81,22 @@ class Builder {
     if (const Node* name = text_of(*use->value, use->span, "use", out_, "name a template")) {
       group.definition = templates_.find(*name, out_);
     }
-    if (const Entry* count = section.find("count")) {
+    read_size(entry.value->entries, group);
+  }
+
+  /// `count` and `ring` among the keys of an agent.
+  void read_size(const std::vector<Entry>& keys, AgentGroup& group) {
+    const Entry* ring = nullptr;
+    for (const Entry& key : keys) {
+      if (key.key == "ring") ring = &key;
+      if (key.key != "count") continue;
       group.fleet = true;
-      group.count = read_count(*count, out_);
-      limit(group.count, count->value->span);
+      group.count = read_count(key, out_);
+      limit(group.count, key.value->span);
     }
-    if (const Entry* ring = section.find("ring")) {
-      group.ring = bool_of(*ring, "ring", out_);
-      if (!group.fleet) out_.error("E103", ring->span, "'ring' needs 'count'", "for example count: 50");
-    }
+    if (ring == nullptr) return;
+    group.ring = bool_of(*ring, "ring", out_);
+    if (!group.fleet) out_.error("E103", ring->span, "'ring' needs 'count'", "for example count: 50");
   }
 
   /// The whole system has at most most_agents().

@@ -50,8 +50,7 @@ FleetSizes::FleetSizes(const Entry* agents) {
   if (agents == nullptr || !agents->value->is_map()) return;
   for (const Entry& agent : agents->value->entries) {
     const Entry* count = key_of(*agent.value, "count");
-    const bool is_fleet = count != nullptr && key_of(*agent.value, "use") != nullptr;
-    sizes_.emplace(agent.key, is_fleet
+    sizes_.emplace(agent.key, count != nullptr
                                   ? std::optional(FleetSize{count_in(*count->value), is_ring(*agent.value)})
                                   : std::nullopt);
   }
@@ -107,12 +106,12 @@ std::optional<EachMember> read_each(const Node& text, std::size_t offset, std::s
     if (const auto size = fleets->find(fleet)) return EachMember{fleet, size->count, size->ring};
   if (fleets != nullptr && fleets->is_one_agent(fleet)) {
     out.error("E285", span(name), in_quotes(fleet) + " is one agent, not a fleet",
-              "make it a template with a count: " + fleet + ": { use: NAME, count: 2 }");
+              "give it a count: " + fleet + ": { count: 2, control: ... }");
     return std::nullopt;
   }
   Hint hint = did_you_mean(fleet, known);
   if (hint.empty())
-    hint = known.empty() ? Hint("a fleet is an agent with a count: robot: { use: NAME, count: 2 }")
+    hint = known.empty() ? Hint("a fleet is an agent with a count: robot: { count: 2, control: ... }")
                          : Hint("write " + example);
   out.error("E285", span(name), "there is no fleet " + in_quotes(fleet), std::move(hint));
   return std::nullopt;

@@ -66,7 +66,7 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
         label="How many"
         value={agent.count}
         placeholder="one"
-        hint={agent.template ? "A fleet of equal agents" : "A fleet of equal agents needs a template"}
+        hint="A fleet of equal agents"
         onChange={(text) => edit(edits.set(agent.yaml, "count", text))}
       />
       <Field

@@ -36,6 +36,17 @@ std::string kept_type(const spec::Model& model, const spec::Subsystem& subsystem
   return fmt::format("tessera::Kept<{}>", enumeration_of(model, subsystem, cell));
 }
 
+std::string kept_initial(const spec::Model& model, const spec::Subsystem& subsystem,
+                         const spec::Field& cell) {
+  const spec::FewValues& few = *cell.few;
+  if (few.initial == 0) return {};
+  if (few.counts) return "{" + few.names[few.initial] + "}";
+  const std::string name = enumeration_of(model, subsystem, cell);
+  const bool is_member = few.initial >= few.first_member && few.initial - few.first_member < few.member_count;
+  return is_member ? fmt::format("{{{}{{{}}}}}", name, few.initial)
+                   : fmt::format("{{{}::{}}}", name, few.names[few.initial]);
+}
+
 std::string kept_enumerations(const spec::Model& model, const spec::Subsystem& subsystem) {
   std::string out;
   for (const spec::Field& cell : subsystem.memory) {

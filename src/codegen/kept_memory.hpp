@@ -12,6 +12,10 @@ namespace tessera::codegen {
 [[nodiscard]] std::string kept_type(const spec::Model& model, const spec::Subsystem& subsystem,
                                     const spec::Field& cell);
 
+/// "{LentTo::a}", "{2}": the initializer of the cell; empty: it begins with its first value.
+[[nodiscard]] std::string kept_initial(const spec::Model& model, const spec::Subsystem& subsystem,
+                                       const spec::Field& cell);
+
 /// The enumerations of all cells with values, inside `struct Memory`, with a blank line behind; empty: none.
 [[nodiscard]] std::string kept_enumerations(const spec::Model& model, const spec::Subsystem& subsystem);
 

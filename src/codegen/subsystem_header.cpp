@@ -146,7 +146,8 @@ struct Context : tessera::Context {{
                                        field.name, field.initial),
                            comment_text(field.type.unit)});
       else
-        members.push_back({fmt::format("{} {};", kept_type(project_.model, subsystem_, field), field.name),
+        members.push_back({fmt::format("{} {}{};", kept_type(project_.model, subsystem_, field), field.name,
+                                       kept_initial(project_.model, subsystem_, field)),
                            "the net changes it"});
     const std::string text = structure("Memory", members),
                       kept = kept_enumerations(project_.model, subsystem_);

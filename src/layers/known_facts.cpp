@@ -179,8 +179,10 @@ void KnownFacts::find(const Wiring& wiring, Direction direction, const std::vect
 void KnownFacts::add(Fact fact, const std::string& name, std::vector<std::string> values, net::Span span) {
   fact.first = {static_cast<std::uint32_t>(net_.fusions.size())};
   const net::FactId id{static_cast<std::uint32_t>(net_.parts.facts.size())};
-  // At the start nothing is fresh, nothing has timed out, and memory has its first value.
-  const std::uint32_t initial = fact.kind == FactKind::received ? failed : succeeded;
+  // At the start nothing is fresh, and nothing has timed out.
+  const std::uint32_t initial = fact.kind == FactKind::memory ? subsystem_.memory[fact.subject].few->initial
+                                : fact.kind == FactKind::received ? failed
+                                                                  : succeeded;
   for (std::uint32_t value = 0; value < values.size(); ++value)
     net_.fusions.push_back({.name = net_.parts[id_].path + "." + name + "." + values[value],
                             .tokens = value == initial ? 1U : 0U,

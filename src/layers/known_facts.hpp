@@ -72,7 +72,7 @@ class KnownFacts {
   /// also if it is not possible with these values: once, unchanged.
   [[nodiscard]] std::vector<Changed> changed(const std::vector<spec::Change>& changes, const Values& known,
                                              spec::BehaviourId behaviour) const;
-  /// The same at the start of the subsystem: every cell has its first value.
+  /// The same at the start of the subsystem: every cell has its initial value.
   [[nodiscard]] Changed changed_at_start(const std::vector<spec::Change>& changes) const;
   /// The values that a fact can have in a behaviour: all, except of a cell whose values are the members of a larger
   /// fleet than `most_members`, in a subsystem without groups. Such a cell has those to which the entries of `next`

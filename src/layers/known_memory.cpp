@@ -110,9 +110,8 @@ net::FactId KnownFacts::fact_of(FactKind kind, std::uint32_t subject) const {
   return found == numbers.end() ? net::FactId{} : found->second;
 }
 
-/// The values of a cell in each behaviour: the start leads to the first one, and an entry that may be taken
-/// with a value
-/// leads on with that value changed. Other facts are free.
+/// The values of a cell in each behaviour: the start leads to the initial one, and an entry that may be
+/// taken with a value leads on with that value changed. Other facts are free.
 void KnownFacts::find_reached(net::FactId cell) {
   const std::uint32_t number = of(cell).subject;
   const spec::FewValues& few = *subsystem_.memory[number].few;
@@ -130,7 +129,7 @@ void KnownFacts::find_reached(net::FactId cell) {
     reached[behaviour][value] = true;
     open.emplace_back(behaviour, value);
   };
-  reach(subsystem_.start, 0, subsystem_.behaviours[subsystem_.start].sets);
+  reach(subsystem_.start, few.initial, subsystem_.behaviours[subsystem_.start].sets);
   while (!open.empty()) {
     const auto [behaviour, value] = open.back();
     open.pop_back();
@@ -214,7 +213,7 @@ KnownFacts::Changed KnownFacts::changed_at_start(const std::vector<spec::Change>
   for (const spec::Change& change : changes) {
     const net::FactId fact = fact_of(FactKind::memory, change.cell);
     if (std::ranges::find(first, fact, &Values::value_type::first) == first.end())
-      first.emplace_back(fact, 0);
+      first.emplace_back(fact, subsystem_.memory[change.cell].few->initial);
   }
   return changed(changes, first, subsystem_.start).front();
 }

@@ -148,7 +148,7 @@ TEST(KeptMemory, IsExplained) {
   };
   EXPECT_THAT(says("lent_to: { values"), HasSubstr("**dock.control.lent_to** — memory cell"));
   EXPECT_THAT(says("lent_to: { values"), HasSubstr("`{ values: [nobody, a, b] }`"));
-  EXPECT_THAT(says("lent_to: { values"), HasSubstr("In C++: `Memory::LentTo`, at the start the first value"));
+  EXPECT_THAT(says("lent_to: { values"), HasSubstr("In C++: `Memory::LentTo`"));
   EXPECT_THAT(says("lent_to: { values"), HasSubstr("Changed on lines 14, 15, 17."));
   EXPECT_THAT(says("b] }"), HasSubstr("`Memory::LentTo::b`\n\nSet on line 17."));
   EXPECT_THAT(says("served: { counts"), HasSubstr("`{ counts: 0..4 }`\n\nIn C++: `int`"));

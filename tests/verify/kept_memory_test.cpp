@@ -28,6 +28,7 @@ struct Cell {
   std::string name;
   std::vector<std::string> values;
   bool counts = false;
+  std::optional<std::size_t> initial{};  // position
 };
 
 /// A condition: a comparison of a cell, something that the net does not know, or a combination.
@@ -126,13 +127,14 @@ struct Subsystem {
         "tessera: 1\nsystem: drawn\nagents:\n  robot:\n    control:\n      rate: 10 Hz\n      memory:\n";
     for (const Cell& cell : cells) {
       all += "        " + cell.name + ": ";
+      const std::string end = (cell.initial ? ", initial: " + cell.values[*cell.initial] : "") + " }\n";
       if (cell.counts) {
-        all += "{ counts: " + cell.values.front() + ".." + cell.values.back() + " }\n";
+        all += "{ counts: " + cell.values.front() + ".." + cell.values.back() + end;
         continue;
       }
       std::string values;
       for (const std::string& value : cell.values) values += (values.empty() ? "" : ", ") + value;
-      all += "{ values: [" + values + "] }\n";
+      all += "{ values: [" + values + "]" + end;
     }
     all += "      behaviours:\n";
     for (std::size_t number = 0; number < behaviours.size(); ++number) {
@@ -165,6 +167,7 @@ class Random {
       for (std::size_t value = 0, values = 2 + below(3); value < values; ++value)
         cell.values.push_back(cell.counts ? std::to_string(least + value)
                                           : std::string(1, static_cast<char>('p' + value)));
+      if (chance(2)) cell.initial = below(cell.values.size());
       made.cells.push_back(std::move(cell));
     }
     const std::size_t count = 1 + below(4);
@@ -247,7 +250,8 @@ class Naive {
   Naive(const Subsystem& subsystem, bool forgets) : subsystem_(subsystem), forgets_(forgets) {}
 
   Steps steps() {
-    Values first(subsystem_.cells.size(), 0);
+    Values first;
+    for (const Cell& cell : subsystem_.cells) first.push_back(static_cast<int>(cell.initial.value_or(0)));
     if (!apply(subsystem_.behaviours[0].sets, first)) throw std::logic_error("it cannot start");
     visit(0, first);
     return std::move(steps_);

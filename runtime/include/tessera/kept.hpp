@@ -30,6 +30,7 @@ template <class Value>
 class Kept {
  public:
   Kept() = default;
+  explicit constexpr Kept(Value initial) : value_(initial) {}
   Kept(const Kept&) = default;
   Kept& operator=(const Kept&) = delete;
   Kept(Kept&&) = default;
@@ -73,6 +74,7 @@ template <int Least, int Most>
 class Counter {
  public:
   Counter() = default;
+  explicit constexpr Counter(int initial) : value_(initial) {}
   Counter(const Counter&) = default;
   Counter& operator=(const Counter&) = delete;
   Counter(Counter&&) = default;

@@ -212,7 +212,15 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
     return "end";
   }
 
-  std::vector<std::uint16_t> kept_ = std::vector<std::uint16_t>(Unit::net().facts.size(), 0);  // per fact
+  /// The value of each fact at the start.
+  [[nodiscard]] static std::vector<std::uint16_t> initial_facts() {
+    std::vector<std::uint16_t> values(Unit::net().facts.size(), 0);
+    for (const Place& place : Unit::net().places)
+      if (place.does.kind == Does::Kind::know && place.tokens > 0)
+        values[place.does.subject] = place.does.slot;
+    return values;
+  }
+  std::vector<std::uint16_t> kept_ = initial_facts();
 };
 
 /// A whole system under the simulated clock, without world and devices. Tests replace some subsystems by

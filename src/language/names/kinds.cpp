@@ -11,14 +11,16 @@ namespace {
 /// "{ values: [nobody, a, b] }", "{ counts: 0..4 }"; empty: the cell has a type.
 std::string few_values(const Node& cell) {
   constexpr std::size_t most_shown = 10;
-  if (const Entry* counts = cell.find("counts")) return "{ counts: " + counts->value->text + " }";
+  const Entry* initial = cell.find("initial");
+  const std::string end = initial == nullptr ? " }" : ", initial: " + initial->value->text + " }";
+  if (const Entry* counts = cell.find("counts")) return "{ counts: " + counts->value->text + end;
   const Entry* values = cell.find("values");
   if (values == nullptr) return {};
   std::string text;
   const std::vector<Entry>& items = values->value->items;
   for (std::size_t at = 0; at < items.size() && at < most_shown; ++at)
     text += (at == 0 ? "" : ", ") + items[at].value->text;
-  return "{ values: [" + text + (items.size() > most_shown ? ", ..." : "") + "] }";
+  return "{ values: [" + text + (items.size() > most_shown ? ", ..." : "") + "]" + end;
 }
 
 }  // namespace

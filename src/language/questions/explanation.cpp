@@ -131,8 +131,7 @@ std::string about_memory(const Document& document, SymbolId id) {
   if (is_value)
     text += "\n\nIn C++: " + code("Memory::" + name + "::" + symbol.name);
   else
-    text += name.empty() ? "\n\nIn C++: `int`, at the start the lowest count"
-                         : "\n\nIn C++: " + code("Memory::" + name) + ", at the start the first value";
+    text += "\n\nIn C++: " + code(name.empty() ? "int" : "Memory::" + name);
   return text + changes_of(document, id);
 }
 

@@ -123,6 +123,18 @@ FewValues read_counts(const Entry& entry, Diagnostics& out) {
   return values;
 }
 
+void read_initial(const Entry& entry, FewValues& values, Diagnostics& out) {
+  const Node* text = text_of(*entry.value, entry.span, "initial", out, "write one of the values");
+  if (text == nullptr) return;
+  if (const auto found = values.find(text->text)) {
+    values.initial = *found;
+    return;
+  }
+  Hint hint = did_you_mean(text->text, values.names);
+  if (hint.empty()) hint = "it is " + values.in_words();
+  out.error("E261", text->span, "unknown value " + in_quotes(text->text) + " at the start", std::move(hint));
+}
+
 std::vector<std::string> names_of_cells(const std::vector<Field>& memory) {
   std::vector<std::string> names;
   for (const Field& cell : memory)
@@ -206,15 +218,13 @@ std::optional<std::uint32_t> cell_named(const Entry& entry, const std::vector<Fi
 FewValues read_few_values(const Section& cell, const FleetSizes* fleets, Diagnostics& out) {
   const Entry* values = cell.find("values");
   const Entry* counts = cell.find("counts");
-  for (const char* key : {"type", "initial"})
-    if (const Entry* other = cell.find(key))
-      out.error("E262", other->span, "a memory cell with values has no " + in_quotes(key),
-                key == std::string_view("type")
-                    ? "remove it, or the values"
-                    : "the first value, or the lowest count, is there at the start");
+  if (const Entry* type = cell.find("type"))
+    out.error("E262", type->span, "a memory cell with values has no 'type'", "remove it, or the values");
   if (values != nullptr && counts != nullptr)
     out.error("E262", counts->span, "a memory cell has either values or counts", "remove one of them");
-  return values != nullptr ? read_values(*values, fleets, out) : read_counts(*counts, out);
+  FewValues few = values != nullptr ? read_values(*values, fleets, out) : read_counts(*counts, out);
+  if (const Entry* initial = cell.find("initial")) read_initial(*initial, few, out);
+  return few;
 }
 
 std::vector<Change> read_changes(const Entry* entry, const std::vector<Field>& memory, const Member* member,
@@ -265,10 +275,10 @@ void check_start(const Subsystem& subsystem, Diagnostics& out) {
   if (subsystem.behaviours.empty()) return;
   for (const Change& change : subsystem.behaviours[subsystem.start].sets) {
     const Field& cell = subsystem.memory[change.cell];
-    if (change.after(0, *cell.few)) continue;
+    if (change.after(cell.few->initial, *cell.few)) continue;
     out.error("E268", change.span,
-              in_quotes("memory." + cell.name) + " is " + cell.few->names.front() +
-                  " at the start, and there is none less",
+              in_quotes("memory." + cell.name) + " is " + cell.few->names[cell.few->initial] +
+                  " at the start, and this change leaves its range",
               "this behaviour runs first; change the counter where it is left, or 'counts'");
   }
 }

@@ -12,7 +12,7 @@ namespace tessera::spec {
 /// The values of a cell: `values: [nobody, a, b]`, `values: [nobody, each robot]` or `counts: 0..4`.
 ///
 /// Precondition: the section has one of these keys.
-/// Errors: E105, E106, E107 names of values; E262 no such list or range; E285, E290 `each`.
+/// Errors: E105, E106, E107 names of values; E262 no such list or range; E261 `initial` is none of them; E285, E290 `each`.
 /// Returns values in any case, so that no second error follows from the first.
 [[nodiscard]] FewValues read_few_values(const Section& cell, const FleetSizes* fleets, Diagnostics& out);
 

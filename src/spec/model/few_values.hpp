@@ -12,13 +12,13 @@
 
 namespace tessera::spec {
 
-/// The values of a memory cell that is part of the net: `{ values: [nobody, a, b] }`, `{ counts: 0..4 }`. The
-/// first one, or the lowest count, is there at the start.
+/// The values of a memory cell that is part of the net: `{ values: [nobody, a, b] }`, `{ counts: 0..4 }`.
 struct FewValues {
   std::vector<std::string> names;        ///< of a counter "0", "1" ...
   std::vector<diagnostics::Span> spans;  ///< as names; of a counter empty
   bool counts = false;
-  std::uint32_t least = 0;  ///< of a counter
+  std::uint32_t least = 0;    ///< of a counter
+  std::uint32_t initial = 0;  ///< at the start; into names. Without `initial` the first, or the lowest count
   /// With `each robot` among the values: the fleet, and the position of the value of its first member. The values of
   /// the others follow, "robot[0]", "robot[1]" ...
   std::string fleet{};

@@ -4,6 +4,8 @@
 #include <map>
 #include <optional>
 #include <set>
+#include <string>
+#include <utility>
 
 namespace tessera::checks {
 namespace {
@@ -64,10 +66,13 @@ class Binder {
              (known.empty() ? "the world has none with a number" : "the world has: " + known));
   }
 
+  /// An element of a thousand pairs is looked up once.
   std::size_t find(Scene::As as, const std::string& name) {
-    Result<std::size_t> found = scene_.find(as, name);
+    const auto [known, is_new] = found_.try_emplace({as, name}, 0);
+    if (!is_new) return known->second;
+    const Result<std::size_t> found = scene_.find(as, name);
     if (!found) complain(found.problem());
-    return found ? *found : 0;
+    return known->second = found ? *found : 0;
   }
 
   /// The name without [i] and, within any(...) and all(...), without [*].
@@ -197,6 +202,7 @@ class Binder {
   }
 
   Scene& scene_;
+  std::map<std::pair<Scene::As, std::string>, std::size_t> found_;
   std::optional<std::int64_t> running_;
   std::map<std::string, std::int64_t> every_;  ///< what X[*] means now
   std::optional<Problem> problem_;

@@ -6,6 +6,7 @@
 #include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
 #include "spec/channels/channels.hpp"
+#include "spec/channels/complete_lists.hpp"
 #include "spec/channels/models.hpp"
 #include "spec/channels/waits.hpp"
 #include "spec/channels/wiring.hpp"
@@ -67,6 +68,7 @@ Model read_model(const Document& document, Diagnostics& out) {
   models.complain_about_unused(model, out);
   check_wiring(model, excuses, out);
   check_waits(model, out);
+  check_complete_lists(model, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);

@@ -265,6 +265,34 @@ TEST(Defaults, ThatAreWrittenForWhatIsRepeatedKeepNetAndController) {
   EXPECT_GT(shorter, 30U);
 }
 
+/// What stands in a group has its own lists and failures; a group among the behaviours is one of them.
+TEST(Defaults, OfASubsystemWithGroupsKeepTheGroups) {
+  const std::string longer = R"(tessera: 1
+system: s
+agents:
+  robot:
+    control:
+      rate: 10 Hz
+      memory: { low: bool }
+      behaviours:
+        work: { terminal: { low: memory.low }, next: [{ to: safe, when: error }, charge] }
+        charge:
+          until: memory.low
+          start: dock
+          next: [{ to: safe, when: error }, { to: rest, when: until }, work]
+          behaviours:
+            ask: { terminal: { low: memory.low }, next: [{ to: dock, when: error }, dock] }
+            dock: { terminal: { low: memory.low }, next: [{ to: ask, when: error }, end] }
+        rest: { terminal: { low: memory.low }, next: [{ to: safe, when: error }, work] }
+        safe: { terminal: true, next: work }
+)";
+  const std::optional<language::Shortened> found = language::shortened(longer);
+  ASSERT_TRUE(found);
+  EXPECT_NE(found->text.find("on_error: safe\n"), std::string::npos) << found->text;
+  EXPECT_NE(found->text.find("next: [{ to: rest, when: until }, work]"), std::string::npos) << found->text;
+  ASSERT_NO_FATAL_FAILURE(expect_same(longer, found->text));
+}
+
 TEST(Defaults, OfEveryExampleKeepItsNetAndController) {
   for (const auto& folder : std::filesystem::directory_iterator(source_folder / "examples")) {
     if (!std::filesystem::exists(folder.path() / "spec.yaml")) continue;

@@ -150,7 +150,8 @@ TEST(KnownFacts, AnEntryFollowsOnlyAnEndingThatIsPossibleWithTheKnownValues) {
   for (const auto& [behaviour, property] : std::vector<Case>{
            {"{ terminal: true, error: memory.m == v, next: [{ to: c, when: error }, b] }", "never c"},
            {"{ terminal: true, error: { f: memory.m == v }, next: [{ to: c, when: f }, b] }", "never c"},
-           {"{ terminal: memory.m == v, error: memory.m == u, next: [{ to: b, when: error }, c] }", "never c"},
+           {"{ terminal: memory.m == v, error: memory.m == u, next: [{ to: b, when: error }, c] }",
+            "never c"},
            {"{ terminal: memory.m == v, next: [{ to: b, when: error }, c] }", "never c"},
            {"{ terminal: memory.m == v, next: [{ to: b, when: error }, { to: b, when: elapsed > 1 s }] }",
             "survives_exceptions"}}) {

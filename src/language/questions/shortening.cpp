@@ -20,7 +20,7 @@ std::optional<spec::Model> model_of(const std::string& text) {
 }
 
 bool is_same(const spec::Expression& a, const spec::Expression& b) {
-  return a.name == b.name && a.text == b.text;
+  return a.name == b.name && a.text == b.text && a.member == b.member && a.until_of == b.until_of;
 }
 
 bool is_same(const spec::Condition& a, const spec::Condition& b) {
@@ -41,9 +41,16 @@ bool is_same(const spec::Next& a, const spec::Next& b) {
          is_same(a.when.text, b.when.text);
 }
 
+bool is_same(const std::optional<spec::Group>& a, const std::optional<spec::Group>& b) {
+  if (!a || !b) return a.has_value() == b.has_value();
+  if (!a->until || !b->until) return a->start == b->start && a->until.has_value() == b->until.has_value();
+  return a->start == b->start && is_same(*a->until, *b->until);
+}
+
 bool is_same(const spec::Behaviour& a, const spec::Behaviour& b) {
-  return a.name == b.name && is_same(a.terminal, b.terminal) && is_same(a.error, b.error) &&
-         is_same(a.sets, b.sets) && a.send == b.send &&
+  return a.name == b.name && a.parent == b.parent && is_same(a.group, b.group) &&
+         is_same(a.terminal, b.terminal) && is_same(a.error, b.error) && is_same(a.sets, b.sets) &&
+         a.send == b.send &&
          std::ranges::equal(a.skippable, b.skippable,
                             [](const spec::Skippable& one, const spec::Skippable& other) {
                               return one.output == other.output && one.by_function == other.by_function &&

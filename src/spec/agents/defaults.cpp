@@ -325,12 +325,17 @@ void check_used(const SharedConditions& conditions, Diagnostics& out) {
   }
 }
 
+/// Entries of `until` stay.
+void drop_default_end(Numbered<NextId, Next>& next) {
+  std::erase_if(next, [](const Next& entry) { return !entry.inherited; });
+}
+
 bool lead_failures(Behaviour& behaviour, const Next& entry) {
   if (!behaviour.next_given) {
     // Its default entry `end` is for a terminal ending alone.
     Behaviour alone = behaviour;
     alone.next.clear();
-    if (!Endings(alone).possible(Ending::terminal)) behaviour.next.clear();
+    if (!Endings(alone).possible(Ending::terminal)) drop_default_end(behaviour.next);
   }
   const Endings endings(behaviour);
   if (!endings.unrouted(Ending::error) && !endings.unrouted(Ending::failure)) return false;

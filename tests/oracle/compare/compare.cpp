@@ -68,7 +68,7 @@ class Comparer {
     bool explained = false;
     if (result_.refusal == "E305")
       explained = std::any_of(flat_.behaviours.begin(), flat_.behaviours.end(), [&](const auto& behaviour) {
-        return !behaviour.waits && !behaviour.of->takes &&
+        return !behaviour.of->is_group && !behaviour.waits && !behaviour.of->takes &&
                !flat_.subsystems[static_cast<std::size_t>(behaviour.subsystem)].of->rate;
       });
     if (result_.refusal.starts_with("E43")) explained = !sound;

@@ -61,15 +61,21 @@ class Checker {
     return true;
   }
 
-  /// An entry of `next` must be possible after the way in which its behaviour has just ended.
+  /// An entry of `next` must be possible after the way in which its behaviour has just ended. An entry that leaves a
+  /// group says how the group has ended; one that is taken after both endings leaves it as its behaviour has ended.
   void follow_conditions(const FlatTransition& fired) {
     if (fired.role == Role::t5 || fired.role == Role::t6) by_error_[fired.subsystem] = fired.role == Role::t6;
     if (fired.role != Role::next && fired.role != Role::none) return;
     const Ways ways = ways_of(net_, fired.behaviour, shown_.exceptions, fired.facts);
-    const Following& following = by_error_[fired.subsystem] ? ways.after_error : ways.after_terminal;
+    bool& by_error = by_error_[fired.subsystem];
+    const Following& following = by_error ? ways.after_error : ways.after_terminal;
     if (fired.role == Role::none ? !following.none
                                  : !following.entries[static_cast<std::size_t>(fired.entry)])
-      complain("conditions: " + fired.name + " cannot follow " + (by_error_[fired.subsystem] ? "t6" : "t5"));
+      complain("conditions: " + fired.name + " cannot follow " + (by_error ? "t6" : "t5"));
+    if (fired.role == Role::none) return;
+    const auto k = static_cast<std::size_t>(fired.entry);
+    if (!ways.after_error.entries[k]) by_error = false;
+    if (!ways.after_terminal.entries[k]) by_error = true;
   }
 
   void own_property() {

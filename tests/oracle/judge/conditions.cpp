@@ -60,33 +60,33 @@ std::size_t first_unconditional(const std::vector<Entry>& next) {
 }
 
 /// Walks `next` in order after a terminal ending: the first entry that holds is taken.
-/// blocked: entries that would take a counter out of its range count as if their condition did not hold.
-void follow_terminal(const std::vector<Entry>& next, const std::vector<bool>& blocked, const Held& held,
+/// allowed: entries that would take a counter out of its range count as if their condition did not hold.
+void follow_terminal(const std::vector<Entry>& next, const std::vector<Truth>& allowed, const Held& held,
                      Following& following) {
   for (std::size_t k = 0; k < next.size(); ++k) {
-    if (blocked[k]) continue;
+    if (allowed[k] == Truth::no) continue;
     Truth truth = Truth::yes;
     if (next[k].when == Entry::When::error) truth = Truth::no;
     if (next[k].when == Entry::When::name) truth = held.contains(next[k].name) ? Truth::yes : Truth::no;
     if (next[k].when == Entry::When::expression) truth = next[k].truth;
     if (truth != Truth::no) following.entries[k] = true;
-    if (truth == Truth::yes) return;
+    if (truth == Truth::yes && allowed[k] == Truth::yes) return;
   }
   following.none = true;
 }
 
 /// After an error only the entries that name it count; if there is none, the subsystem ends.
 /// end: the entry by which it then does.
-void follow_error(const std::vector<Entry>& next, const std::vector<bool>& blocked, const Held& held,
+void follow_error(const std::vector<Entry>& next, const std::vector<Truth>& allowed, const Held& held,
                   std::size_t end, Following& following) {
   for (std::size_t k = 0; k < next.size(); ++k) {
     const bool names = next[k].when == Entry::When::error ||
                        (next[k].when == Entry::When::name && held.contains(next[k].name));
-    if (!names || blocked[k]) continue;
+    if (!names || allowed[k] == Truth::no) continue;
     following.entries[k] = true;
-    return;
+    if (allowed[k] == Truth::yes) return;
   }
-  following.entries[end] = true;
+  if (end < next.size()) following.entries[end] = true;
 }
 
 /// Conjunction, with `no` as the weakest: for three truths the smaller one of no < open < yes.
@@ -191,6 +191,26 @@ std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
   return values;
 }
 
+/// behaviour: its conditions are as true as they are known to be.
+/// end: the entry by which an error ends the subsystem that none names.
+Ways follow(const Behaviour& behaviour, const std::vector<Truth>& allowed, std::size_t end, bool exceptions) {
+  Ways ways;
+  const bool fails = can_hold(behaviour.error), always_fails = certain(behaviour.error);
+  ways.error = fails || exceptions;
+  ways.terminal = !always_fails && can_hold(behaviour.terminal);
+  ways.go_on = !always_fails && !certain(behaviour.terminal);
+  ways.after_terminal.entries.resize(behaviour.next.size());
+  ways.after_error.entries.resize(behaviour.next.size());
+  if (ways.terminal)
+    for (const Held& held : held_sets(behaviour.terminal))
+      follow_terminal(behaviour.next, allowed, held, ways.after_terminal);
+  if (fails)
+    for (const Held& held : held_sets(behaviour.error))
+      follow_error(behaviour.next, allowed, held, end, ways.after_error);
+  if (exceptions) follow_error(behaviour.next, allowed, {}, end, ways.after_error);
+  return ways;
+}
+
 std::vector<const Asked*> asked_at_end(const Behaviour& behaviour) {
   std::vector<const Asked*> all;
   add_asked(behaviour.terminal, all);
@@ -216,6 +236,7 @@ std::vector<const Asked*> expressions_of(const Behaviour& behaviour) {
       all.push_back(&*entry.asked);
   for (const Skip& skip : behaviour.skips)
     if (skip.asked) all.push_back(&*skip.asked);
+  if (behaviour.has_until && behaviour.until) all.push_back(&*behaviour.until);
   return all;
 }
 
@@ -231,11 +252,11 @@ Truth sends(const FlatNet& net, int behaviour, const Skip& skip, bool exceptions
 }
 
 std::vector<std::map<int, int>> values_of_ending(const FlatNet& net, int behaviour) {
-  return values_of(net, behaviour, asked_at_end(*net.behaviours[static_cast<std::size_t>(behaviour)].of));
+  return values_of(net, behaviour, asked_at_end(net.behaviours[static_cast<std::size_t>(behaviour)].whole));
 }
 
 std::vector<std::map<int, int>> values_of_next(const FlatNet& net, int behaviour) {
-  const Behaviour& of = *net.behaviours[static_cast<std::size_t>(behaviour)].of;
+  const Behaviour& of = net.behaviours[static_cast<std::size_t>(behaviour)].whole;
   const auto has = [](const Condition& condition, const std::string& name) {
     return std::any_of(condition.named.begin(), condition.named.end(),
                        [&](const auto& one) { return one.first == name; });
@@ -283,34 +304,33 @@ std::vector<Entry> next_of(const Subsystem& subsystem, const Behaviour& behaviou
 
 Ways ways_of(const FlatNet& net, int number, bool exceptions, const std::map<int, int>& values) {
   const Knowledge knowledge(net, number, exceptions, values);
-  Behaviour behaviour = *net.behaviours[static_cast<std::size_t>(number)].of;
+  Behaviour behaviour = net.behaviours[static_cast<std::size_t>(number)].whole;
   const int owner = net.behaviours[static_cast<std::size_t>(number)].subsystem;
   const Subsystem& subsystem = *net.subsystems[static_cast<std::size_t>(owner)].of;
-  std::vector<Entry> next = next_of(subsystem, behaviour);
-  std::vector<bool> blocked;
-  for (const Entry& entry : next)
-    blocked.push_back(!changed(net, owner, changes_of(subsystem, entry), values));
-  const std::size_t end = first_unconditional(next);
+  std::vector<Truth> allowed;
+  for (const Entry& entry : behaviour.next) {
+    const std::vector<Change> changes = changes_of(subsystem, entry);
+    const bool knows_all = std::all_of(changes.begin(), changes.end(), [&](const Change& one) {
+      return one.step == 0 || values.contains(fact_of_cell(net, owner, one.cell));
+    });
+    allowed.push_back(!changed(net, owner, changes, values)              ? Truth::no
+                      : knows_all || !may_be_blocked(subsystem, changes) ? Truth::yes
+                                                                         : Truth::open);
+  }
+  const std::size_t end = first_unconditional(behaviour.next);
   resolve(behaviour.terminal, knowledge);
   resolve(behaviour.error, knowledge);
-  for (Entry& entry : next)
+  for (Entry& entry : behaviour.next)
     if (entry.when == Entry::When::expression && entry.truth == Truth::open && entry.asked)
       entry.truth = knowledge.of(*entry.asked);
-  Ways ways;
-  const bool fails = can_hold(behaviour.error), always_fails = certain(behaviour.error);
-  ways.error = fails || exceptions;
-  ways.terminal = !always_fails && can_hold(behaviour.terminal);
-  ways.go_on = !always_fails && !certain(behaviour.terminal);
-  ways.after_terminal.entries.resize(next.size());
-  ways.after_error.entries.resize(next.size());
-  if (ways.terminal)
-    for (const Held& held : held_sets(behaviour.terminal))
-      follow_terminal(next, blocked, held, ways.after_terminal);
-  if (fails)
-    for (const Held& held : held_sets(behaviour.error))
-      follow_error(next, blocked, held, end, ways.after_error);
-  if (exceptions) follow_error(next, blocked, {}, end, ways.after_error);
-  return ways;
+  return follow(behaviour, allowed, end, exceptions);
+}
+
+Ways ways_of(const Subsystem& subsystem, const Behaviour& written_out) {
+  std::vector<Truth> allowed;
+  for (const Entry& entry : written_out.next)
+    allowed.push_back(may_be_blocked(subsystem, changes_of(subsystem, entry)) ? Truth::open : Truth::yes);
+  return follow(written_out, allowed, first_unconditional(written_out.next), false);
 }
 
 bool can_end(const FlatNet& net, int behaviour, bool exceptions) {

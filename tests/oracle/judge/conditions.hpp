@@ -32,6 +32,9 @@ struct Ways {
 /// fresh.
 Ways ways_of(const FlatNet& net, int behaviour, bool exceptions, const std::map<int, int>& values);
 
+/// The same of a behaviour that is written out, with nothing known and without exceptions.
+Ways ways_of(const Subsystem& subsystem, const Behaviour& written_out);
+
 /// Whether some iteration of the behaviour can end it, whatever the facts are.
 bool can_end(const FlatNet& net, int behaviour, bool exceptions);
 

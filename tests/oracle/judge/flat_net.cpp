@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "conditions.hpp"
+#include "groups.hpp"
 #include "memory.hpp"
 
 namespace oracle {
@@ -251,18 +252,18 @@ class Builder {
   void subsystem_layer(int s) {
     subsystem_ = s;
     FlatNet::SubsystemInfo& subsystem = net_.subsystems[static_cast<std::size_t>(s)];
-    std::map<std::string, int> in_of{{"end", subsystem.out}};
+    std::map<std::string, int> in_of, out_of{{"", subsystem.out}};
     for (const Behaviour& of : subsystem.of->behaviours) {
-      const std::string path = subsystem.path + "." + of.name;
+      const std::string path = subsystem.path + "." + path_in(*subsystem.of, of);
       const int in = add_place(path + ".in"), out = add_place(path + ".out");
       in_of[of.name] = in;
+      out_of[of.name] = out;
       subsystem.behaviours.push_back(static_cast<int>(net_.behaviours.size()));
-      net_.behaviours.push_back({path, s, &of, in, out});
-      net_.behaviours.back().received = channels_of(net_.behaviours.back(), false);
+      net_.behaviours.push_back({path, s, &of, written_out(*subsystem.of, of), in, out});
+      if (!of.is_group) net_.behaviours.back().received = channels_of(net_.behaviours.back(), false);
       add_page(path, in, out);
     }
-    const std::string& start =
-        subsystem.of->start.empty() ? subsystem.of->behaviours[0].name : subsystem.of->start;
+    const std::string& start = first_in(*subsystem.of, "").name;
     FlatTransition& begin = add_transition(subsystem.path + ".t_in", {subsystem.in}, {in_of.at(start)});
     std::map<int, int> first;  // memory that the first behaviour changes
     const std::vector<Change> begun =
@@ -278,7 +279,8 @@ class Builder {
       counts.pages += 1;
       behaviour_ = b;
       const FlatNet::BehaviourInfo& info = net_.behaviours[static_cast<std::size_t>(b)];
-      const std::vector<Entry> next = next_of(*subsystem.of, *info.of);
+      const std::vector<Entry>& next = info.whole.next;
+      const std::string in_page = subsystem.path + "." + page_of(*info.of, *subsystem.of);
       const std::vector<std::map<int, int>> all = values_of_next(net_, b);
       std::set<std::size_t> has_way;
       for (std::size_t k = 0; k < next.size(); ++k)
@@ -288,12 +290,25 @@ class Builder {
           const bool needed = all[a].empty() || (k + 1 == next.size() && !has_way.contains(a));
           if (!possible && !needed) continue;
           has_way.insert(a);
-          add_entry(subsystem.path + ".t_" + info.of->name + "_" + std::to_string(k + 1), info.out,
-                    in_of.at(next[k].to), static_cast<int>(k), changes_of(*subsystem.of, next[k]), all[a]);
+          add_entry(in_page + "t_" + info.of->name + "_" + std::to_string(k + 1), info.out,
+                    next[k].to == "end" ? out_of.at(info.of->group) : in_of.at(next[k].to),
+                    static_cast<int>(k), changes_of(*subsystem.of, next[k]), all[a]);
         }
-      behaviour_layer(info, b);
+      if (info.of->is_group) {
+        add_transition(info.path + ".t_in", {info.in},
+                       {in_of.at(first_in(*subsystem.of, info.of->name).name)});
+        counts.places += 2;
+        counts.transitions += 1;
+      } else {
+        behaviour_layer(info, b);
+      }
     }
     behaviour_ = subsystem_ = -1;
+  }
+
+  /// "", or "g0.g1."
+  static std::string page_of(const Behaviour& of, const Subsystem& subsystem) {
+    return of.group.empty() ? "" : path_in(subsystem, behaviour_named(subsystem, of.group)) + ".";
   }
 
   void behaviour_layer(const FlatNet::BehaviourInfo info, int b) {

@@ -39,6 +39,7 @@ struct FlatNet {
     std::string path;
     int subsystem = -1;
     const Behaviour* of = nullptr;
+    Behaviour whole{};  // with what groups add to it
     int in = -1, out = -1;
     bool waits = false;           // it uses a channel whose side of it blocks
     std::vector<int> received{};  // channels

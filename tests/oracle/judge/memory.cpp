@@ -1,5 +1,7 @@
 #include "memory.hpp"
 
+#include "groups.hpp"
+
 namespace oracle {
 
 std::vector<std::map<int, int>> with_all_values(const FlatNet& net, int fact,
@@ -30,9 +32,11 @@ bool may_be_blocked(const Subsystem& subsystem, const std::vector<Change>& chang
 
 std::vector<Change> changes_of(const Subsystem& subsystem, const Entry& entry) {
   std::vector<Change> all = entry.sets;
-  for (const Behaviour& behaviour : subsystem.behaviours)
-    if (behaviour.name == entry.to) all.insert(all.end(), behaviour.sets.begin(), behaviour.sets.end());
-  return all;
+  if (entry.to == "end") return all;
+  for (const Behaviour* to = &behaviour_named(subsystem, entry.to);; to = &first_in(subsystem, to->name)) {
+    all.insert(all.end(), to->sets.begin(), to->sets.end());
+    if (!to->is_group) return all;
+  }
 }
 
 int fact_of_cell(const FlatNet& net, int subsystem, int cell) {

@@ -9,7 +9,8 @@
 
 namespace oracle {
 
-/// The changes of memory when an entry is taken: its own, then those of the behaviour that it leads to.
+/// The changes of memory when an entry is taken: its own, then those of the behaviour that it leads to. If that is a
+/// group, its own come before those of the behaviour with which it begins.
 std::vector<Change> changes_of(const Subsystem& subsystem, const Entry& entry);
 int fact_of_cell(const FlatNet& net, int subsystem, int cell);
 /// All values of the cells that are changed, together with these.

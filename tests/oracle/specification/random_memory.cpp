@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "oracle/judge/groups.hpp"
 #include "oracle/judge/memory.hpp"
 #include "random_specification.hpp"
 
@@ -43,7 +44,10 @@ bool allows(const Subsystem& subsystem, const std::vector<Change>& changes, int 
 
 /// Leaves out changes that no count allows (E267), and those of the first behaviour that the start forbids (E268).
 void keep_in_range(Subsystem& subsystem) {
-  const std::string& first = subsystem.start.empty() ? subsystem.behaviours[0].name : subsystem.start;
+  for (Behaviour& behaviour : subsystem.behaviours)  // several may begin together
+    if (behaviour.is_group || !behaviour.group.empty())
+      std::erase_if(behaviour.sets, [](const Change& one) { return one.step != 0; });
+  const std::string& first = first_in(subsystem, "").name;
   for (Behaviour& behaviour : subsystem.behaviours)
     if (behaviour.name == first)
       std::erase_if(behaviour.sets, [](const Change& one) { return one.step < 0; });

@@ -1,4 +1,5 @@
 #include "oracle/judge/flat_net.hpp"
+#include "oracle/judge/groups.hpp"
 #include "random_specification.hpp"
 
 namespace oracle {
@@ -48,8 +49,14 @@ class Formulas {
  private:
   std::string behaviour_in(const Agent& agent) {
     const Subsystem& subsystem = random_.of(subsystems_of(specification_, agent));
-    return "." + subsystem.name + "." + random_.of(subsystem.behaviours).name +
-           (random_.percent(25) ? random_.of(pages_) : "");
+    const Behaviour& behaviour = random_.of(subsystem.behaviours);
+    return "." + subsystem.name + "." + path_in(subsystem, behaviour) +
+           (random_.percent(25) ? page_in(behaviour) : "");
+  }
+
+  std::string page_in(const Behaviour& behaviour) {
+    const std::string& page = random_.of(pages_);
+    return !behaviour.is_group ? page : page.size() % 2 == 0 ? ".in" : ".out";
   }
 
   Formula atom() {
@@ -77,7 +84,8 @@ class Formulas {
     } else if (kind < 53) {
       made.path = random_.of(net_.subsystems).path + ".out";
     } else {
-      made.path = random_.of(net_.behaviours).path + (random_.percent(45) ? random_.of(pages_) : "");
+      const FlatNet::BehaviourInfo& behaviour = random_.of(net_.behaviours);
+      made.path = behaviour.path + (random_.percent(45) ? page_in(*behaviour.of) : "");
     }
     return made;
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "oracle/judge/flat_net.hpp"
+#include "oracle/judge/groups.hpp"
 
 namespace oracle {
 
@@ -27,7 +28,11 @@ namespace {
 class Generator {
  public:
   explicit Generator(std::uint64_t seed)
-      : random_(seed), asks_(~seed), remembers_(seed + (1ULL << 63U)), skips_(seed ^ 0x5C1B5U) {}
+      : random_(seed),
+        asks_(~seed),
+        remembers_(seed + (1ULL << 63U)),
+        skips_(seed ^ 0x5C1B5U),
+        groups_(seed * 3 + 0x9209U) {}
 
   Specification make() {
     if (random_.percent(15)) specification_.models = random_models(random_);
@@ -36,6 +41,7 @@ class Generator {
     for (int c = 0; c < channels; ++c) channel();
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
+    if (groups_.percent(40)) group();
     if (skips_.percent(60)) skip();
     time();
     if (remembers_.percent(55)) remember();
@@ -186,7 +192,7 @@ class Generator {
 
   Entry entry(const Subsystem& subsystem, const Behaviour& behaviour) {
     Entry entry;
-    entry.to = random_.percent(20) ? "end" : random_.of(subsystem.behaviours).name;
+    entry.to = random_.percent(20) ? "end" : random_.of(beside(subsystem, behaviour.group));
     std::vector<std::string> names;
     for (const Condition* of : {&behaviour.terminal, &behaviour.error})
       for (const auto& [name, known] : of->named) names.push_back(name);
@@ -215,18 +221,22 @@ class Generator {
     return chosen;
   }
 
+  Behaviour leaf(const Subsystem& subsystem, const std::string& name, int without_terminal) {
+    Behaviour behaviour;
+    behaviour.name = name;
+    behaviour.terminal = condition(without_terminal, 40, "t");
+    behaviour.error = condition(65, 12, "f");
+    behaviour.send = some_of(subsystem.outputs);
+    behaviour.receive = some_of(subsystem.inputs);
+    behaviour.parallel = random_.percent(30);
+    behaviour.takes = random_.percent(10);
+    return behaviour;
+  }
+
   void behaviours(Subsystem& subsystem) {
     const int number = random_.percent(60) ? 1 : random_.percent(70) ? 2 : 3;
     for (int b = 0; b < number; ++b) {
-      Behaviour behaviour;
-      behaviour.name = "b" + std::to_string(b);
-      behaviour.terminal = condition(b + 1 == number ? 45 : 15, 40, "t");
-      behaviour.error = condition(65, 12, "f");
-      behaviour.send = some_of(subsystem.outputs);
-      behaviour.receive = some_of(subsystem.inputs);
-      behaviour.parallel = random_.percent(30);
-      behaviour.takes = random_.percent(10);
-      subsystem.behaviours.push_back(behaviour);
+      subsystem.behaviours.push_back(leaf(subsystem, "b" + std::to_string(b), b + 1 == number ? 45 : 15));
     }
     for (std::size_t b = 0; b < subsystem.behaviours.size(); ++b) {
       Behaviour& behaviour = subsystem.behaviours[b];
@@ -241,6 +251,73 @@ class Generator {
     if (random_.percent(15)) subsystem.start = random_.of(subsystem.behaviours).name;
   }
 
+  /// The names of what stands in a group; "": of the subsystem.
+  static std::vector<std::string> beside(const Subsystem& subsystem, const std::string& group) {
+    std::vector<std::string> names;
+    for (const Behaviour& one : subsystem.behaviours)
+      if (one.group == group) names.push_back(one.name);
+    return names;
+  }
+
+  /// Gives subsystems groups, to which behaviours lead. It has random numbers of its own.
+  void group() {
+    std::swap(random_, groups_);
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems) {
+        if (!random_.percent(55)) continue;
+        const std::size_t before = subsystem.behaviours.size();
+        add_group(subsystem, "", random_.percent(30) ? 2 : 1);
+        const std::string name = subsystem.behaviours[before].name;
+        for (std::size_t b = 0; b < before; ++b)
+          for (Entry& entry : subsystem.behaviours[b].next)
+            if (random_.percent(45)) entry.to = name;
+        if (random_.percent(35)) subsystem.start = name;
+        if (random_.percent(25)) subsystem.on_error = random_.of(beside(subsystem, ""));
+      }
+    std::swap(random_, groups_);
+  }
+
+  void add_group(Subsystem& subsystem, const std::string& around, int levels) {
+    Behaviour group;
+    group.name = "g" + std::to_string(subsystem.behaviours.size());
+    group.group = around;
+    group.is_group = true;
+    group.has_until = random_.percent(55);
+    const std::string name = group.name;
+    const std::size_t at = subsystem.behaviours.size();
+    subsystem.behaviours.push_back(group);
+    const int number = levels > 1 ? 1 : 1 + random_.below(2);
+    if (levels > 1 && random_.percent(50)) add_group(subsystem, name, levels - 1);
+    for (int b = 0; b < number; ++b) {
+      Behaviour behaviour = leaf(subsystem, "b" + std::to_string(subsystem.behaviours.size()), 30);
+      behaviour.group = name;
+      subsystem.behaviours.push_back(behaviour);
+    }
+    if (levels > 1 && subsystem.behaviours.size() == at + 2) add_group(subsystem, name, levels - 1);
+    const std::vector<std::string> inside = beside(subsystem, name);
+    if (random_.percent(40)) subsystem.behaviours[at].on_error = random_.of(inside);
+    if (random_.percent(25)) subsystem.behaviours[at].start = random_.of(inside);
+    for (Behaviour& one : subsystem.behaviours)
+      if (one.group == name) follow(subsystem, one);
+    if (around.empty()) follow(subsystem, subsystem.behaviours[at]);
+  }
+
+  /// Entries of `next`, at random.
+  void follow(const Subsystem& subsystem, Behaviour& behaviour) {
+    const int entries = random_.percent(20) ? 0 : 1 + random_.below(3);
+    for (int e = 0; e < entries; ++e) {
+      behaviour.next.push_back(entry(subsystem, behaviour));
+      Entry& made = behaviour.next.back();
+      if (behaviour.has_until && random_.percent(40)) {
+        made.when = Entry::When::until;
+        made.name.clear();
+      }
+    }
+    if (entries > 0 && random_.percent(70))
+      behaviour.next.push_back(
+          {random_.of(beside(subsystem, behaviour.group)), Entry::When::always, "", Truth::open});
+  }
+
   /// Every behaviour takes time, by a rate, a blocking channel, or `takes`. Three in a hundred
   /// need not, and are refused.
   void time() {
@@ -249,7 +326,7 @@ class Generator {
     if (random_.percent(3)) return;
     const FlatNet net = flat_net(specification_);
     for (const auto& behaviour : net.behaviours)
-      if (!behaviour.waits)
+      if (!behaviour.waits && !behaviour.of->is_group)
         const_cast<Behaviour*>(behaviour.of)->takes |=
             !net.subsystems[static_cast<std::size_t>(behaviour.subsystem)].of->rate;
   }
@@ -281,6 +358,7 @@ class Generator {
             if (entry.when == Entry::When::expression) entry.asked = some_question(subsystem);
           for (Skip& skip : behaviour.skips)
             if (!skip.by_function) skip.asked = some_question(subsystem);
+          if (behaviour.has_until) behaviour.until = some_question(subsystem);
         }
   }
 
@@ -289,6 +367,7 @@ class Generator {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems)
         for (Behaviour& behaviour : subsystem.behaviours) {
+          if (behaviour.is_group) continue;
           std::vector<Skip> skips;
           for (const std::string& output : behaviour.send.value_or(subsystem.outputs))
             if (skips_.percent(60)) skips.push_back({output, skips_.percent(30)});
@@ -328,7 +407,7 @@ class Generator {
     return question;
   }
 
-  RandomNumbers random_, asks_, remembers_, skips_;
+  RandomNumbers random_, asks_, remembers_, skips_, groups_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

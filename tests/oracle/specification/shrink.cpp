@@ -81,7 +81,12 @@ void leave_out(const Specification& from, Candidates& into) {
         Subsystem& subsystem = agent.subsystems[s];
         const std::string name = subsystem.behaviours[b].name;
         subsystem.behaviours.erase(subsystem.behaviours.begin() + static_cast<std::ptrdiff_t>(b));
+        std::erase_if(subsystem.behaviours, [&](const Behaviour& one) { return one.group == name; });
         if (subsystem.start == name) subsystem.start.clear();
+        if (subsystem.on_error == name) subsystem.on_error.clear();
+        for (Behaviour& other : subsystem.behaviours)
+          for (std::string* of : {&other.start, &other.on_error})
+            if (*of == name) of->clear();
         for (Behaviour& other : subsystem.behaviours)
           std::erase_if(other.next, [&](const Entry& e) { return e.to == name; });
       });
@@ -143,6 +148,13 @@ void simplify_behaviours(const Specification& from, Candidates& into) {
     member = value;
     return changes;
   };
+  behaviour_candidate(from, into, [&](Behaviour& b) {
+    std::erase_if(b.next, [](const Entry& entry) { return entry.when == Entry::When::until; });
+    return set(b.has_until, false, b.has_until);
+  });
+  for (std::string Behaviour::*name : {&Behaviour::on_error, &Behaviour::start})
+    behaviour_candidate(from, into,
+                        [&](Behaviour& b) { return set(b.*name, std::string(), !(b.*name).empty()); });
   behaviour_candidate(from, into, [&](Behaviour& b) { return set(b.parallel, false, b.parallel); });
   behaviour_candidate(from, into, [&](Behaviour& b) { return set(b.takes, false, b.takes); });
   behaviour_candidate(from, into,
@@ -186,6 +198,8 @@ void simplify_behaviours(const Specification& from, Candidates& into) {
   }
   every_subsystem(from, into, [](auto add, const Subsystem& of) {
     if (!of.rate) add([](Specification&, Agent& agent, std::size_t s) { agent.subsystems[s].rate = true; });
+    if (!of.on_error.empty())
+      add([](Specification&, Agent& agent, std::size_t s) { agent.subsystems[s].on_error.clear(); });
     if (!of.start.empty())
       add([](Specification&, Agent& agent, std::size_t s) { agent.subsystems[s].start.clear(); });
   });

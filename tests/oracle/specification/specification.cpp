@@ -69,6 +69,7 @@ std::string entry(const Entry& of, const Subsystem& owner, Expressions& expressi
   if (of.when == Entry::When::always) return sets.empty() ? of.to : "{ to: " + of.to + sets + " }";
   std::string when = of.name;
   if (of.when == Entry::When::error) when = "error";
+  if (of.when == Entry::When::until) when = "until";
   if (of.when == Entry::When::expression) when = expressions.next(of.truth, of.asked ? &*of.asked : nullptr);
   return "{ to: " + of.to + ", when: " + when + sets + " }";
 }
@@ -91,6 +92,10 @@ std::string sent(const Behaviour& of, Expressions& expressions) {
 
 std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& expressions) {
   std::vector<std::string> keys;
+  if (of.has_until)
+    keys.push_back("until: " + expressions.next(Truth::open, of.until ? &*of.until : nullptr));
+  if (!of.on_error.empty()) keys.push_back("on_error: " + of.on_error);
+  if (!of.start.empty()) keys.push_back("start: " + of.start);
   if (of.terminal.form != Condition::Form::absent)
     keys.push_back("terminal: " + condition(of.terminal, expressions));
   if (of.error.form != Condition::Form::absent) keys.push_back("error: " + condition(of.error, expressions));
@@ -105,6 +110,12 @@ std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& 
   if (of.parallel) keys.push_back("transfer: parallel");
   if (of.takes) keys.push_back("takes: 3 ms");
   if (!of.sets.empty()) keys.push_back(changes(of.sets, owner));
+  if (of.is_group) {
+    std::vector<std::string> inside;
+    for (const Behaviour& one : owner.behaviours)
+      if (one.group == of.name) inside.push_back(behaviour(one, owner, expressions));
+    keys.push_back("behaviours: " + map(inside));
+  }
   return of.name + ": " + map(keys);
 }
 
@@ -129,8 +140,10 @@ void subsystem(std::ostream& out, const std::string& indent, const Subsystem& of
                                                       cell.values.back() + " }"));
   out << inner << "memory: " << map(cells) << "\n";
   if (!of.start.empty()) out << inner << "start: " << of.start << "\n";
+  if (!of.on_error.empty()) out << inner << "on_error: " << of.on_error << "\n";
   out << inner << "behaviours:\n";
-  for (const Behaviour& one : of.behaviours) out << inner << "  " << behaviour(one, of, expressions) << "\n";
+  for (const Behaviour& one : of.behaviours)
+    if (one.group.empty()) out << inner << "  " << behaviour(one, of, expressions) << "\n";
 }
 
 void body(std::ostream& out, const std::string& indent, const Agent& of) {

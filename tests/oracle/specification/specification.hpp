@@ -49,13 +49,14 @@ struct Condition {
 
 /// An entry of `next`.
 struct Entry {
-  enum class When { always, error, name, expression };
+  enum class When { always, error, name, expression, until };
   std::string to;  // a behaviour or "end"
   When when = When::always;
   std::string name;           // of a terminal or error expression
   Truth truth = Truth::open;  // of the expression
   std::optional<Asked> asked{};
   std::vector<Change> sets{};
+  bool leaves = false;  // not written: an error that nothing names leaves the group
 };
 
 /// An output that an iteration may skip: the transition function decides, or an expression whose truth is open.
@@ -74,6 +75,11 @@ struct Behaviour {
   bool takes = false;
   std::vector<Change> sets{};  // when it begins
   std::vector<Skip> skips{};   // of outputs in `send`, which is then written
+  std::string group{};         // the name of the group in which it stands
+  // Of a group, which has `next` and `sets` besides. An empty name is not written.
+  bool is_group = false, has_until = false;
+  std::optional<Asked> until{};  // what is absent asks nothing
+  std::string on_error{}, start{};
 };
 
 struct Subsystem {
@@ -82,9 +88,10 @@ struct Subsystem {
   Kind kind = Kind::control;
   bool rate = true;
   std::vector<std::string> inputs, outputs;
-  std::vector<Behaviour> behaviours;
-  std::string start;  // empty: not written
+  std::vector<Behaviour> behaviours;  // also those in groups; no two have one name
+  std::string start;                  // empty: not written
   std::vector<Cell> memory{};
+  std::string on_error{};  // empty: not written
 };
 
 /// An agent, a template, or a fleet: either `subsystems` or `use`.

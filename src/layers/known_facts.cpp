@@ -132,7 +132,34 @@ KnownFacts::Asked KnownFacts::asked() const {
         add(AskedBuffers(part, expression.member));
     });
   });
+  asked_by_properties(found);
   return found;
+}
+
+/// robot.control.grant.fresh, robot.control.request.timed_out
+void KnownFacts::asked_by_properties(Asked& found) const {
+  std::string path;
+  const auto ask = [&](const spec::Statement& statement, const auto& self) -> void {
+    const std::vector<spec::PathPart>& parts = statement.path.parts;
+    if (statement.kind == spec::Statement::Kind::token && parts.size() == 3 && !statement.to) {
+      const bool fresh = parts[2].name == spec::fresh_in_paths,
+                 late = parts[2].name == spec::timed_out_in_paths;
+      if (!fresh && !late) return;
+      if (path.empty()) path = model_.instance_path(id_);
+      if (path != statement.path.agent + "." + parts[0].name) return;
+      if (fresh) found.inputs[number_in(inputs_, parts[1].name)] = true;
+      if (late) found.outputs[number_in(outputs_, parts[1].name)] = true;
+    }
+    for (const spec::Statement& part : statement.parts) self(part, self);
+  };
+  for (const spec::Property& property : model_.properties) {
+    const auto says = [&](std::string_view word) { return property.text.find(word) != std::string::npos; };
+    if (!says(spec::fresh_in_paths) && !says(spec::timed_out_in_paths)) continue;
+    for (const spec::Claim& claim : property.claims) {
+      ask(claim.what, ask);
+      if (claim.then) ask(*claim.then, ask);
+    }
+  }
 }
 
 /// Whether the net tells how that side of the channel ends.

@@ -25,7 +25,7 @@ struct AskedBuffers;
 /// value; these places hold one token together. A transition reads a fact by taking the token of one value and
 /// giving it back; it changes a fact by taking the token of one value and giving that of another.
 ///
-/// A fact of an input or output exists if a condition of the subsystem asks for it and the net knows it:
+/// A fact of an input or output exists if a condition of the subsystem or a property asks for it and the net knows it:
 /// * `in.x.fresh`, `in.x.timed_out`: the channel has a built-in model, and its receiver is not the one of NB -> NB,
 ///   nor one that waits for the first value only. Values: came, missed.
 /// * `out.y.timed_out`: some channel of the output sends with a timeout, and all of them have built-in models.
@@ -116,6 +116,7 @@ class KnownFacts {
     std::vector<bool> inputs, outputs;
   };
   [[nodiscard]] Asked asked() const;
+  void asked_by_properties(Asked& found) const;
   [[nodiscard]] bool is_known(const spec::Channel& channel, Direction direction) const;
   void find_memory();
   void find_reached(net::FactId cell);

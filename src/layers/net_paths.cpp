@@ -105,6 +105,9 @@ Found NetPaths::in_page(PageId page, const spec::NetPath& path, std::size_t part
 /// AGENT.SUBSYSTEM.BUFFER.STATE
 Found NetPaths::of_buffer(net::SubsystemId subsystem, const spec::NetPath& path, Diagnostics& out) const {
   const spec::PathPart& buffer = path.parts[1];
+  const std::string_view last = path.parts.back().name;
+  if (path.parts.size() == 3 && (last == spec::fresh_in_paths || last == spec::timed_out_in_paths))
+    return of_outcome(subsystem, path, out);
   std::vector<std::string> names;
   for (const net::ChannelId id : channels_[subsystem]) {
     const spec::Channel& channel = model_.channels[id];
@@ -117,13 +120,39 @@ Found NetPaths::of_buffer(net::SubsystemId subsystem, const spec::NetPath& path,
   }
   if (path.parts.size() == 2 || path.parts.size() > 3) {
     out.error("E112", buffer.span, in_quotes(buffer.name) + " is a buffer: which state of its channel?",
-              "write " + path.agent + "." + joined(path.parts, 0) + ".full, .empty, .ack or .channel");
+              "write " + path.agent + "." + joined(path.parts, 0) +
+                  ".full, .empty, .ack or .channel; or .fresh of an input");
     return std::nullopt;
   }
   if (names.size() == 1) return state(names.front(), path.parts[2], out);
   const std::string none = names.empty() ? "no channel" : std::to_string(names.size()) + " channels";
   out.error("E112", buffer.span, in_quotes(buffer.name) + " belongs to " + none,
             names.empty() ? "" : "name one: " + names.front() + "." + path.parts[2].name);
+  return std::nullopt;
+}
+
+/// AGENT.SUBSYSTEM.INPUT.fresh, AGENT.SUBSYSTEM.OUTPUT.timed_out: what the net knows of the last communication.
+Found NetPaths::of_outcome(net::SubsystemId subsystem, const spec::NetPath& path, Diagnostics& out) const {
+  const spec::PathPart &buffer = path.parts[1], &status = path.parts[2];
+  const std::string written = path.agent + "." + path.parts[0].name + "." + buffer.name;
+  const auto& inputs = model_.subsystem(subsystem).inputs;
+  const bool is_input = std::ranges::count(inputs, buffer.name, &spec::Field::name) > 0;
+  const bool fresh = status.name == spec::fresh_in_paths;
+  if (fresh != is_input) {
+    out.error("E112", status.span,
+              is_input ? "properties do not ask whether the last wait for an input timed out"
+                       : "an output is never fresh",
+              is_input
+                  ? "write not " + written + ".fresh: its last receive took no value"
+                  : "ask .timed_out of an output, or .fresh of the input at the other end of its channel");
+    return std::nullopt;
+  }
+  const std::string name = model_.instance_path(subsystem) + "." + buffer.name + ".";
+  const auto place = places_.find(name + std::string(fresh ? words::came : words::timed_out));
+  if (place != places_.end()) return marked(place->second);
+  out.error("E112", status.span, "the net does not know " + in_quotes(buffer.name + "." + status.name),
+            fresh ? "it does for a channel on which a side waits: receive: blocking, timeout: 1 s"
+                  : "it does if all its channels send with a timeout: send: blocking, timeout: 1 s");
   return std::nullopt;
 }
 

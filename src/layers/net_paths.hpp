@@ -30,6 +30,10 @@ class NetPaths {
                                                       std::size_t part, diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> of_buffer(net::SubsystemId subsystem, const spec::NetPath& path,
                                                         diagnostics::Diagnostics& out) const;
+  /// `fresh` of an input, `timed_out` of an output.
+  [[nodiscard]] std::optional<net::Statement> of_outcome(net::SubsystemId subsystem,
+                                                         const spec::NetPath& path,
+                                                         diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> of_memory(net::PageId page, const spec::Statement& token,
                                                         diagnostics::Diagnostics& out) const;
   [[nodiscard]] std::optional<net::Statement> of_channel(const spec::NetPath& from, const spec::NetPath& to,

@@ -132,6 +132,8 @@ std::size_t errors_in(const std::string& text) {
   diagnostics::Diagnostics out("spec.yaml", text);
   (void)spec::parse(out);
   EXPECT_FALSE(out.has_errors()) << render(out) << text;
+  // `in.done[i]` is received by the behaviour of each member.
+  EXPECT_THAT(render(out), Not(HasSubstr("W371")));
   return out.error_count();
 }
 
@@ -331,6 +333,13 @@ TEST(Members, NamesAndFleetsAreRenamedEverywhere) {
                                          HasSubstr("in.wish[i].fresh"), HasSubstr("receive: [wish]")));
   EXPECT_THAT(input.code, HasSubstr("in.wish[0].urgent"));
   for (const After* one : {&fleet, &behaviour, &input}) EXPECT_EQ(errors_in(one->specification), 0U);
+}
+
+TEST(Members, OutcomesAreCompletedInProperties) {
+  EXPECT_THAT(labels_at("desk.control.lend[i] and", "desk.control.request[0].‸ and"), ElementsAre("fresh"));
+  EXPECT_THAT(labels_at("desk.control.lend[i] and", "desk.control.grant[0].‸ and"), Contains("timed_out"));
+  EXPECT_THAT(labels_at("desk.control.lend[i] and", "desk.control.‸ and"),
+              IsSupersetOf({"lend[*]", "memory", "request[*]", "grant[*]"}));
 }
 
 TEST(Members, AreExplained) {

@@ -31,11 +31,14 @@ void Completer::paths(PathEnd end, const std::string& fleet) {
     if (names.size() == 1 && (end == PathEnd::behaviour || !ends(unit, end).empty()))
       add(Proposal::Kind::name, unit.name, "subsystem");
     if (names.size() == 2 && unit.name == names[1]) {
-      if (end == PathEnd::behaviour || end == PathEnd::real)
+      if (end == PathEnd::real)
         add_names(ends(unit, end));
       else
         members_of_fleets(ends(unit, end), fleet);
-      if (end == PathEnd::behaviour) add_names(unit.outputs);
+      if (end == PathEnd::behaviour) {
+        members_of_fleets(unit.outputs, fleet);
+        members_of_fleets(unit.inputs, fleet);
+      }
       if (end == PathEnd::behaviour && !kept_cells(unit).empty())
         add(Proposal::Kind::word, "memory", "memory cells that the net knows", "memory.");
     }
@@ -43,13 +46,15 @@ void Completer::paths(PathEnd end, const std::string& fleet) {
       add_names(kept_cells(unit));
     if (names.size() > 2 && end == PathEnd::behaviour && unit.name == names[1])
       behaviours_in_path(unit, names);
+    if (names.size() == 3 && end == PathEnd::behaviour && unit.name == names[1]) outcomes_of(unit, names[2]);
     if (names.size() > 2 && end == PathEnd::real && unit.name == names[1]) fields_of_path(unit, names);
   }
 }
 
 void Completer::members_of_fleets(const NamesOf& names, const std::string& index) {
   for (const auto& [name, id] : names)
-    add(Proposal::Kind::name, index_[id].fleet.empty() ? name : name + index, index_[id].type);
+    add(Proposal::Kind::name, index_[id].fleet.empty() ? name : name + index,
+        index_[id].type.empty() ? std::string(words_of(index_[id])) : index_[id].type);
 }
 
 void Completer::behaviours_in_path(const UnitNames& unit, const std::vector<std::string>& names) {
@@ -61,6 +66,14 @@ void Completer::behaviours_in_path(const UnitNames& unit, const std::vector<std:
     group = found->second;
   }
   add_names(unit.behaviours_in(group));
+}
+
+void Completer::outcomes_of(const UnitNames& unit, const std::string& buffer) {
+  if (unit.inputs.contains(buffer)) add(Proposal::Kind::word, "fresh", "the last receive took a value");
+  if (!unit.outputs.contains(buffer)) return;
+  add(Proposal::Kind::word, "timed_out", "nobody acknowledged the last value in time");
+  for (const char* state : {"full", "empty", "ack", "channel"})
+    add(Proposal::Kind::word, state, "a place of the channel");
 }
 
 void Completer::fields_of_path(const UnitNames& unit, const std::vector<std::string>& names) {

@@ -49,13 +49,22 @@ class UnreceivedInputs {
   }
 
  private:
+  /// Whether it receives another buffer of the same family: the reference does not know the index.
+  [[nodiscard]] bool receives_one_like(const Behaviour& behaviour, BufferId input) const {
+    const std::optional<Member>& member = subsystem_.inputs[input].member;
+    return member && std::ranges::any_of(*behaviour.receive, [&](BufferId one) {
+             const std::optional<Member>& other = subsystem_.inputs[one].member;
+             return other && other->family == member->family;
+           });
+  }
+
   /// decides: whether the behaviour goes on; `next` may choose by the value of an earlier behaviour.
   void check(const Behaviour& behaviour, const Expression& expression, bool decides) {
     const std::vector<Reference>& all = expression.references;
     for (std::size_t at = 0; at < all.size(); ++at) {
       if (all[at].kind != Reference::Kind::input || !all[at].target) continue;
       const BufferId input{*all[at].target};
-      if (is_used(behaviour.receive, input)) continue;
+      if (is_used(behaviour.receive, input) || receives_one_like(behaviour, input)) continue;
       const std::string status = status_of(all, at), name = subsystem_.inputs[input].name;
       const bool is_new = status == "fresh" || status == "timed_out";
       // One condition beside another may join a value that stays to one that changes.

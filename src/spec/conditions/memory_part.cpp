@@ -29,40 +29,53 @@ bool compares(const Token& mark, Number left, Number right) {
   return mark.is(">") ? left > right : left >= right;
 }
 
-std::optional<std::int64_t> number_in(const Token& token) {
-  std::int64_t number = 0;
-  const char* const end = token.text.data() + token.text.size();
-  const bool octal = token.text.size() > 1 && token.text.front() == '0';
+/// A decimal number: 3, 1.5, 2u.
+std::optional<double> decimal_in(const Token& token) {
+  double number = 0;
+  std::string_view text = token.text;
+  while (!text.empty() && std::string_view("uUlLfF").find(text.back()) != std::string_view::npos)
+    text.remove_suffix(1);
+  const bool octal = text.size() > 1 && text.front() == '0' && text[1] != '.';
   if (token.kind != Token::Kind::number || octal) return std::nullopt;
-  const auto [stop, error] = std::from_chars(token.text.data(), end, number);
-  return error == std::errc() && stop == end ? std::optional(number) : std::nullopt;
+  const auto [stop, error] = std::from_chars(text.data(), text.data() + text.size(), number);
+  return error == std::errc() && stop == text.data() + text.size() ? std::optional(number) : std::nullopt;
 }
 
-/// The position of a value that is written as "nobody", "robot[2]" or "robot[i]".
-std::optional<std::int64_t> value_in(const FewValues& few, Tokens constant,
-                                     std::optional<std::uint32_t> member) {
+std::optional<std::uint32_t> number_in(const Token& token) {
+  const std::optional<double> number = decimal_in(token);
+  const bool whole = number && *number >= 0 && *number <= 1e9 &&
+                     token.text.find_first_not_of("0123456789") == std::string_view::npos;
+  return whole ? std::optional(static_cast<std::uint32_t>(*number)) : std::nullopt;
+}
+
+/// The position of a value that is written as "nobody", "Memory::LentTo::nobody", "robot[2]" or "robot[i]". The
+/// compiler judges the name of the enumeration.
+std::optional<double> value_in(const FewValues& few, Tokens constant, std::optional<std::uint32_t> member) {
   if (constant.front().kind != Token::Kind::name) return std::nullopt;
+  const bool in_full = constant.size() == 5 && constant[0].is("Memory") && constant[1].is("::") &&
+                       constant[2].kind == Token::Kind::name && constant[3].is("::");
+  if (in_full) constant = constant.last(1);
   if (constant.size() == 1) {
     const auto found = few.find(constant.front().text);
-    return found ? std::optional<std::int64_t>(*found) : std::nullopt;
+    return found ? std::optional<double>(*found) : std::nullopt;
   }
   const auto number = index_at_end(constant, member);
   if (!number || constant.size() != 4 || constant.front().text != few.fleet || *number >= few.member_count)
     return std::nullopt;
-  return std::int64_t{few.first_member} + *number;
+  return static_cast<double>(few.first_member) + *number;
 }
 
 /// Per value of the cell, whether it fits; empty: the constant is none that the net knows.
 std::vector<bool> fitting(const FewValues& few, const Token& mark, Tokens constant, bool is_left,
                           std::optional<std::uint32_t> member) {
-  std::optional<std::int64_t> other = constant.size() == 1 ? number_in(constant.front()) : std::nullopt;
+  std::optional<double> other = constant.size() == 1 ? decimal_in(constant.front()) : std::nullopt;
   if (!few.counts) {
     other = value_in(few, constant, member);
     if (!mark.is_one_of({"==", "!=", "not_eq"})) return {};
   }
   std::vector<bool> holds;
   for (std::uint32_t value = 0; other && value < few.names.size(); ++value) {
-    const std::int64_t mine = few.counts ? std::int64_t{few.least} + value : value;
+    const double mine = few.counts ? static_cast<double>(few.least) + value : value;
     holds.push_back(is_left ? compares(mark, *other, mine) : compares(mark, mine, *other));
   }
   return holds;
@@ -76,13 +89,13 @@ std::optional<std::uint32_t> index_at_end(Tokens tokens, std::optional<std::uint
   if (!brackets[0].is("[") || !brackets[2].is("]")) return std::nullopt;
   if (brackets[1].is("i")) return member;
   const auto number = number_in(brackets[1]);
-  return number ? std::optional(static_cast<std::uint32_t>(*number)) : std::nullopt;
+  return number;
 }
 
 std::optional<MemoryPart> memory_part(Tokens part, const std::vector<Field>& memory,
                                       std::optional<std::uint32_t> member) {
-  if (part.size() != 3 && part.size() != 5 && part.size() != 8) return std::nullopt;
-  // The constant is one token, or four: robot [ i ].
+  if (part.size() != 3 && part.size() != 5 && part.size() != 8 && part.size() != 9) return std::nullopt;
+  // The constant is one token, four: robot [ i ], or five: Memory :: LentTo :: nobody.
   const std::size_t constant = part.size() - 4;
   const bool is_left = part.size() > 3 && is_comparison(part[constant]);
   const std::string_view name = cell_in(is_left ? part.last(3) : part.first(3));

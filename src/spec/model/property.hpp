@@ -38,6 +38,9 @@ struct Comparison {
   diagnostics::Span at;  ///< of the operator
 };
 
+/// Behind an input: its last receive took a value. Behind an output: nobody acknowledged its last value in time.
+inline constexpr std::string_view fresh_in_paths = "fresh", timed_out_in_paths = "timed_out";
+
 /// A statement about one marking.
 struct Statement {
   enum class Kind : std::uint8_t {

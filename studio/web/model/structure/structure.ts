@@ -289,7 +289,11 @@ export function keptCell(yaml: YamlText, at: YamlPath): KeptCell | undefined {
 
 /** `sets` that fits the cells: "{ lent_to: a, served: +1 }". */
 export function exampleOf(cells: readonly KeptCell[]): string {
-  const changes = cells.slice(0, 2).map((one) => `${one.name}: ${one.counts ? "+1" : (one.values[1] ?? one.values[0] ?? "a")}`);
+  // "each robot" stands for the values of the members.
+  const value = (text: string) => text.replace(/^\s*each\s+(\w+)\s*$/, '"$1[0]"');
+  const changes = cells
+    .slice(0, 2)
+    .map((one) => `${one.name}: ${one.counts ? "+1" : value(one.values[1] ?? one.values[0] ?? "a")}`);
   return `{ ${changes.join(", ")} }`;
 }
 

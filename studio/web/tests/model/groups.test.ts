@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
+import { behavioursIn, exampleOf, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
 import { chipLines, chipText, chipWidth } from "../../model/structure/structure_layout";
 
 const text = `agents:
@@ -52,6 +52,10 @@ describe("groups of behaviours", () => {
     expect(findThing(structure, "desk.control.lend[1]")).toMatchObject({ kind: "behaviour", of: { for: "each robot" } });
     expect(findThing(structure, "desk.control.charge.turn")).toBeUndefined();
     expect(thingAt(structure, 15)).toBe("desk.control.charge.dock.turn");
+  });
+
+  it("have examples of changes for members", () => {
+    expect(exampleOf([{ name: "lent_to", counts: "", values: ["nobody", "each robot"] }])).toBe('{ lent_to: "robot[0]" }');
   });
 
   it("lead failures themselves", () => {

@@ -20,6 +20,10 @@ export interface Window extends Box {
 /** The inside of a page is drawn if one of its units takes at least this number of pixels. */
 export const legible = 0.24;
 
+/** A page that fills the window is drawn even smaller: a large net would stay an empty box otherwise. */
+const recognizable = 0.06;
+const fills = (box: Box, window: Window) => box.width > window.width / 2 || box.height > window.height / 2;
+
 /**
  * The sheets of a net, laid out when they are first needed. A net with few differences keeps the
  * sheets of all unchanged pages.
@@ -94,11 +98,12 @@ export class Sheets {
         const box = boxWithin(at, at.sheet.nodes[index]!);
         if (!intersects(box, window) || box.width * window.zoom < 60) return [];
         const sheet = this.get(node.page);
-        return sheet ? [this.within(at, node.page, index, sheet)] : [];
+        return sheet ? [{ placed: this.within(at, node.page, index, sheet), filling: fills(box, window) }] : [];
       });
       // If one sheet is legible, neighbours that are nearly legible are shown, too.
-      const enough = inside.some((one) => one.scale * window.zoom >= legible) ? 0.8 * legible : legible;
-      for (const one of inside) if (one.scale * window.zoom >= enough) visit(one);
+      const enough = inside.some(({ placed }) => placed.scale * window.zoom >= legible) ? 0.8 * legible : legible;
+      for (const { placed, filling } of inside)
+        if (placed.scale * window.zoom >= (filling ? recognizable : enough)) visit(placed);
     };
     const root = this.placed(0);
     if (root) visit(root);

@@ -1,5 +1,13 @@
 import { describe, expect, it } from "vitest";
-import { behavioursIn, exampleOf, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
+import {
+  behavioursIn,
+  exampleOf,
+  findThing,
+  leadsFailures,
+  readStructure,
+  targetsIn,
+  thingAt,
+} from "../../model/structure/structure";
 import { chipLines, chipText, chipWidth } from "../../model/structure/structure_layout";
 
 const text = `agents:

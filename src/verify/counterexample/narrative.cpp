@@ -63,7 +63,10 @@ class Teller {
     Deed deed;
     deed.transition = net_[id].name.substr(subsystem(id).size() + 1);
     if (net_[id].role == Step::no_successor) {
-      deed.text = "leaves a behaviour, and none of its initial conditions holds";
+      const net::Place& left = net_[net_.postset(id).front().place];
+      deed.text = "leaves " +
+                  (left.behaviour.valid() ? behaviour_name(left.subsystem, left.behaviour) : "a behaviour") +
+                  ", and none of its initial conditions holds";
       return deed;
     }
     const net::Place& to = net_[net_.postset(id).front().place];

@@ -107,7 +107,8 @@ std::vector<SubsystemAtEnd> Waits::waits_of(net::SubsystemId subsystem) const {
       all.push_back({.state = SubsystemAtEnd::State::no_successor,
                      .path = name(subsystem),
                      .behaviour = behaviour_left(place),
-                     .text = name(subsystem) + " left a behaviour, and none of its initial conditions held"});
+                     .text = name(subsystem) + " left " + behaviour_left(place) +
+                             ", and none of its initial conditions held"});
   return all;
 }
 

@@ -72,8 +72,8 @@ function followers(structure: Structure, path: string, name: string): Candidate[
   const first = targetsIn(subsystem, of.group)[0]!;
   const start = given || (withoutIndex(first) === of.name ? own : first);
   return [...new Set([start, own])].map((to) => ({
-    title: to === own ? `Otherwise, repeat ${name}` : `Otherwise, go on to ${to}`,
-    meaning: `After ${name}, if no other condition holds, ${to} follows in ${withoutIndex(path)}.`,
+    title: to === own ? `Otherwise, repeat ${of.for ? own : name}` : `Otherwise, go on to ${to}`,
+    meaning: `After ${of.for ? own : name}, if no other condition holds, ${to} follows in ${withoutIndex(path)}.`,
     edits: [addNext(of, { to, when: "" })],
   }));
 }

@@ -121,6 +121,7 @@ function title(thing: Thing | undefined, selected: string): string {
       .replace(/^template:/, "")
       .split(".")
       .at(-1) || "system";
+  if (thing?.kind === "behaviour" && thing.of.isGroup) return `Group ${name}`;
   return thing ? `${kinds[thing.kind]} ${name}` : name;
 }
 

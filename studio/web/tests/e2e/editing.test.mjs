@@ -47,6 +47,24 @@ test("an edit in the drawing is a clean diff, in the text too, and is undone", (
     await page.locator('[data-sheet="robot.control.follow"]').waitFor();
   }));
 
+test("a group is made, a behaviour is moved into it, and undo gives the text back", () =>
+  onPage(lineFollower, async (page, server) => {
+    const before = server.text();
+    await tab(page, "Structure").click();
+    await page.locator('.subsystem-head[data-path="robot.control"]').click();
+    await button(page, "Add group").click();
+    await page.locator('.chip.group[data-path="robot.control.group"]').waitFor();
+    await page.locator('.chip[data-path="robot.control.group.act"]').waitFor();
+    await page.locator('.chip[data-path="robot.control.follow"]').click();
+    await page.getByRole("combobox", { name: "In the group" }).selectOption("group");
+    await page.locator('.chip[data-path="robot.control.group.follow"][aria-pressed="true"]').waitFor();
+    const text = await draftText(page);
+    const follow = before.split("\n").find((line) => line.trim().startsWith("follow:"));
+    assert.ok(text.includes(`\n    ${follow}`), text);
+    for (let step = 0; step < 2; step += 1) await button(page, "Undo").click();
+    assert.equal(await draftText(page), before);
+  }));
+
 test("renaming an agent changes its name everywhere and nothing else", () =>
   onPage(lineFollower, async (page, server) => {
     await tab(page, "Structure").click();

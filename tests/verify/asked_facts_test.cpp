@@ -1,4 +1,4 @@
-// What properties and conditions ask of the facts of a net.
+// Properties and conditions ask the facts of a net.
 #include <gmock/gmock.h>
 
 #include "proved.hpp"

@@ -40,7 +40,7 @@ bool change_next(TextEditor& editor, const Path& behaviour, std::size_t at, cons
 bool make_template(TextEditor& editor, const Path& agent);
 
 /// Moves a behaviour or group to another group of its subsystem, with its comments. group: its path, "charge.dock";
-/// empty: the subsystem itself. What names it stays, for the user to judge.
+/// empty: the subsystem itself. The names of it elsewhere stay, for the user to judge.
 ///
 /// Returns why it cannot be done; nullopt: it is moved.
 std::optional<std::string> move_to_group(TextEditor& editor, const Path& behaviour, const std::string& group);

@@ -30,7 +30,7 @@ class IndexBuilder {
   void define_unit(DefinitionNames& definition, const Entry& entry, SubsystemRole role, const Way& above);
   /// The values of the memory cells of a unit, and the names of their enumerations.
   void define_values(UnitNames& unit, const Node& memory, const std::string& path);
-  /// What is in the map `behaviours` of the subsystem, or of a group. around: the groups around it.
+  /// Defines what is in the map `behaviours` of the subsystem, or of a group. around: the groups around it.
   void define_behaviours(UnitNames& unit, const Node& map, const std::vector<SymbolId>& around);
   void define_conditions(UnitNames& unit, const Entry& behaviour, SymbolId owner);
   /// Fleets whose members are values of memory cells.

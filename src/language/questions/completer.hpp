@@ -88,7 +88,7 @@ class Completer {
   void members_of_fleets(const NamesOf& names, const std::string& index);
   /// The behaviours in the group that a path names.
   void behaviours_in_path(const UnitNames& unit, const std::vector<std::string>& names);
-  /// What the net knows of the last communication of a buffer, in a property.
+  /// Proposes what the net knows of the last communication of a buffer, in a property.
   void outcomes_of(const UnitNames& unit, const std::string& buffer);
   /// The fields of the real buffer that a path names, or of a structure in it.
   void fields_of_path(const UnitNames& unit, const std::vector<std::string>& names);

@@ -263,40 +263,6 @@ export function listAround({ yaml }: Structure, subsystem: Subsystem, key: "send
   return text === "first" || text === "last" ? "" : text;
 }
 
-/** A memory cell that is part of the net. */
-export interface KeptCell {
-  name: string;
-  /** The range of a counter: "0..4"; empty: it has values. */
-  counts: string;
-  values: string[];
-}
-
-/** The memory of a subsystem that `sets` changes. */
-export function keptCells({ yaml }: Structure, subsystem: Subsystem): KeptCell[] {
-  const memory = [...subsystem.yaml, "memory"];
-  return yaml.keys(memory).flatMap((name) => {
-    const cell = keptCell(yaml, [...memory, name]);
-    return cell ? [cell] : [];
-  });
-}
-
-/** The memory cell at a path; undefined: it has a type. */
-export function keptCell(yaml: YamlText, at: YamlPath): KeptCell | undefined {
-  if (!yaml.pair([...at, "values"]) && !yaml.pair([...at, "counts"])) return undefined;
-  const values = (yaml.seq([...at, "values"])?.items ?? []).map((_, index) => yaml.valueText([...at, "values", index]) ?? "");
-  return { name: String(at.at(-1)), counts: yaml.valueText([...at, "counts"]) ?? "", values };
-}
-
-/** `sets` that fits the cells: "{ lent_to: a, served: +1 }". */
-export function exampleOf(cells: readonly KeptCell[]): string {
-  // "each robot" stands for the values of the members.
-  const value = (text: string) => text.replace(/^\s*each\s+(\w+)\s*$/, '"$1[0]"');
-  const changes = cells
-    .slice(0, 2)
-    .map((one) => `${one.name}: ${one.counts ? "+1" : value(one.values[1] ?? one.values[0] ?? "a")}`);
-  return `{ ${changes.join(", ")} }`;
-}
-
 /** `on_error` of a group: without it, a failure leaves the group. */
 function onErrorOf({ yaml }: Structure, group: Behaviour): Default | undefined {
   const text = yaml.valueText([...group.yaml, "on_error"]);

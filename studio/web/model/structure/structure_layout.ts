@@ -39,7 +39,7 @@ function linesIn(group: string, used: number, subsystem: Subsystem): number {
     const chip = chipWidth(behaviour, subsystem);
     if (used > 0 && (behaviour.isGroup || used + chip > room)) [lines, used] = [lines + 1, 0];
     if (behaviour.isGroup) lines += linesIn(behaviour.path, chip + 4, subsystem) - 1;
-    // What follows a group stands on the next line.
+    // The behaviour after a group stands on the next line.
     used = behaviour.isGroup ? room : used + chip + 4;
   }
   return lines;

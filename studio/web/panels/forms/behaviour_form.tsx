@@ -1,8 +1,7 @@
 import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
+import { exampleOf, keptCells } from "../../model/structure/kept_cells";
 import {
-  exampleOf,
-  keptCells,
   leadsFailures,
   listAround,
   targetsIn,

@@ -1,7 +1,8 @@
 import { insert, remove, rename, replace, set } from "../../model/text/edits";
 import { keysNow, named, type Now } from "../../live/editor";
 import type { Edit, EditValue } from "../../model/protocol";
-import { keptCell, type Structure } from "../../model/structure/structure";
+import { keptCell } from "../../model/structure/kept_cells";
+import { type Structure } from "../../model/structure/structure";
 import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
 import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";

@@ -1,13 +1,6 @@
 import { describe, expect, it } from "vitest";
-import {
-  behavioursIn,
-  exampleOf,
-  findThing,
-  leadsFailures,
-  readStructure,
-  targetsIn,
-  thingAt,
-} from "../../model/structure/structure";
+import { exampleOf } from "../../model/structure/kept_cells";
+import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
 import { chipLines, chipText, chipWidth } from "../../model/structure/structure_layout";
 
 const text = `agents:

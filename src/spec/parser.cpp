@@ -5,6 +5,7 @@
 #include "spec/agents/defaults.hpp"
 #include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
+#include "spec/agents/group_templates.hpp"
 #include "spec/channels/channels.hpp"
 #include "spec/channels/complete_lists.hpp"
 #include "spec/channels/models.hpp"
@@ -59,8 +60,11 @@ Model read_model(const Document& document, Diagnostics& out) {
   const Entry* agents = file.require("agents", "a system is made of agents");
   std::optional<OnError> on_error = read_on_error(file, out);
   const FleetSizes fleets(agents);
-  const SystemScope scope{types, model.parameters, on_error ? &*on_error : nullptr, &fleets};
+  GroupTemplates group_templates(file.find("templates"));
+  const SystemScope scope{types, model.parameters, on_error ? &*on_error : nullptr, &fleets,
+                          &group_templates};
   const AgentGroups groups = read_agents(file.find("templates"), agents, scope, model, out);
+  group_templates.complain_about_unused(out);
   if (on_error) check_used(*on_error, out);
   CommunicationModels models;
   models.read(file.find("models"), model, out);

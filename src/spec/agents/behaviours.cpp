@@ -380,8 +380,9 @@ class BehaviourReader {
 }  // namespace
 
 ReadBehaviours read_behaviours(const Entry& entry, const ConditionScope& scope, SubsystemDefaults& defaults,
-                               const FleetSizes* fleets, Diagnostics& out) {
-  const std::vector<Entry>& entries = entries_of(*entry.value, entry.span, "behaviours", out);
+                               const FleetSizes* fleets, GroupTemplates* groups, Diagnostics& out) {
+  const std::vector<Entry>& written = entries_of(*entry.value, entry.span, "behaviours", out);
+  const std::vector<Entry>& entries = groups == nullptr ? written : groups->expanded(written, out);
   if (entries.empty() && (entry.value->is_map() || entry.value->is_null())) {
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",
               "for example behaviours: { run: {} }");

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "spec/agents/defaults.hpp"
+#include "spec/agents/group_templates.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/document/document.hpp"
 #include "spec/document/families.hpp"
@@ -24,9 +25,10 @@ struct ReadBehaviours {
 /// Their `next` is as in the file, without what `on_error` adds, and without implied entries.
 /// Errors: E101 unknown behaviour, buffer or condition; E103 no behaviour; E105-E107
 ///         names; E291 an entry for each member without a condition of its own; E349 `for` of a group, or in one; those
-///         of conditions, of lists of buffers, of groups, and of read_each and number_of (families.hpp).
+///         of conditions, of lists of buffers, of groups and their templates, and of read_each and number_of
+///         (families.hpp).
 [[nodiscard]] ReadBehaviours read_behaviours(const Entry& entry, const ConditionScope& scope,
                                              SubsystemDefaults& defaults, const FleetSizes* fleets,
-                                             Diagnostics& out);
+                                             GroupTemplates* groups, Diagnostics& out);
 
 }  // namespace tessera::spec

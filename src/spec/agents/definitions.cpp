@@ -57,9 +57,11 @@ Definition read_definition(const Entry& entry, bool is_template, const SystemSco
 }
 
 void Templates::read(const Entry* section, const SystemScope& around, Model& model, Diagnostics& out) {
+  groups_ = around.groups;
   if (section == nullptr) return;
   for (const Entry& entry : entries_of(*section->value, section->span, "templates", out)) {
     check_name(entry.key, entry.span, "template", out);
+    if (GroupTemplates::is_group(entry)) continue;
     Template one;
     one.entry = &entry;
     const bool alias = std::any_of(entry.value->entries.begin(), entry.value->entries.end(),
@@ -121,6 +123,12 @@ DefinitionId Templates::find(const Node& name, Diagnostics& out) {
     return found->second.definition;
   }
   one_is_unknown_ = true;
+  if (groups_ != nullptr && groups_->contains(name.text)) {
+    out.error("E351", name.span,
+              "template " + in_quotes(name.text) + " is of a group of behaviours, not of an agent",
+              "write use: " + name.text + " in a behaviour");
+    return {};
+  }
   out.error("E101", name.span, "unknown template " + in_quotes(name.text), did_you_mean(name.text, order_));
   return {};
 }

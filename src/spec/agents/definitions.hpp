@@ -34,6 +34,7 @@ class Templates {
 
   std::unordered_map<std::string, Template> by_name_;
   std::vector<std::string> order_;
+  const GroupTemplates* groups_ = nullptr;
   bool one_is_unknown_ = false;  ///< a name was looked up in vain
 };
 

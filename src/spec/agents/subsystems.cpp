@@ -223,7 +223,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                                around.types};
     SubsystemDefaults defaults = read_defaults(section, scope, out);
     const std::size_t errors = out.error_count();
-    ReadBehaviours read = read_behaviours(*behaviours, scope, defaults, around.fleets, out);
+    ReadBehaviours read = read_behaviours(*behaviours, scope, defaults, around.fleets, around.groups, out);
     subsystem.behaviours = std::move(read.behaviours);
     // A list or name with a mistake may have been meant to use a default.
     if (out.error_count() == errors) check_used(defaults, out);

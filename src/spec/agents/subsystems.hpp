@@ -1,6 +1,7 @@
 #pragma once
 
 #include "spec/agents/defaults.hpp"
+#include "spec/agents/group_templates.hpp"
 #include "spec/document/document.hpp"
 #include "spec/document/families.hpp"
 #include "spec/model/model.hpp"
@@ -14,6 +15,7 @@ struct SystemScope {
   const std::vector<Parameter>& parameters;  ///< of the system
   OnError* on_error = nullptr;               ///< of the agent, or else of the system; null: neither says it
   const FleetSizes* fleets = nullptr;        ///< null: the system has none
+  GroupTemplates* groups = nullptr;          ///< null: the system has none
 };
 
 /// Reads the subsystem below `entry`, whose key is its name.

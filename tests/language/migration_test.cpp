@@ -202,5 +202,58 @@ TEST(Migration, IsOfferedWithTheNote) {
   EXPECT_EQ(edited(document, offers[0].edits), migrated(text).text);
 }
 
+std::string with_repeated_lists() {
+  return R"(tessera: 1
+system: s
+agents:
+  robot:
+    control:
+      rate: 10 Hz
+      inputs: { stop: bool }
+      outputs: { motion: bool }
+      behaviours:
+        work: { send: [motion], receive: [stop], terminal: in.stop, next: [{ to: safe, when: error }, charge] }
+        charge:
+          next: [{ to: safe, when: error }, work]
+          behaviours:
+            ask:  { send: [motion], receive: [stop], terminal: in.stop, next: [{ to: back, when: error }, dock] }
+            dock: { send: [motion], receive: [stop], terminal: in.stop, next: [{ to: back, when: error }, end] }   # slowly
+            back: { send: [], receive: [], terminal: true, next: ask }
+        safe: { send: [motion], receive: [stop], terminal: in.stop, next: [{ to: safe, when: error }, work] }
+channels:
+  - robot.control.motion -> robot.control.stop
+)";
+}
+
+TEST(Shorter, GroupsHaveDefaultsOfTheirOwn) {
+  const std::string spec = with_repeated_lists();
+  const auto done = shortened(spec);
+  ASSERT_TRUE(done);
+  EXPECT_EQ(done->text, R"(tessera: 1
+system: s
+agents:
+  robot:
+    control:
+      rate: 10 Hz
+      inputs: { stop: bool }
+      outputs: { motion: bool }
+      send: [motion]
+      receive: [stop]
+      on_error: safe
+      behaviours:
+        work: { terminal: in.stop, next: charge }
+        charge:
+          next: work
+          on_error: back
+          behaviours:
+            ask:  { terminal: in.stop, next: dock }
+            dock: { terminal: in.stop, next: end }   # slowly
+            back: { send: [], receive: [], terminal: true, next: ask }
+        safe: { terminal: in.stop, next: [{ to: safe, when: error }, work] }
+channels:
+  - robot.control.motion -> robot.control.stop
+)");
+}
+
 }  // namespace
 }  // namespace tessera::language

@@ -7,6 +7,7 @@
 #include "language/edits/elements.hpp"
 #include "language/edits/text_editor.hpp"
 #include "language/language.hpp"
+#include "spec/agents/groups.hpp"
 #include "spec/parser.hpp"
 
 namespace tessera::language {
@@ -145,10 +146,36 @@ class Shortener {
  private:
   void unit(const Path& at, const std::string& name) {
     const TextEditor editor(result_.text);
-    if (editor.map(at) == nullptr || editor.keys(at / "behaviours").size() < 2) return;
+    if (editor.map(at) == nullptr || behaviours_in(editor, at).size() < 2) return;
     try_conditions(at, name);
     for (const char* key : {"send", "receive"}) try_list(at, name, key);
-    try_on_error(at, name);
+    on_errors(at, name, 0);
+  }
+
+  /// `on_error` of the subsystem or group, then of the groups in it.
+  void on_errors(const Path& at, const std::string& name, std::size_t depth) {
+    const TextEditor editor(result_.text);
+    const Path behaviours = at / "behaviours";
+    const std::vector<std::string> names = editor.keys(behaviours);
+    if (names.size() > 1) try_on_error(at, name, depth > 0);
+    for (const std::string& one : names)
+      if (depth < spec::most_nested_groups && editor.map(behaviours / one / "behaviours") != nullptr)
+        on_errors(behaviours / one, name + "." + one, depth + 1);
+  }
+
+  /// The behaviours of a subsystem or a group, also those in groups.
+  static std::vector<Path> behaviours_in(const TextEditor& editor, const Path& at, std::size_t depth = 0) {
+    std::vector<Path> all;
+    for (const std::string& name : editor.keys(at / "behaviours")) {
+      const Path path = at / "behaviours" / name;
+      if (editor.map(path / "behaviours") == nullptr || depth == spec::most_nested_groups) {
+        all.push_back(path);
+      } else {
+        const std::vector<Path> inside = behaviours_in(editor, path, depth + 1);
+        all.insert(all.end(), inside.begin(), inside.end());
+      }
+    }
+    return all;
   }
 
   [[nodiscard]] bool means_the_same(const std::string& text) const {
@@ -211,13 +238,12 @@ class Shortener {
 
   void try_list(const Path& unit, const std::string& name, const char* key) {
     TextEditor first(result_.text);
-    const Path behaviours = unit / "behaviours";
     const std::string order = first.value_text(unit / key);
     if (first.entry(unit / key) != nullptr && order != "first" && order != "last") return;
-    const std::vector<std::string> all = first.keys(behaviours);
+    const std::vector<Path> all = behaviours_in(first, unit);
     std::vector<Names> lists;
-    for (const std::string& behaviour : all) {
-      const std::optional<Names> names = names_at(first, behaviours / behaviour / key);
+    for (const Path& behaviour : all) {
+      const std::optional<Names> names = names_at(first, behaviour / key);
       if (!names) return;  // it uses all buffers
       lists.push_back(*names);
     }
@@ -231,7 +257,7 @@ class Shortener {
     std::size_t changed = 0;
     for (std::size_t at = 0; at < all.size(); ++at) {
       TextEditor now(text);
-      const Path behaviour = behaviours / all[at];
+      const Path& behaviour = all[at];
       if (lists[at] == *base)
         remove_key(now, behaviour, key);
       else if (const auto changes = as_changes(lists[at], *base);
@@ -268,11 +294,11 @@ class Shortener {
     editor.replace(next, editor.value_text(next / std::size_t{0}));
   }
 
-  void try_on_error(const Path& unit, const std::string& name) {
+  void try_on_error(const Path& unit, const std::string& name, bool is_group) {
     TextEditor first(result_.text);
     const Path behaviours = unit / "behaviours";
     for (const Path& level : {unit, Path{unit[0], unit[1]}, Path{}})
-      if (first.entry(level / "on_error") != nullptr) return;
+      if (first.entry(level / "on_error") != nullptr && (!is_group || level == unit)) return;
     std::vector<std::pair<Path, std::string>> leads;
     Names targets;
     for (const std::string& behaviour : first.keys(behaviours)) {

@@ -68,9 +68,14 @@ class Checker {
     if (fired.role != Role::next && fired.role != Role::none) return;
     const Ways ways = ways_of(net_, fired.behaviour, shown_.exceptions, fired.facts);
     bool& by_error = by_error_[fired.subsystem];
-    const Following& following = by_error ? ways.after_error : ways.after_terminal;
-    if (fired.role == Role::none ? !following.none
-                                 : !following.entries[static_cast<std::size_t>(fired.entry)])
+    const auto fits = [&](const Following& following) {
+      return fired.role == Role::none ? following.none
+                                      : following.entries[static_cast<std::size_t>(fired.entry)];
+    };
+    // For the proof it is a free choice how a group was left.
+    const bool is_free = net_.behaviours[static_cast<std::size_t>(fired.behaviour)].of->is_group;
+    const bool other_fits = is_free && fits(by_error ? ways.after_terminal : ways.after_error);
+    if (!fits(by_error ? ways.after_error : ways.after_terminal) && !other_fits)
       complain("conditions: " + fired.name + " cannot follow " + (by_error ? "t6" : "t5"));
     if (fired.role == Role::none) return;
     const auto k = static_cast<std::size_t>(fired.entry);

@@ -49,6 +49,9 @@ struct KnownMistake {
 };
 const std::vector<KnownMistake> known_mistakes{
     {{"is not a member of 'std", "in namespace 'std"}, "E503", "include the header that declares it"},
+    {{"has no member named 'skip'", "no member named 'skip' in 'tessera::"},
+     "E501",
+     "for an output, allow it in the behaviour: send: { NAME: { skip: allowed } }"},
     {{"has no member named '", "no member named '"}, "E501", ""},
     {{": No such file or directory", "' file not found"},
      "E504",

@@ -260,7 +260,8 @@ class Prover {
                         std::vector<std::uint32_t>* to_blame) {
     Answering answering(std::move(question));
     for (const auto& decider : portfolio()) {
-      const bool allowed = (options_.method.empty() || options_.method == decider->name()) &&
+      const bool allowed = (options_.method.empty() ? decider->suits(facts.subject().net)
+                                                    : options_.method == decider->name()) &&
                            (searches == Searches::all || !decider->finds_runs());
       if (!allowed || !answering.wants(*decider)) continue;
       if (budget_.stopped() || (decider->searches() && budget_.spent())) {

@@ -191,13 +191,14 @@ TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {
     oracle::Random random(static_cast<std::uint32_t>(seed));
     const std::vector<net::Property> properties = random_properties(built, random);
     PropertyComparison comparison(built, invariants, *graph);
-    for (const char* method : {"", "invariants", "circuits", "explicit"})
+    for (const char* method : {"", "invariants", "circuits", "parts", "explicit"})
       comparison.with(method, properties, tally);
     if (HasFailure()) return;
   }
   if (sanitized) return;  // the few systems there need not have both verdicts
   for (const auto& [method, verdicts] : tally) {
     EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::holds)], 0) << method;
+    if (method == "parts") continue;  // it only proves
     EXPECT_GT(verdicts[static_cast<std::size_t>(Verdict::violated)], 0) << method;
   }
 }

@@ -34,6 +34,8 @@ class Decider {
                                                       const explore::Limits& limits) const = 0;
   /// May it take long? Such a method is not asked any more once the time is over.
   [[nodiscard]] virtual bool searches() const { return true; }
+  /// Is the method tried on such a net, unless another one is named?
+  [[nodiscard]] virtual bool suits(const net::Net& /*net*/) const { return true; }
   /// Does the method give runs? When one that does not has found a violation, those that do are asked too.
   [[nodiscard]] virtual bool finds_runs() const { return false; }
 };
@@ -42,7 +44,7 @@ class Decider {
 [[nodiscard]] std::unique_ptr<Decider> by_circuits();
 [[nodiscard]] std::unique_ptr<Decider> by_waiting();
 [[nodiscard]] std::unique_ptr<Decider> by_siphons();
-[[nodiscard]] std::unique_ptr<Decider> by_local_views();
+[[nodiscard]] std::unique_ptr<Decider> by_parts();
 [[nodiscard]] std::unique_ptr<Decider> by_exploration();
 
 /// All methods, in the order in which they are tried: quick ones first.

@@ -47,10 +47,6 @@ const NetUnderAssumption& Facts::under(Assume assume) {
   return under_.try_emplace(assume, subject_, assume).first->second;
 }
 
-LocalViews& Facts::local_views(Assume assume) {
-  return local_views_.try_emplace(assume, under(assume).probed.net).first->second;
-}
-
 const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits) {
   Searched<WaitingReport>& searched = waiting_[assume];
   WaitingReport& report = searched.result;

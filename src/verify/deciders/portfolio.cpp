@@ -9,7 +9,7 @@ const std::vector<std::unique_ptr<Decider>>& portfolio() {
     deciders.push_back(by_circuits());
     deciders.push_back(by_waiting());
     deciders.push_back(by_siphons());
-    deciders.push_back(by_local_views());
+    deciders.push_back(by_parts());
     deciders.push_back(by_exploration());
     return deciders;
   }();

@@ -26,7 +26,8 @@ Surroundings::Surroundings(const net::Net& net)
         users_[arc.place.value].insert(subsystem);
         if (subsystem.valid()) members_[net[arc.place].channel].insert(subsystem);
       }
-    if (subsystem.valid()) continue;
+    const auto is_in_subsystem = [&](const Arc& arc) { return net[arc.place].subsystem.valid(); };
+    if (subsystem.valid() || std::ranges::any_of(net.preset(id), is_in_subsystem)) continue;
     for (const Arc& arc : net.postset(id))
       if (net[arc.place].subsystem.valid() && !net[arc.place].fused()) started_[arc.place.value] = true;
   }

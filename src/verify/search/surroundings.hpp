@@ -29,10 +29,21 @@ class Surroundings {
   };
   /// Linear in the transitions of the subsystem and its peers.
   [[nodiscard]] Part around(net::SubsystemId subsystem) const;
+  /// Those that are possible. Precondition: the subsystem is one of the net.
+  [[nodiscard]] const std::vector<net::TransitionId>& transitions(net::SubsystemId subsystem) const {
+    return transitions_[subsystem.value];
+  }
+  /// The subsystems that use a place of a channel; an invalid one stands for the network. Of other places none.
+  [[nodiscard]] const std::set<net::SubsystemId>& users(net::PlaceId place) const {
+    return users_[place.value];
+  }
+  /// Whether the place is one of these subsystems, or of a channel that no other uses.
+  [[nodiscard]] bool stays(net::PlaceId place, const std::set<net::SubsystemId>& subsystems) const;
+  /// Whether the layers above put a token into the place.
+  [[nodiscard]] bool is_started(net::PlaceId place) const { return started_[place.value]; }
 
  private:
   [[nodiscard]] std::set<net::SubsystemId> with_peers(net::SubsystemId subsystem) const;
-  [[nodiscard]] bool stays(net::PlaceId place, const std::set<net::SubsystemId>& subsystems) const;
 
   const net::Net& net_;
   std::vector<std::vector<net::TransitionId>> transitions_;       // per subsystem

@@ -138,7 +138,7 @@ class PartialGraph {
     switch (formula.kind) {
       case Formula::Kind::at_least: {
         const auto place = part_.place_of(formula.node);
-        return place && marks(*nodes_[node], *place);
+        return place ? marks(*nodes_[node], *place) : part_.surroundings_.tokens({formula.node}) > 0;
       }
       case Formula::Kind::negation:
         return !holds(formula.parts.front(), node);

@@ -39,6 +39,8 @@ class Surroundings {
   }
   /// Whether the place is one of these subsystems, or of a channel that no other uses.
   [[nodiscard]] bool stays(net::PlaceId place, const std::set<net::SubsystemId>& subsystems) const;
+  /// At the start.
+  [[nodiscard]] std::uint32_t tokens(net::PlaceId place) const { return net_[place].tokens; }
   /// Whether the layers above put a token into the place.
   [[nodiscard]] bool is_started(net::PlaceId place) const { return started_[place.value]; }
 

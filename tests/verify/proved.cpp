@@ -29,10 +29,13 @@ Built built(const std::string& text) {
 
 }  // namespace
 
-Proved proved(const std::string& text, std::chrono::seconds time) {
+Proved proved(const std::string& text, std::chrono::seconds time, const std::vector<std::string>& only,
+              const std::string& method) {
   Built all = built(text);
   ProveOptions options;
   options.time = time;
+  options.only = only;
+  options.method = method;
   const std::vector<net::Invariant> invariants = layers::invariants(all.model, all.pages, all.net);
   Report report = prove({all.net, &all.pages, invariants, all.properties}, options);
   return {std::move(all.net), std::move(report)};

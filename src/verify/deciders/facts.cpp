@@ -47,6 +47,10 @@ const NetUnderAssumption& Facts::under(Assume assume) {
   return under_.try_emplace(assume, subject_, assume).first->second;
 }
 
+const PartialNets& Facts::partial_nets(Assume assume) {
+  return partial_nets_.try_emplace(assume, under(assume).probed.net, subject_.invariants).first->second;
+}
+
 const WaitingReport& Facts::waiting(Assume assume, const explore::Limits& limits) {
   Searched<WaitingReport>& searched = waiting_[assume];
   WaitingReport& report = searched.result;

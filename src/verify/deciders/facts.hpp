@@ -16,6 +16,7 @@
 #include "verify/deciders/question.hpp"
 #include "verify/invariants/unit_invariants.hpp"
 #include "verify/search/exploration.hpp"
+#include "verify/search/partial_nets.hpp"
 #include "verify/verify.hpp"
 #include "verify/waiting/waiting.hpp"
 
@@ -51,6 +52,8 @@ class Facts {
   /// Precondition: wrong_invariants() is empty.
   [[nodiscard]] const UnitInvariants& units();
   [[nodiscard]] const NetUnderAssumption& under(Assume assume);
+  /// Parts of the probed net. Precondition: safe().
+  [[nodiscard]] const PartialNets& partial_nets(Assume assume);
   /// The subsystems that go on for ever, by circuits (docs/theory/circuits.md) or else by waiting
   /// (docs/theory/waiting.md). Precondition: there is a communication structure. If there was not enough
   /// time for it before, it is tried again only if there is twice as much now.
@@ -93,6 +96,7 @@ class Facts {
   };
 
   std::map<Assume, NetUnderAssumption> under_;
+  std::map<Assume, PartialNets> partial_nets_;
   std::map<Assume, Searched<WaitingReport>> waiting_;
   std::map<Assume, Searched<Found>> dead_ends_;
   std::set<Assume> excluded_;

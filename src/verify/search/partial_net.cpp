@@ -15,7 +15,7 @@ using net::Arc;
 using net::PlaceId;
 using Places = std::vector<std::uint32_t>;  // sorted
 
-constexpr std::size_t most_markings = 1'000'000;
+constexpr std::size_t most_tokens = 2'000'000;  // in all markings of a part
 
 void places_in(const Formula& formula, std::vector<std::uint32_t>& to) {
   if (formula.kind == Formula::Kind::at_least) to.push_back(formula.node);
@@ -57,53 +57,71 @@ std::optional<std::uint32_t> PartialNet::place_of(std::uint32_t place) const {
   return found == places_.end() ? std::nullopt : std::optional(found->second);
 }
 
-Places PartialNet::inside(std::span<const Arc> arcs, std::vector<PlaceId>* outside) {
+Places PartialNet::inside(std::span<const Arc> arcs, Step* step) {
   Places there;
   for (const Arc& arc : arcs) {
-    if (surroundings_.stays(arc.place, subsystems_)) {
-      const auto [entry, added] =
-          places_.try_emplace(arc.place.value, static_cast<std::uint32_t>(places_.size()));
-      there.push_back(entry->second);
-    } else if (outside != nullptr) {
-      outside->push_back(arc.place);
+    if (!surroundings_.stays(arc.place, subsystems_)) {
+      if (step != nullptr) step->needs.push_back(arc.place);
+      continue;
     }
+    PlaceId place = arc.place;
+    if (merged_ != nullptr && merged_->is_merged(place)) {
+      place = (*merged_)[place];
+      if (step != nullptr) step->is_certain = false;
+      if (!place.valid()) continue;
+    }
+    const auto [entry, added] = places_.try_emplace(place.value, static_cast<std::uint32_t>(places_.size()));
+    there.push_back(entry->second);
+    if (net_[arc.place].tokens > 0 || surroundings_.is_started(arc.place))
+      filled_.emplace(arc.place.value, entry->second);
   }
   std::ranges::sort(there);
   return there;
 }
 
 PartialNet::PartialNet(const net::Net& net, const Surroundings& surroundings, const TokenSets& sets,
-                       const Subsystems& subsystems)
-    : surroundings_(surroundings), sets_(sets), subsystems_(subsystems) {
-  for (const net::SubsystemId subsystem : subsystems)
-    for (const net::TransitionId id : surroundings.transitions(subsystem)) {
-      Step step{.id = id, .in = {}, .out = {}};
-      step.in = inside(net.preset(id), &step.needs);
-      step.out = inside(net.postset(id), nullptr);
-      if (!step.in.empty() || !step.out.empty()) steps_.push_back(std::move(step));
-    }
-  // The layers above start each subsystem at some time, before which it has no token.
-  const std::vector<std::pair<std::uint32_t, std::uint32_t>> kept(places_.begin(), places_.end());
-  auto places = static_cast<std::uint32_t>(places_.size());
-  for (const auto& [place, number] : kept) {
-    if (net.places()[place].tokens > 0) initial_.push_back(number);
-    if (!surroundings.is_started({place})) continue;
-    initial_.push_back(places);
-    steps_.push_back({.id = {}, .in = {places++}, .out = {number}});
-  }
-  std::ranges::sort(initial_);
-  takers_.resize(places);
+                       const Subsystems& subsystems, const MergedPlaces* merged)
+    : net_(net), surroundings_(surroundings), sets_(sets), subsystems_(subsystems), merged_(merged) {
+  add_steps();
+  places_count_ = static_cast<std::uint32_t>(places_.size());
+  add_starts();
+  takers_.resize(places_count_);
   for (std::uint32_t step = 0; step < steps_.size(); ++step)
     for (const std::uint32_t place : steps_[step].in) takers_[place].push_back(step);
-  const std::set<std::uint32_t> shared = [&] {
-    std::set<std::uint32_t> fused;
-    for (const auto& [place, number] : places_)
-      if (net.places()[place].fused() || net.places()[place].fact.valid()) fused.insert(number);
-    return fused;
-  }();
+  find_lonely_steps();
+}
+
+void PartialNet::add_steps() {
+  std::set<std::pair<Places, Places>> uncertain;  // the same step of many places that count as one
+  for (const net::SubsystemId subsystem : subsystems_)
+    for (const net::TransitionId id : surroundings_.transitions(subsystem)) {
+      Step step{.id = id, .in = {}, .out = {}};
+      step.in = inside(net_.preset(id), &step);
+      step.out = inside(net_.postset(id), nullptr);
+      if (step.in.empty() && step.out.empty()) continue;
+      if (!step.is_certain && (step.in == step.out || !uncertain.emplace(step.in, step.out).second)) continue;
+      steps_.push_back(std::move(step));
+    }
+}
+
+/// The layers above start each subsystem at some time, before which it has no token.
+void PartialNet::add_starts() {
+  for (const auto& [place, number] : filled_) {
+    if (net_.places()[place].tokens > 0) initial_.push_back(number);
+    if (!surroundings_.is_started({place})) continue;
+    initial_.push_back(places_count_);
+    steps_.push_back({.id = {}, .in = {places_count_++}, .out = {number}});
+  }
+  std::ranges::sort(initial_);
+}
+
+void PartialNet::find_lonely_steps() {
+  std::set<std::uint32_t> shared;
+  for (const auto& [place, number] : places_)
+    if (net_.places()[place].fused() || net_.places()[place].fact.valid()) shared.insert(number);
   for (Step& step : steps_) {
     step.is_alone =
-        step.needs.empty() && !step.in.empty() &&
+        step.needs.empty() && step.is_certain && !step.in.empty() &&
         std::ranges::all_of(step.in, [&](std::uint32_t place) { return takers_[place].size() == 1; }) &&
         std::ranges::none_of(step.out, [&](std::uint32_t place) { return shared.contains(place); });
   }
@@ -133,6 +151,8 @@ class PartialGraph {
   }
 
   [[nodiscard]] std::size_t size() const { return nodes_.size(); }
+  /// It has more markings than are searched.
+  [[nodiscard]] bool is_too_large() const { return is_too_large_; }
 
   [[nodiscard]] bool holds(const Formula& formula, std::size_t node) const {
     switch (formula.kind) {
@@ -198,9 +218,10 @@ class PartialGraph {
     for (std::size_t node = 0; node < size(); ++node) {
       if (!markings[node]) continue;
       for (const Edge& edge : edges_[node])
-        for (const PlaceId place : part_.steps_[edge.step].needs)
-          for (const net::SubsystemId user : part_.surroundings_.users(place))
-            if (user.valid() && !part_.subsystems_.contains(user)) peers.insert(user);
+        if (const PartialNet::Step& step = part_.steps_[edge.step]; step.is_certain)
+          for (const PlaceId place : step.needs)
+            for (const net::SubsystemId user : part_.surroundings_.users(place))
+              if (user.valid() && !part_.subsystems_.contains(user)) peers.insert(user);
     }
     return peers;
   }
@@ -221,6 +242,7 @@ class PartialGraph {
         numbers_.try_emplace(std::move(marking), static_cast<std::uint32_t>(nodes_.size()));
     if (added) {
       nodes_.push_back(&entry->first);
+      tokens_ += entry->first.size();
       edges_.emplace_back();
     }
     return entry->second;
@@ -251,7 +273,8 @@ class PartialGraph {
     add(after_lonely_steps(marking_of(part_.initial_)));
     for (std::size_t node = 0; node < nodes_.size(); ++node) {
       if (node % 256 == 0) budget_.check();
-      if (nodes_.size() > most_markings) throw explore::CutOff("a part of the net has too many markings");
+      is_too_large_ = tokens_ > most_tokens;
+      if (is_too_large_) return;
       const Marking& marking = *nodes_[node];
       for (const char32_t place : marking)
         for (const std::uint32_t step : part_.takers_[place])
@@ -269,7 +292,8 @@ class PartialGraph {
   }
 
   [[nodiscard]] bool leads(const Edge& edge, const std::vector<bool>& goal) const {
-    return goal[edge.to] || goals_.contains(part_.steps_[edge.step].id);
+    const PartialNet::Step& step = part_.steps_[edge.step];
+    return step.is_certain && (goal[edge.to] || goals_.contains(step.id));
   }
 
   /// Whether there is a step towards the goal wherever the token of the set is.
@@ -311,6 +335,8 @@ class PartialGraph {
   const PartialNet& part_;
   const std::set<net::TransitionId>& goals_;
   const explore::Budget& budget_;
+  std::size_t tokens_ = 0;
+  bool is_too_large_ = false;
   std::set<std::uint32_t> seen_;
   std::unordered_map<Marking, std::uint32_t> numbers_;
   std::vector<const Marking*> nodes_;
@@ -320,7 +346,8 @@ class PartialGraph {
 PartialNet::Result PartialNet::never(const Formula& bad, const explore::Budget& budget) const {
   const std::set<net::TransitionId> none;
   const PartialGraph graph(*this, {&bad}, none, budget);
-  Result result{.holds = true, .peers = {}, .markings = graph.size()};
+  Result result{.holds = !graph.is_too_large(), .peers = {}, .markings = graph.size()};
+  if (graph.is_too_large()) return result;
   for (std::size_t node = 0; node < graph.size() && result.holds; ++node)
     result.holds = !graph.holds(bad, node);
   if (!result.holds)
@@ -331,7 +358,8 @@ PartialNet::Result PartialNet::never(const Formula& bad, const explore::Budget& 
 PartialNet::Result PartialNet::reaches(const Formula& from, const Goal& goal,
                                        const explore::Budget& budget) const {
   const PartialGraph graph(*this, {&from, &goal.formula}, goal.fired, budget);
-  Result result{.holds = true, .peers = {}, .markings = graph.size()};
+  Result result{.holds = !graph.is_too_large(), .peers = {}, .markings = graph.size()};
+  if (graph.is_too_large()) return result;
   std::vector<bool> begin(graph.size()), there(graph.size());
   for (std::size_t node = 0; node < graph.size(); ++node) {
     begin[node] = graph.holds(from, node);

@@ -5,12 +5,13 @@
 #include <optional>
 #include <set>
 #include <span>
-#include <string>
+#include <utility>
 #include <vector>
 
 #include "explore/budget.hpp"
 #include "explore/formula.hpp"
 #include "net/net.hpp"
+#include "verify/search/merged_places.hpp"
 #include "verify/search/surroundings.hpp"
 #include "verify/search/token_sets.hpp"
 
@@ -29,6 +30,8 @@ namespace tessera::verify {
 /// subsystems can then go to the goal. So from every marking of the net that is such a marking
 /// in these subsystems, the goal is reached by some run.
 ///
+/// Places that count as one (merged_places.hpp) make more runs possible; no step that takes one of them is certain.
+///
 /// Precondition: no place of the net ever holds two tokens. Steps that lead to two are no steps of the net.
 /// Threads: const members from any thread.
 class PartialNet {
@@ -46,9 +49,10 @@ class PartialNet {
     std::uint64_t markings = 0;
   };
 
-  /// surroundings, sets: of the net; have to outlive this.
+  /// surroundings, sets: of the net; have to outlive this. merged: of the subsystems; nullptr: each place counts for
+  /// itself.
   PartialNet(const net::Net& net, const Surroundings& surroundings, const TokenSets& sets,
-             const Subsystems& subsystems);
+             const Subsystems& subsystems, const MergedPlaces* merged);
 
   /// Are all places of the formula in this part?
   [[nodiscard]] bool knows(const explore::Formula& formula) const;
@@ -65,17 +69,27 @@ class PartialNet {
     net::TransitionId id{};
     std::vector<std::uint32_t> in, out;  ///< places of the part, sorted
     std::vector<net::PlaceId> needs{};   ///< places that are left out
+    bool is_certain = true;              ///< it takes no place that counts as one with others
     bool is_alone =
         false;  ///< needs nothing, and nothing else takes its tokens: whatever comes first, it can be fired
   };
-  [[nodiscard]] std::vector<std::uint32_t> inside(std::span<const net::Arc> arcs,
-                                                  std::vector<net::PlaceId>* outside);
+  /// The places of these in the part. step: if given, notes what else it needs.
+  [[nodiscard]] std::vector<std::uint32_t> inside(std::span<const net::Arc> arcs, Step* step);
   [[nodiscard]] std::optional<std::uint32_t> place_of(std::uint32_t place) const;
 
+  void add_steps();
+  void add_starts();
+  void find_lonely_steps();
+
+  const net::Net& net_;
   const Surroundings& surroundings_;
   const TokenSets& sets_;
   const Subsystems subsystems_;
+  const MergedPlaces* merged_;
   std::map<std::uint32_t, std::uint32_t> places_;  // of the net -> of the part
+  std::set<std::pair<std::uint32_t, std::uint32_t>>
+      filled_;                      // places of the net that hold a token first, and theirs
+  std::uint32_t places_count_ = 0;  // with those before the start
   std::vector<Step> steps_;
   std::vector<std::vector<std::uint32_t>> takers_;  // per place of the part: steps
   std::vector<std::uint32_t> initial_;

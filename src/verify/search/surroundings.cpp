@@ -14,6 +14,7 @@ Surroundings::Surroundings(const net::Net& net)
     : net_(net),
       transitions_(net.parts().subsystems.size()),
       users_(net.places().size()),
+      controlled_by_(net.places().size()),
       started_(net.places().size(), false) {
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index) {
     const net::TransitionId id{index};
@@ -30,6 +31,12 @@ Surroundings::Surroundings(const net::Net& net)
     if (subsystem.valid() || std::ranges::any_of(net.preset(id), is_in_subsystem)) continue;
     for (const Arc& arc : net.postset(id))
       if (net[arc.place].subsystem.valid() && !net[arc.place].fused()) started_[arc.place.value] = true;
+  }
+  for (std::uint32_t index = 0; index < net.places().size(); ++index) {
+    const net::Place& place = net.places()[index];
+    if (place.fact.valid()) continue;
+    if (!place.fused()) controlled_by_[index] = place.subsystem;
+    if (place.fused() && users_[index].size() == 1) controlled_by_[index] = *users_[index].begin();
   }
 }
 
@@ -48,6 +55,11 @@ std::set<net::SubsystemId> Surroundings::with_peers(net::SubsystemId subsystem) 
 bool Surroundings::stays(PlaceId place, const std::set<net::SubsystemId>& subsystems) const {
   if (!net_[place].fused()) return subsystems.contains(net_[place].subsystem);
   return std::ranges::includes(subsystems, users_[place.value]);
+}
+
+bool Surroundings::is_between(net::ChannelId channel, const std::set<net::SubsystemId>& subsystems) const {
+  const auto members = members_.find(channel);
+  return members != members_.end() && std::ranges::includes(subsystems, members->second);
 }
 
 Surroundings::Part Surroundings::around(net::SubsystemId subsystem) const {

@@ -37,10 +37,16 @@ class Surroundings {
   [[nodiscard]] const std::set<net::SubsystemId>& users(net::PlaceId place) const {
     return users_[place.value];
   }
+  /// Whether all that use the channel are among these.
+  [[nodiscard]] bool is_between(net::ChannelId channel, const std::set<net::SubsystemId>& subsystems) const;
   /// Whether the place is one of these subsystems, or of a channel that no other uses.
   [[nodiscard]] bool stays(net::PlaceId place, const std::set<net::SubsystemId>& subsystems) const;
   /// At the start.
   [[nodiscard]] std::uint32_t tokens(net::PlaceId place) const { return net_[place].tokens; }
+  /// The subsystem that the place is part of, also in the memory of a channel: "in use". None: of no single one.
+  [[nodiscard]] net::SubsystemId controlled_by(net::PlaceId place) const {
+    return controlled_by_[place.value];
+  }
   /// Whether the layers above put a token into the place.
   [[nodiscard]] bool is_started(net::PlaceId place) const { return started_[place.value]; }
 
@@ -51,6 +57,7 @@ class Surroundings {
   std::vector<std::vector<net::TransitionId>> transitions_;       // per subsystem
   std::vector<std::set<net::SubsystemId>> users_;                 // per place of a channel
   std::map<net::ChannelId, std::set<net::SubsystemId>> members_;  // of a channel
+  std::vector<net::SubsystemId> controlled_by_;                   // per place
   std::vector<bool> started_;                                     // per place: the layers above fill it
 };
 

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstddef>
+#include <set>
+#include <vector>
+
+#include "net/net.hpp"
+#include "verify/search/surroundings.hpp"
+
+namespace tessera::verify {
+
+/// Places of some subsystems that count as one: where exactly its token is makes no difference to the others.
+///
+/// A behaviour *matters* if it uses a channel between the subsystems, if it has a place that is asked about, or if
+/// it is one of few that give a value that is asked about. Behaviours that do not matter and follow each other count as one place, if they are many: those of a dock that serve the other
+/// robots. Of what a subsystem knows, values count as one that no behaviour gives that matters. What the last use of a
+/// channel to others has shown is left out.
+///
+/// Places that count as one never hold two tokens together.
+class MergedPlaces {
+ public:
+  /// asked: places that count for themselves. few: so many behaviours are never merged. Linear in the transitions of the subsystems.
+  MergedPlaces(const net::Net& net, const Surroundings& surroundings,
+               const std::set<net::SubsystemId>& subsystems, const std::set<net::PlaceId>& asked,
+               std::size_t few);
+
+  /// The place that stands for this one, mostly itself; an invalid one if it is left out.
+  /// Precondition: surroundings.stays() is true for the place.
+  [[nodiscard]] net::PlaceId operator[](net::PlaceId place) const { return stands_for_[place.value]; }
+  /// Whether it counts as one with others, or is left out.
+  [[nodiscard]] bool is_merged(net::PlaceId place) const { return merged_[place.value]; }
+  /// Whether any place does.
+  [[nodiscard]] bool any() const { return any_; }
+
+ private:
+  class Finder;
+  std::vector<net::PlaceId> stands_for_;  // per place
+  std::vector<bool> merged_;              // per place
+  bool any_ = false;
+};
+
+}  // namespace tessera::verify

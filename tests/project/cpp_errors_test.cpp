@@ -85,6 +85,7 @@ constexpr auto statements = std::to_array<const char*>({
     "out.motion.linear = context.parameters.sped;",
     "context.lg(\"x\");",
     "out.motion = {};",
+    "out.motion.skip();",
     "in.level = 3;",
     "in.line.left = true;",
     "out.motion = 3;",

@@ -1,6 +1,5 @@
 #include "layers/sheet.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "layers/built_in.hpp"
@@ -70,12 +69,12 @@ std::uint32_t Sheet::fused(std::string_view name, net::FusionId set) {
   const std::uint32_t node = place(name, {}, draft_.net.fusions[set.value].role);
   page_.nodes[node].tokens = draft_.net.fusions[set.value].tokens;
   page_.nodes[node].fusion = set;
+  fused_.try_emplace(set.value, node);
   return node;
 }
 
 std::uint32_t Sheet::member(std::string_view name, net::FusionId set) {
-  const auto known = std::ranges::find(page_.nodes, set, &net::Node::fusion);
-  if (known != page_.nodes.end()) return static_cast<std::uint32_t>(known - page_.nodes.begin());
+  if (const auto known = fused_.find(set.value); known != fused_.end()) return known->second;
   const net::BlockId block = std::exchange(block_, net::BlockId{});
   const std::uint32_t node = fused(name, set);
   block_ = block;

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -57,6 +59,7 @@ class Sheet {
   net::PageId id_;
   net::Page page_;
   net::BlockId block_;
+  std::map<std::uint32_t, std::uint32_t> fused_;  ///< the first node of each fusion set
 };
 
 /// One function per layer of the paper: draws the page and all pages below it.

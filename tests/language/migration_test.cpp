@@ -184,6 +184,26 @@ TEST(Migration, IsNotedOncePerSubsystemUntilAFailureIsRouted) {
   EXPECT_THAT(notes_of(with_work(" { next: rest }")), IsEmpty()) << "W315 is about it";
 }
 
+/// There was nothing for each member of a fleet when errors took other entries.
+TEST(Migration, SaysNothingAboutBehavioursForEachMember) {
+  const std::string text = R"(tessera: 1
+system: s
+templates: { cart: { control: { rate: 1 Hz, outputs: { ask: bool }, behaviours: { go: {} } } } }
+agents:
+  cart: { use: cart, count: 2 }
+  dock:
+    control:
+      rate: 1 Hz
+      inputs: { ask: "bool[each cart]" }
+      behaviours:
+        wait: { terminal: any(in.ask.fresh), next: [{ to: "lend[i]", when: "in.ask[i].fresh" }, wait] }
+        lend: { for: each cart, terminal: elapsed > 1 s, next: ["lend[i+1]", wait] }
+channels: ["cart[i].control.ask -> dock.control.ask[i]"]
+)";
+  EXPECT_THAT(notes_of(text), IsEmpty());
+  EXPECT_EQ(migrated(text).text, text);
+}
+
 TEST(Migration, IsNotedWhereAConditionTookErrorsBeforeTheirOwnEntry) {
   const std::vector<diagnostics::Diagnostic> notes =
       notes_of(with_work(" { terminal: memory.n > 1, next: [{ to: end, when: memory.n > 5 }, { to: work, "

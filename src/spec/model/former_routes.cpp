@@ -108,7 +108,10 @@ void note(const Subsystem& subsystem, diagnostics::Diagnostics& out) {
 }  // namespace
 
 std::optional<FormerRoute> former_route(const Subsystem& subsystem, const Behaviour& behaviour) {
-  if (behaviour.is_group() || behaviour.parent.valid()) return std::nullopt;  // there were none
+  // There were neither groups nor behaviours for each member of a fleet.
+  if (behaviour.is_group() || behaviour.parent.valid() || behaviour.member) return std::nullopt;
+  if (std::ranges::any_of(behaviour.next, [](const Next& next) { return next.member.has_value(); }))
+    return std::nullopt;
   if (is_of_on_error(subsystem, behaviour)) return std::nullopt;
   FormerRoute route{.before = {}};
   for (const NextId entry : behaviour.next.ids()) {

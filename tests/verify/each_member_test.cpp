@@ -196,6 +196,7 @@ TEST(EachMember, LeadsToItsNeighbour) {
 }
 
 TEST(EachMember, IsKnownToProofs) {
+  const std::vector<std::string> names{"one at the dock", "lent to its robot", "some is lent", "safe"};
   for (const char* count : {"1", "2"}) {
     const Proved all = proved(depot(count, std::string(written_once) + R"yaml(
 properties:
@@ -203,8 +204,8 @@ properties:
   - { name: lent to its robot, never: "dock.control.lent[i] and dock.control.memory.lent_to != robot[i]" }
   - { name: some is lent, reachable: "any(dock.control.lent[*])" }
 )yaml"),
-                              std::chrono::seconds(60));
-    for (const char* name : {"one at the dock", "lent to its robot", "some is lent", "safe"})
+                              std::chrono::seconds(60), names);
+    for (const std::string& name : names)
       EXPECT_EQ(all[name].verdict, Verdict::holds) << count << ' ' << name << ": " << all[name].why;
   }
 }

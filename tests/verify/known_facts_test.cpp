@@ -1,6 +1,7 @@
 // Conditions that ask how the last communication of a buffer ended are answers of the net, not free choices.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -66,7 +67,8 @@ TEST(KnownFacts, NobodyEntersTheFieldProjectWithoutAGrant) {
   ASSERT_TRUE(std::filesystem::exists(file)) << file;
   std::ifstream stream(file);
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  EXPECT_EQ(proved(text)["nobody enters without a grant"].verdict, Verdict::holds);
+  const char* name = "nobody enters without a grant";
+  EXPECT_EQ(proved(text, std::chrono::seconds(60), {name})[name].verdict, Verdict::holds);
 }
 
 TEST(KnownFacts, ATimedGrantExcludesUnlessTheClientEntersWithoutIt) {
@@ -84,7 +86,8 @@ TEST(KnownFacts, ATimedGrantExcludesUnlessTheClientEntersWithoutIt) {
            {"in.grant.fresh == memory.tired", Verdict::violated},  // is not understood: a free choice
            {"memory.tired", Verdict::violated},
        }) {
-    const Proved lent = proved(lock(enter));
+    const Proved lent =
+        proved(lock(enter), std::chrono::seconds(60), {"one at a time", "safe", "each enters"});
     EXPECT_EQ(lent["one at a time"].verdict, expected) << enter;
     EXPECT_EQ(lent["safe"].verdict, Verdict::holds) << enter;
     // A client that takes a grant and does not enter never gives it back.

@@ -54,7 +54,7 @@ TEST(Limits, ADeadMarkingRefutesWhateverItShutsOut) {
 }
 
 TEST(Limits, TwoCallsShowTheSameRuns) {
-  for (const std::string& text : {gossip(6), credits(6), hub(6, true)}) {
+  for (const std::string& text : {gossip(4), credits(4), hub(4, true)}) {
     const Proved first = proved(text, enough), second = proved(text, enough);
     for (const PropertyResult& property : first.report.properties) {
       SCOPED_TRACE(property.name);

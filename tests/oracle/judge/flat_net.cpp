@@ -81,6 +81,11 @@ class Builder {
     }
   }
 
+  static std::string of_member(const std::string& buffer, int member) {
+    const std::size_t at = buffer.find("[i]");
+    return at == std::string::npos ? buffer : buffer.substr(0, at) + "[" + std::to_string(member) + "]";
+  }
+
   void add_channel(const Channel& of, int from, int to) {
     const auto path = [&](const End& end, int index) {
       return member(end.agent, fleet_of(specification_, end.agent), index) + "." + end.subsystem;
@@ -89,9 +94,10 @@ class Builder {
     channel.of = &of;
     channel.sender = by_path_.at(path(of.from, from));
     channel.receiver = by_path_.at(path(of.to, to));
-    channel.output = of.from.buffer;
-    channel.input = of.to.buffer;
-    channel.name = path(of.from, from) + "." + of.from.buffer + "->" + path(of.to, to) + "." + of.to.buffer;
+    // One buffer for each member: its number is that of the agent at the other end.
+    channel.output = of_member(of.from.buffer, to);
+    channel.input = of_member(of.to.buffer, from);
+    channel.name = path(of.from, from) + "." + channel.output + "->" + path(of.to, to) + "." + channel.input;
     net_.channels.push_back(channel);
   }
 

@@ -116,9 +116,12 @@ class MemoryFormulas {
 void add_memory(RandomNumbers& random, Subsystem& subsystem) {
   const int cells = random.percent(75) ? 1 : 2;
   for (int c = 0; c < cells; ++c) subsystem.memory.push_back(random_cell(random, "c" + std::to_string(c)));
-  for (Behaviour& behaviour : subsystem.behaviours) behaviour.sets = random_changes(random, subsystem, 30);
   for (Behaviour& behaviour : subsystem.behaviours)
-    for (Entry& entry : behaviour.next) entry.sets = random_changes(random, subsystem, 40);
+    if (behaviour.each.empty()) behaviour.sets = random_changes(random, subsystem, 30);
+  for (Behaviour& behaviour : subsystem.behaviours)
+    for (Entry& entry : behaviour.next)  // what is written once for all members is the same
+      if (behaviour.each.empty() && !entry.to.ends_with("]"))
+        entry.sets = random_changes(random, subsystem, 40);
   keep_in_range(subsystem);
 }
 

@@ -32,7 +32,8 @@ class Generator {
         asks_(~seed),
         remembers_(seed + (1ULL << 63U)),
         skips_(seed ^ 0x5C1B5U),
-        groups_(seed * 3 + 0x9209U) {}
+        groups_(seed * 3 + 0x9209U),
+        members_(seed * 5 + 0xFA1BU) {}
 
   Specification make() {
     if (random_.percent(15)) specification_.models = random_models(random_);
@@ -42,10 +43,12 @@ class Generator {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems) behaviours(subsystem);
     if (groups_.percent(40)) group();
+    if (members_.percent(60)) fan();
     if (skips_.percent(60)) skip();
     time();
     if (remembers_.percent(55)) remember();
     if (asks_.percent(60)) ask();
+    if (members_.percent(60)) ask_members();
     if (random_.percent(60)) specification_.properties = random_properties(random_, specification_);
     for (Property& property : properties_of_memory(remembers_, specification_))
       specification_.properties.push_back(std::move(property));
@@ -251,6 +254,100 @@ class Generator {
     if (random_.percent(15)) subsystem.start = random_.of(subsystem.behaviours).name;
   }
 
+  /// A single agent with a buffer for each member of a fleet, and a behaviour. It has random numbers of its own.
+  void fan() {
+    const Agent* fleet = nullptr;
+    Agent* hub = nullptr;
+    for (Agent& agent : specification_.agents) {
+      if (agent.count > 0) fleet = &agent;
+      if (agent.count == 0 && agent.use.empty()) hub = &agent;
+    }
+    if (fleet == nullptr || hub == nullptr) return;
+    std::swap(random_, members_);
+    Subsystem& control = hub->subsystems[0];
+    Subsystem& member = body_of(*fleet)->subsystems[0];
+    control.each = fleet->name;
+    const auto one = [&](int i) { return "[" + std::to_string(i) + "]"; };
+    const bool gives = random_.percent(40);
+    const std::string input = "x" + std::to_string(inputs_++), output = "o" + std::to_string(outputs_++);
+    (gives ? member.inputs : member.outputs).push_back(gives ? input : output);
+    for (int i = 0; i < fleet->count; ++i)
+      (gives ? control.outputs : control.inputs).push_back((gives ? output : input) + one(i));
+    // The body may be that of another agent, too, which needs the input as well.
+    if (gives)
+      for (const Agent& other : specification_.agents)
+        if (body_of(other) == body_of(*fleet) && &other != fleet) feed(other, member, input);
+    Channel channel;
+    channel.from = {fleet->name, "i", member.name, output};
+    channel.to = {hub->name, "", control.name, input + "[i]"};
+    if (gives) {
+      channel.from = {hub->name, "", control.name, output + "[i]"};
+      channel.to = {fleet->name, "i", member.name, input};
+    }
+    manner(channel);
+    specification_.channels.push_back(channel);
+    if (random_.percent(60)) behaviours_of_members(control, *fleet, gives ? "" : input);
+    std::swap(random_, members_);
+  }
+
+  /// input: of which there is one for each member; empty: none.
+  void behaviours_of_members(Subsystem& control, const Agent& fleet, const std::string& input) {
+    const std::string back = control.behaviours[0].name;
+    const int kind = random_.below(3);
+    for (int i = 0; i < fleet.count; ++i) {
+      const std::string number = "[" + std::to_string(i) + "]";
+      Behaviour made;
+      made.name = "v" + number;
+      made.each = fleet.name;
+      made.send = std::vector<std::string>{};
+      made.receive = input.empty() ? std::vector<std::string>{} : std::vector<std::string>{input + number};
+      made.takes = true;
+      made.terminal.form = Condition::Form::single;
+      made.terminal.single = kind == 0 || input.empty() ? Truth::yes : Truth::open;
+      if (made.terminal.single == Truth::open)
+        made.terminal.asked = {Asked{Asked::Kind::fresh, input + number}};
+      if (kind == 2) made.next.push_back({"v" + number, Entry::When::error, "", Truth::open});
+      made.next.push_back({back, Entry::When::always, "", Truth::open});
+      control.behaviours.push_back(made);
+    }
+    std::vector<Entry> entries;
+    for (int i = 0; i < fleet.count; ++i) {
+      const std::string number = "[" + std::to_string(i) + "]";
+      Entry entry{"v" + number, Entry::When::expression, "", Truth::open};
+      if (input.empty()) return;
+      entry.asked = Asked{Asked::Kind::fresh, input + number};
+      entries.push_back(entry);
+    }
+    Behaviour& first = control.behaviours[0];
+    first.next.insert(first.next.begin(), entries.begin(), entries.end());
+  }
+
+  /// any(...), all(...) and count(...) of the inputs of all members, in place of some questions.
+  void ask_members() {
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems) {
+        std::vector<Asked> members;
+        for (const std::string& input : subsystem.inputs)
+          if (input.ends_with("]")) members.push_back({Asked::Kind::fresh, input});
+        if (members.empty()) continue;
+        for (Behaviour& behaviour : subsystem.behaviours)
+          if (behaviour.each.empty() && !behaviour.is_group && members_.percent(50) &&
+              behaviour.terminal.form == Condition::Form::single && behaviour.terminal.single == Truth::open)
+            behaviour.terminal.asked = {of_all(members)};
+      }
+  }
+
+  Asked of_all(const std::vector<Asked>& members) {
+    const bool any = members_.percent(50);
+    Asked made = members.back();
+    for (std::size_t m = members.size() - 1; m-- > 0;)
+      made = {any ? Asked::Kind::either : Asked::Kind::both, "", {members[m], made}, "", {}};
+    if (members.size() == 1) made = {Asked::Kind::both, "", {made, made}, "", {}};
+    made.text =
+        (any ? "any(in." : "all(in.") + members[0].buffer.substr(0, members[0].buffer.find('[')) + ".fresh)";
+    return made;
+  }
+
   /// The names of what stands in a group; "": of the subsystem.
   static std::vector<std::string> beside(const Subsystem& subsystem, const std::string& group) {
     std::vector<std::string> names;
@@ -349,13 +446,15 @@ class Generator {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems)
         for (Behaviour& behaviour : subsystem.behaviours) {
+          if (!behaviour.each.empty()) continue;
           for (Condition* condition : {&behaviour.terminal, &behaviour.error}) {
             if (condition->form == Condition::Form::absent) continue;
             condition->asked.resize(std::max<std::size_t>(condition->named.size(), 1));
             for (std::optional<Asked>& asked : condition->asked) asked = some_question(subsystem);
           }
           for (Entry& entry : behaviour.next)
-            if (entry.when == Entry::When::expression) entry.asked = some_question(subsystem);
+            if (entry.when == Entry::When::expression && !entry.to.ends_with("]"))
+              entry.asked = some_question(subsystem);
           for (Skip& skip : behaviour.skips)
             if (!skip.by_function) skip.asked = some_question(subsystem);
           if (behaviour.has_until) behaviour.until = some_question(subsystem);
@@ -367,7 +466,7 @@ class Generator {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems)
         for (Behaviour& behaviour : subsystem.behaviours) {
-          if (behaviour.is_group) continue;
+          if (behaviour.is_group || !behaviour.each.empty()) continue;
           std::vector<Skip> skips;
           for (const std::string& output : behaviour.send.value_or(subsystem.outputs))
             if (skips_.percent(60)) skips.push_back({output, skips_.percent(30)});
@@ -407,7 +506,7 @@ class Generator {
     return question;
   }
 
-  RandomNumbers random_, asks_, remembers_, skips_, groups_;
+  RandomNumbers random_, asks_, remembers_, skips_, groups_, members_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

@@ -14,8 +14,11 @@ void drop_channel(Specification& in, std::size_t c) {
 /// Buffers that no channel names any more go, and so do they from the lists of behaviours.
 void tidy(Specification& in) {
   const auto unused = [&](const std::string& buffer) {
-    return std::none_of(in.channels.begin(), in.channels.end(),
-                        [&](const Channel& c) { return c.from.buffer == buffer || c.to.buffer == buffer; });
+    return std::none_of(in.channels.begin(), in.channels.end(), [&](const Channel& c) {
+      return c.from.buffer == buffer || c.to.buffer == buffer ||
+             (buffer.ends_with("]") && (c.from.buffer.starts_with(buffer.substr(0, buffer.find('[') + 1)) ||
+                                        c.to.buffer.starts_with(buffer.substr(0, buffer.find('[') + 1))));
+    });
   };
   for (auto* agents : {&in.templates, &in.agents})
     for (Agent& agent : *agents)

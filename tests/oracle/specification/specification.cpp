@@ -13,6 +13,26 @@ std::string joined(const std::vector<std::string>& parts, const char* open, cons
   return text + close;
 }
 std::string list(const std::vector<std::string>& parts) { return joined(parts, "[", "]"); }
+/// Brackets need quotes in a flow list or map.
+std::string quoted(const std::string& text) {
+  return text.find('[') == std::string::npos || text.front() == '{' ? text : "\"" + text + "\"";
+}
+std::string names(std::vector<std::string> all) {
+  for (std::string& one : all) one = quoted(one);
+  return list(all);
+}
+std::string with_i(std::string text);
+/// An entry that leads to "v[0]" stands for those to all members.
+std::string with_i(std::string text, const std::string& to) {
+  return to.ends_with("[0]") ? with_i(std::move(text)) : text;
+}
+std::string with_i(std::string text) {
+  for (std::size_t at = text.find("[0]"); at != std::string::npos; at = text.find("[0]"))
+    text.replace(at, 3, "[i]");
+  return text;
+}
+/// "v[1]": the text of "v[0]" is that of all members.
+bool is_other_member(const std::string& name) { return name.ends_with("]") && !name.ends_with("[0]"); }
 std::string map(const std::vector<std::string>& parts) { return joined(parts, "{ ", " }"); }
 
 /// Different expressions of the subsystem's dice, so that runs take every way.
@@ -34,6 +54,7 @@ class Expressions {
     if (asked.kind == Kind::late_input) return "in." + asked.buffer + ".timed_out";
     if (asked.kind == Kind::late_output) return "out." + asked.buffer + ".timed_out";
     if (asked.kind == Kind::memory) return asked.text;
+    if (!asked.text.empty()) return asked.text;
     if (asked.kind == Kind::negation) return "not (" + formula(asked.parts[0]) + ")";
     const std::string first = "(" + formula(asked.parts[0]) + ")";
     return first + (asked.kind == Kind::both ? " && (" : " || (") + formula(asked.parts[1]) + ")";
@@ -44,10 +65,10 @@ class Expressions {
 };
 
 std::string condition(const Condition& of, Expressions& expressions) {
-  if (of.form == Condition::Form::single) return expressions.next(of.single, of.asks(0));
+  if (of.form == Condition::Form::single) return quoted(expressions.next(of.single, of.asks(0)));
   std::vector<std::string> parts;
   for (const auto& [name, truth] : of.named)
-    parts.push_back(name + ": " + expressions.next(truth, of.asks(parts.size())));
+    parts.push_back(name + ": " + quoted(expressions.next(truth, of.asks(parts.size()))));
   return map(parts);
 }
 
@@ -71,21 +92,22 @@ std::string entry(const Entry& of, const Subsystem& owner, Expressions& expressi
   if (of.when == Entry::When::error) when = "error";
   if (of.when == Entry::When::until) when = "until";
   if (of.when == Entry::When::expression) when = expressions.next(of.truth, of.asked ? &*of.asked : nullptr);
-  return "{ to: " + of.to + ", when: " + when + sets + " }";
+  return "{ to: " + quoted(of.to) + ", when: " + quoted(when) + sets + " }";
 }
 
 /// The map form of `send`, in which outputs say when they are sent.
 std::string sent(const Behaviour& of, Expressions& expressions) {
-  if (of.skips.empty()) return list(*of.send);
+  if (of.skips.empty()) return names(*of.send);
   std::vector<std::string> keys;
   for (const std::string& output : *of.send) {
-    keys.push_back(output);
+    keys.push_back(quoted(output));
     for (const Skip& skip : of.skips)
       if (skip.output == output)
         keys.back() +=
             skip.by_function
                 ? ": { skip: allowed }"
-                : ": { when: " + expressions.next(Truth::open, skip.asked ? &*skip.asked : nullptr) + " }";
+                : ": { when: " + quoted(expressions.next(Truth::open, skip.asked ? &*skip.asked : nullptr)) +
+                      " }";
   }
   return map(keys);
 }
@@ -93,7 +115,7 @@ std::string sent(const Behaviour& of, Expressions& expressions) {
 std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& expressions) {
   std::vector<std::string> keys;
   if (of.has_until)
-    keys.push_back("until: " + expressions.next(Truth::open, of.until ? &*of.until : nullptr));
+    keys.push_back("until: " + quoted(expressions.next(Truth::open, of.until ? &*of.until : nullptr)));
   if (!of.on_error.empty()) keys.push_back("on_error: " + of.on_error);
   if (!of.start.empty()) keys.push_back("start: " + of.start);
   if (of.terminal.form != Condition::Form::absent)
@@ -102,11 +124,15 @@ std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& 
   if (of.next.size() == 1) keys.push_back("next: " + entry(of.next[0], owner, expressions));
   if (of.next.size() > 1) {
     std::vector<std::string> entries;
-    for (const Entry& one : of.next) entries.push_back(entry(one, owner, expressions));
+    for (const Entry& one : of.next)
+      if (!is_other_member(one.to) || !of.each.empty()) {
+        entries.push_back(entry(one, owner, expressions));
+        if (of.each.empty()) entries.back() = with_i(entries.back(), one.to);
+      }
     keys.push_back("next: " + list(entries));
   }
   if (of.send) keys.push_back("send: " + sent(of, expressions));
-  if (of.receive) keys.push_back("receive: " + list(*of.receive));
+  if (of.receive) keys.push_back("receive: " + names(*of.receive));
   if (of.parallel) keys.push_back("transfer: parallel");
   if (of.takes) keys.push_back("takes: 3 ms");
   if (!of.sets.empty()) keys.push_back(changes(of.sets, owner));
@@ -116,13 +142,18 @@ std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& 
       if (one.group == of.name) inside.push_back(behaviour(one, owner, expressions));
     keys.push_back("behaviours: " + map(inside));
   }
-  return of.name + ": " + map(keys);
+  if (of.each.empty()) return of.name + ": " + map(keys);
+  keys.push_back("for: each " + of.each);
+  return of.name.substr(0, of.name.find('[')) + ": " + with_i(map(keys));
 }
 
 void buffers(std::ostream& out, const std::string& indent, const char* key,
-             const std::vector<std::string>& names) {
+             const std::vector<std::string>& names, const std::string& each) {
   std::vector<std::string> parts;
-  for (const std::string& name : names) parts.push_back(name + ": V");
+  for (const std::string& name : names)
+    if (!is_other_member(name))
+      parts.push_back(name.ends_with("]") ? name.substr(0, name.find('[')) + ": \"V[each " + each + "]\""
+                                          : name + ": V");
   if (!parts.empty()) out << indent << key << ": " << map(parts) << "\n";
 }
 
@@ -131,8 +162,8 @@ void subsystem(std::ostream& out, const std::string& indent, const Subsystem& of
   Expressions expressions;
   out << indent << of.name << ":\n";
   if (of.rate) out << inner << "rate: 50 Hz\n";
-  buffers(out, inner, "inputs", of.inputs);
-  buffers(out, inner, "outputs", of.outputs);
+  buffers(out, inner, "inputs", of.inputs, of.each);
+  buffers(out, inner, "outputs", of.outputs, of.each);
   std::vector<std::string> cells{"dice: uint32"};
   for (const Cell& cell : of.memory)
     cells.push_back(cell.name + (cell.least < 0 ? ": { values: " + list(cell.values) + " }"
@@ -143,7 +174,8 @@ void subsystem(std::ostream& out, const std::string& indent, const Subsystem& of
   if (!of.on_error.empty()) out << inner << "on_error: " << of.on_error << "\n";
   out << inner << "behaviours:\n";
   for (const Behaviour& one : of.behaviours)
-    if (one.group.empty()) out << inner << "  " << behaviour(one, of, expressions) << "\n";
+    if (one.group.empty() && !is_other_member(one.name))
+      out << inner << "  " << behaviour(one, of, expressions) << "\n";
 }
 
 void body(std::ostream& out, const std::string& indent, const Agent& of) {

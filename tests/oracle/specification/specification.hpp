@@ -18,7 +18,7 @@ struct Asked {
   Kind kind = Kind::open;
   std::string buffer{};        // of fresh, late_input, late_output; "memory.c0"
   std::vector<Asked> parts{};  // of negation, both, either
-  std::string text{};          // of memory: "memory.c0 == v1"
+  std::string text{};          // of memory: "memory.c0 == v1"; of a formula over all members: "any(in.x.fresh)"
   std::vector<bool> holds{};   // of memory: per value of the cell
 };
 
@@ -80,6 +80,7 @@ struct Behaviour {
   bool is_group = false, has_until = false;
   std::optional<Asked> until{};  // what is absent asks nothing
   std::string on_error{}, start{};
+  std::string each{};  // the fleet, of "v[0]", which is written once for all members as `v`
 };
 
 struct Subsystem {
@@ -92,6 +93,7 @@ struct Subsystem {
   std::string start;                  // empty: not written
   std::vector<Cell> memory{};
   std::string on_error{};  // empty: not written
+  std::string each{};      // the fleet for whose members there are buffers: "x[0]", "x[1]", written once as `x`
 };
 
 /// An agent, a template, or a fleet: either `subsystems` or `use`.
@@ -103,7 +105,7 @@ struct Agent {
   std::vector<Subsystem> subsystems;
 };
 
-/// One end of a channel. `index` is "", a number, "*", "i" or "i+1".
+/// One end of a channel. `index` is "", a number, "*", "i" or "i+1"; `buffer` may end with "[i]".
 struct End {
   std::string agent, index, subsystem, buffer;
 };

@@ -179,7 +179,7 @@ std::vector<net::Property> random_properties(const test::Built& built, oracle::R
   return properties;
 }
 
-/// What parts say in which as many places as possible count as one.
+/// Compares what parts say in which as many places as possible count as one.
 void expect_no_more(const test::Built& built, const std::vector<net::Invariant>& invariants,
                     const ReachabilityGraph& graph, const std::vector<net::Property>& properties,
                     int& holding) {

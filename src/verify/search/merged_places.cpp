@@ -153,7 +153,6 @@ class MergedPlaces::Finder {
       found_.stands_for_[place.value] = places.front();
       found_.merged_[place.value] = true;
     }
-    found_.any_ = true;
   }
 
   struct Values {

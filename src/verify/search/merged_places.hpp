@@ -11,15 +11,15 @@ namespace tessera::verify {
 
 /// Places of some subsystems that count as one: where exactly its token is makes no difference to the others.
 ///
-/// A behaviour *matters* if it uses a channel between the subsystems, if it has a place that is asked about, or if
-/// it is one of few that give a value that is asked about. Behaviours that do not matter and follow each other count as one place, if they are many: those of a dock that serve the other
-/// robots. Of what a subsystem knows, values count as one that no behaviour gives that matters. What the last use of a
-/// channel to others has shown is left out.
+/// A behaviour *matters* if it uses a channel between the subsystems, if it has a place that is asked about, or if it
+/// is one of few that give a value that is asked about. Behaviours that do not matter and follow each other count as
+/// one place, if they are many: those of a dock that serve the other robots. Values of what a subsystem knows count as
+/// one if no behaviour gives them that matters. The outcome of the last use of a channel to others is left out.
 ///
 /// Places that count as one never hold two tokens together.
 class MergedPlaces {
  public:
-  /// asked: places that count for themselves. few: so many behaviours are never merged. Linear in the transitions of the subsystems.
+  /// asked: places that count for themselves. few: so many behaviours never count as one. Linear in the net.
   MergedPlaces(const net::Net& net, const Surroundings& surroundings,
                const std::set<net::SubsystemId>& subsystems, const std::set<net::PlaceId>& asked,
                std::size_t few);
@@ -29,14 +29,11 @@ class MergedPlaces {
   [[nodiscard]] net::PlaceId operator[](net::PlaceId place) const { return stands_for_[place.value]; }
   /// Whether it counts as one with others, or is left out.
   [[nodiscard]] bool is_merged(net::PlaceId place) const { return merged_[place.value]; }
-  /// Whether any place does.
-  [[nodiscard]] bool any() const { return any_; }
 
  private:
   class Finder;
   std::vector<net::PlaceId> stands_for_;  // per place
   std::vector<bool> merged_;              // per place
-  bool any_ = false;
 };
 
 }  // namespace tessera::verify

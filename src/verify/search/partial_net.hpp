@@ -24,7 +24,7 @@ namespace tessera::verify {
 /// a run without these places, so what no such run does, no run of the net does.
 ///
 /// Ways: a marking reaches a goal *for certain* if the subsystems have a way to it that needs nothing from the others.
-/// A transition that takes no token from a place that is left out is such a step. Where exactly one of several such
+/// A transition that takes no token from a place that is left out is such a step. If exactly one of several such
 /// places holds a token, as of a memory that is full or empty, there has to be a step for each of them, or another
 /// subsystem can pass this token on alone, as it can after each use of a memory. Whatever the others have done, the
 /// subsystems can then go to the goal. So from every marking of the net that is such a marking

@@ -33,7 +33,7 @@ class Surroundings {
   [[nodiscard]] const std::vector<net::TransitionId>& transitions(net::SubsystemId subsystem) const {
     return transitions_[subsystem.value];
   }
-  /// The subsystems that use a place of a channel; an invalid one stands for the network. Of other places none.
+  /// The subsystems that use a place of a channel; an invalid one stands for the network. For other places there are none.
   [[nodiscard]] const std::set<net::SubsystemId>& users(net::PlaceId place) const {
     return users_[place.value];
   }

@@ -46,7 +46,11 @@ agents:
       parameters: { luck: { type: int32, default: 1 } }
       memory:  { dice: uint32 }
       behaviours:
-        serve: { send: { grant: { skip: allowed }, wish: }, receive: [ask], terminal: in.ask.timed_out, next: [{ to: doze, when: error }, doze] }
+        serve:
+          send: { grant: { skip: allowed }, wish: }
+          receive: [ask]
+          terminal: in.ask.timed_out
+          next: [{ to: doze, when: error }, doze]
         doze:  { send: [], receive: [], terminal: true, next: serve }
 channels:
   - { from: a.control.ask, to: b.control.ask, receive: blocking, timeout: 300 ms }
@@ -60,13 +64,16 @@ properties:
   - { name: mended, never: a.control.seek.mend }
   - { name: paused, never: a.control.paused }
   - { name: failed, never: a.control.safe }
-  - { name: skipped, never: "a.control.memory.tries == 0 and a.control.seek.ask.in and b.control.serve.rcv and b.control.grant -> a.control.grant.empty" }
+  - name: skipped
+    never: "a.control.memory.tries == 0 and a.control.seek.ask.in and b.control.serve.rcv
+            and b.control.grant -> a.control.grant.empty"
 )";
 
 constexpr const char* server = R"(#include "b/control.hpp"
 namespace asked::b::control {
 void serve(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  memory.dice = (memory.dice + 77777U * static_cast<std::uint32_t>(context.parameters.luck)) * 1664525U + 1013904223U;
+  const auto luck = static_cast<std::uint32_t>(context.parameters.luck);
+  memory.dice = (memory.dice + 77777U * luck) * 1664525U + 1013904223U;
   out.wish = memory.dice / 1024 % 5 == 0;
   if (memory.dice / 4096 % 3 == 0) out.grant.skip();
 }
@@ -77,7 +84,8 @@ constexpr const char* client = R"(#include "a/control.hpp"
 namespace asked::a::control {
 namespace {
 void throw_dice(Context& context, Memory& memory) {
-  memory.dice = (memory.dice + 55555U * static_cast<std::uint32_t>(context.parameters.luck)) * 1664525U + 1013904223U;
+  const auto luck = static_cast<std::uint32_t>(context.parameters.luck);
+  memory.dice = (memory.dice + 55555U * luck) * 1664525U + 1013904223U;
   memory.tired = memory.dice / 1024 % 6 == 0;
 }
 }

@@ -18,8 +18,8 @@ struct Asked {
   Kind kind = Kind::open;
   std::string buffer{};        // of fresh, late_input, late_output; "memory.c0"
   std::vector<Asked> parts{};  // of negation, both, either
-  std::string text{};          // of memory: "memory.c0 == v1"; of a formula over all members: "any(in.x.fresh)"
-  std::vector<bool> holds{};   // of memory: per value of the cell
+  std::string text{};  // of memory: "memory.c0 == v1"; of a formula over all members: "any(in.x.fresh)"
+  std::vector<bool> holds{};  // of memory: per value of the cell
 };
 
 /// A memory cell with few values; the first is there at the start.
@@ -93,7 +93,7 @@ struct Subsystem {
   std::string start;                  // empty: not written
   std::vector<Cell> memory{};
   std::string on_error{};  // empty: not written
-  std::string each{};      // the fleet for whose members there are buffers: "x[0]", "x[1]", written once as `x`
+  std::string each{};  // the fleet for whose members there are buffers: "x[0]", "x[1]", written once as `x`
 };
 
 /// An agent, a template, or a fleet: either `subsystems` or `use`.

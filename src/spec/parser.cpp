@@ -5,7 +5,6 @@
 #include "spec/agents/defaults.hpp"
 #include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
-#include "spec/agents/group_templates.hpp"
 #include "spec/channels/channels.hpp"
 #include "spec/channels/complete_lists.hpp"
 #include "spec/channels/models.hpp"
@@ -18,6 +17,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/document/text_checks.hpp"
+#include "spec/groups/group_templates.hpp"
 #include "spec/properties/properties.hpp"
 #include "spec/values/types.hpp"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "language/names/index_builder.hpp"
-#include "spec/agents/groups.hpp"
 #include "spec/document/families.hpp"
+#include "spec/groups/groups.hpp"
 
 namespace tessera::language {
 

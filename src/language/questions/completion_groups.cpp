@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "language/questions/completer.hpp"
-#include "spec/agents/groups.hpp"
+#include "spec/groups/groups.hpp"
 
 namespace tessera::language {
 

@@ -6,11 +6,11 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/conditions.hpp"
-#include "spec/agents/groups.hpp"
 #include "spec/agents/neighbours.hpp"
 #include "spec/agents/sending.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
+#include "spec/groups/groups.hpp"
 #include "spec/memory/few_values.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"

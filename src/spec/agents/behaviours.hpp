@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "spec/agents/defaults.hpp"
-#include "spec/agents/group_templates.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/document/document.hpp"
 #include "spec/document/families.hpp"
+#include "spec/groups/group_templates.hpp"
 #include "spec/model/model.hpp"
 
 namespace tessera::spec {

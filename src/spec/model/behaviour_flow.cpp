@@ -4,7 +4,6 @@
 #include <string>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/channels/complete_lists.hpp"
 #include "spec/model/endings.hpp"
 #include "spec/model/member.hpp"
 #include "spec/model/successors.hpp"

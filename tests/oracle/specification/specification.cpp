@@ -14,11 +14,11 @@ std::string joined(const std::vector<std::string>& parts, const char* open, cons
 }
 std::string list(const std::vector<std::string>& parts) { return joined(parts, "[", "]"); }
 /// Brackets need quotes in a flow list or map.
-std::string quoted(const std::string& text) {
+std::string flow_text(const std::string& text) {
   return text.find('[') == std::string::npos || text.front() == '{' ? text : "\"" + text + "\"";
 }
 std::string names(std::vector<std::string> all) {
-  for (std::string& one : all) one = quoted(one);
+  for (std::string& one : all) one = flow_text(one);
   return list(all);
 }
 std::string with_i(std::string text);
@@ -65,10 +65,10 @@ class Expressions {
 };
 
 std::string condition(const Condition& of, Expressions& expressions) {
-  if (of.form == Condition::Form::single) return quoted(expressions.next(of.single, of.asks(0)));
+  if (of.form == Condition::Form::single) return flow_text(expressions.next(of.single, of.asks(0)));
   std::vector<std::string> parts;
   for (const auto& [name, truth] : of.named)
-    parts.push_back(name + ": " + quoted(expressions.next(truth, of.asks(parts.size()))));
+    parts.push_back(name + ": " + flow_text(expressions.next(truth, of.asks(parts.size()))));
   return map(parts);
 }
 
@@ -92,7 +92,7 @@ std::string entry(const Entry& of, const Subsystem& owner, Expressions& expressi
   if (of.when == Entry::When::error) when = "error";
   if (of.when == Entry::When::until) when = "until";
   if (of.when == Entry::When::expression) when = expressions.next(of.truth, of.asked ? &*of.asked : nullptr);
-  return "{ to: " + quoted(of.to) + ", when: " + quoted(when) + sets + " }";
+  return "{ to: " + flow_text(of.to) + ", when: " + flow_text(when) + sets + " }";
 }
 
 /// The map form of `send`, in which outputs say when they are sent.
@@ -100,14 +100,14 @@ std::string sent(const Behaviour& of, Expressions& expressions) {
   if (of.skips.empty()) return names(*of.send);
   std::vector<std::string> keys;
   for (const std::string& output : *of.send) {
-    keys.push_back(quoted(output));
+    keys.push_back(flow_text(output));
     for (const Skip& skip : of.skips)
       if (skip.output == output)
         keys.back() +=
             skip.by_function
                 ? ": { skip: allowed }"
-                : ": { when: " + quoted(expressions.next(Truth::open, skip.asked ? &*skip.asked : nullptr)) +
-                      " }";
+                : ": { when: " +
+                      flow_text(expressions.next(Truth::open, skip.asked ? &*skip.asked : nullptr)) + " }";
   }
   return map(keys);
 }
@@ -115,7 +115,7 @@ std::string sent(const Behaviour& of, Expressions& expressions) {
 std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& expressions) {
   std::vector<std::string> keys;
   if (of.has_until)
-    keys.push_back("until: " + quoted(expressions.next(Truth::open, of.until ? &*of.until : nullptr)));
+    keys.push_back("until: " + flow_text(expressions.next(Truth::open, of.until ? &*of.until : nullptr)));
   if (!of.on_error.empty()) keys.push_back("on_error: " + of.on_error);
   if (!of.start.empty()) keys.push_back("start: " + of.start);
   if (of.terminal.form != Condition::Form::absent)

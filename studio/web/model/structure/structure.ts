@@ -201,7 +201,7 @@ function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: Y
   };
 }
 
-/** Groups are at most that deep in one another (src/spec/agents/groups.hpp). */
+/** Groups are at most that deep in one another (src/spec/groups/groups.hpp). */
 const deepestGroup = 8;
 
 function readBehaviours(yaml: YamlText, subsystem: string, at: YamlPath, around = "", depth = 0): Behaviour[] {

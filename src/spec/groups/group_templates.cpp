@@ -1,4 +1,4 @@
-#include "spec/agents/group_templates.hpp"
+#include "spec/groups/group_templates.hpp"
 
 #include <algorithm>
 #include <array>

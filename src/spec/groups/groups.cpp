@@ -1,4 +1,4 @@
-#include "spec/agents/groups.hpp"
+#include "spec/groups/groups.hpp"
 
 #include <algorithm>
 #include <array>

@@ -265,7 +265,7 @@ TEST(Defaults, ThatAreWrittenForWhatIsRepeatedKeepNetAndController) {
   EXPECT_GT(shorter, 30U);
 }
 
-/// What stands in a group has its own lists and failures; a group among the behaviours is one of them.
+/// Behaviours in a group have lists and failures of their own; a group among the behaviours is one of them.
 TEST(Defaults, OfASubsystemWithGroupsKeepTheGroups) {
   const std::string longer = R"(tessera: 1
 system: s

@@ -52,7 +52,7 @@ TEST(CompleteLists, AreKnownByTheValuesOfMemory) {
   EXPECT_FALSE(warns(text,
                      "{ to: two, when: memory.m == u }, { to: one, when: memory.m == v }, { to: one, when: "
                      "memory.m == w }"));
-  // What ends the behaviour counts, too.
+  // The condition that ends the behaviour counts, too.
   EXPECT_FALSE(warns(asking("terminal: memory.m == u", ""), "{ to: two, when: memory.m != v }"));
 }
 

@@ -145,7 +145,7 @@ TEST(KnownFacts, TheNetOfAClientHasEachEndOfItsReceiveTwiceAndEntriesForTheAnswe
     }
 }
 
-/// A behaviour ends in one place, by t5 or t6. What the ending has asked decides which entry can follow.
+/// A behaviour ends in one place, by t5 or t6. The questions of the ending decide which entry can follow.
 TEST(KnownFacts, AnEntryFollowsOnlyAnEndingThatIsPossibleWithTheKnownValues) {
   struct Case {
     const char *behaviour, *property;

@@ -28,7 +28,7 @@ struct Missing {
     return name_of_member(each.fleet, outermost) + " has no " + in_quotes(written);
   }
   [[nodiscard]] std::string ring() const { return "write ring: true at fleet " + each.fleet; }
-  /// Where the outermost member may lead instead.
+  /// The behaviour to which the outermost member may lead instead.
   [[nodiscard]] std::string other_end() const {
     return name_of_member(name.name, name.offset > 0 ? 0 : each.count - 1);
   }

@@ -183,7 +183,7 @@ bool asks_what_is_known(const Behaviour& behaviour) {
 }
 
 void check_complete_lists(const Model& model, Diagnostics& out) {
-  // What agents with one definition receive counts together.
+  // The channels of all agents with one definition count together.
   std::map<const Subsystem*, std::vector<std::vector<const Channel*>>> sources;
   for (const Definition& definition : model.definitions)
     for (const Subsystem& subsystem : definition.subsystems)

@@ -31,7 +31,7 @@ bool is_letter_of_word(char c) {
   return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// What may stand for a name: names with dots and indices, and numbers with units.
+/// Whether it may stand for a name: names with dots and indices, and numbers with units.
 bool is_plain_text(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) {
     return is_letter_of_word(c) || c == '.' || c == '[' || c == ']' || c == ' ' || c == '/';
@@ -198,7 +198,7 @@ const Node* GroupTemplates::group_of(const Entry& behaviour, const Entry& use,
   const Texts texts = texts_for(behaviour, from, out);
   if (out.error_count() > errors) return nullptr;
   std::set<std::string> found;
-  // What stands beside `use` comes instead of what the template says.
+  // The keys beside `use` replace those of the template.
   std::vector<Entry> keys;
   for (const Entry& key : behaviour.value->entries)
     if (key.key != "use" && key.key != "with" && key.key != "behaviours") keys.push_back(key);

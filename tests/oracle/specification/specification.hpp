@@ -76,7 +76,7 @@ struct Behaviour {
   std::vector<Change> sets{};  // when it begins
   std::vector<Skip> skips{};   // of outputs in `send`, which is then written
   std::string group{};         // the name of the group in which it stands
-  // Of a group, which has `next` and `sets` besides. An empty name is not written.
+  // The keys of a group, which has `next` and `sets` besides. An empty name is not written.
   bool is_group = false, has_until = false;
   std::optional<Asked> until{};  // what is absent asks nothing
   std::string on_error{}, start{};

@@ -2,9 +2,10 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/agents/buffers.hpp"
-#include "spec/agents/defaults.hpp"
 #include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
+#include "spec/behaviours/defaults.hpp"
+#include "spec/behaviours/group_templates.hpp"
 #include "spec/channels/channels.hpp"
 #include "spec/channels/complete_lists.hpp"
 #include "spec/channels/models.hpp"
@@ -17,7 +18,6 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/document/text_checks.hpp"
-#include "spec/groups/group_templates.hpp"
 #include "spec/properties/properties.hpp"
 #include "spec/values/types.hpp"
 

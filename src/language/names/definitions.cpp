@@ -5,7 +5,7 @@
 
 #include "language/names/index_builder.hpp"
 #include "spec/document/families.hpp"
-#include "spec/groups/groups.hpp"
+#include "spec/behaviours/groups.hpp"
 #include "spec/model/few_values.hpp"
 
 namespace tessera::language {

@@ -4,7 +4,7 @@
 
 #include "language/names/index_builder.hpp"
 #include "spec/document/families.hpp"
-#include "spec/groups/groups.hpp"
+#include "spec/behaviours/groups.hpp"
 
 namespace tessera::language {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "language/questions/completer.hpp"
-#include "spec/groups/groups.hpp"
+#include "spec/behaviours/groups.hpp"
 
 namespace tessera::language {
 

@@ -7,7 +7,7 @@
 #include "language/edits/elements.hpp"
 #include "language/edits/text_editor.hpp"
 #include "language/language.hpp"
-#include "spec/groups/groups.hpp"
+#include "spec/behaviours/groups.hpp"
 #include "spec/parser.hpp"
 
 namespace tessera::language {

@@ -7,14 +7,14 @@
 #include <vector>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/agents/behaviours.hpp"
 #include "spec/agents/buffers.hpp"
-#include "spec/agents/conditions.hpp"
 #include "spec/agents/limits.hpp"
 #include "spec/agents/policies.hpp"
 #include "spec/agents/safe_commands.hpp"
+#include "spec/behaviours/behaviours.hpp"
+#include "spec/behaviours/conditions.hpp"
+#include "spec/behaviours/groups.hpp"
 #include "spec/document/section.hpp"
-#include "spec/groups/groups.hpp"
 #include "spec/memory/few_values.hpp"
 #include "spec/model/behaviour_flow.hpp"
 #include "spec/model/endings.hpp"

@@ -1,9 +1,9 @@
 #pragma once
 
-#include "spec/agents/defaults.hpp"
+#include "spec/behaviours/defaults.hpp"
+#include "spec/behaviours/group_templates.hpp"
 #include "spec/document/document.hpp"
 #include "spec/document/families.hpp"
-#include "spec/groups/group_templates.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
 

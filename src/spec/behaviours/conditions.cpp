@@ -1,4 +1,4 @@
-#include "spec/agents/conditions.hpp"
+#include "spec/behaviours/conditions.hpp"
 
 #include <algorithm>
 #include <array>

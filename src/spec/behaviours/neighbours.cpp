@@ -1,4 +1,4 @@
-#include "spec/agents/neighbours.hpp"
+#include "spec/behaviours/neighbours.hpp"
 
 #include <cstdlib>
 #include <string>

@@ -1,4 +1,4 @@
-#include "spec/agents/defaults.hpp"
+#include "spec/behaviours/defaults.hpp"
 
 #include <algorithm>
 

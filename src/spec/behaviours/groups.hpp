@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "spec/agents/defaults.hpp"
+#include "spec/behaviours/defaults.hpp"
 #include "spec/document/section.hpp"
 #include "spec/model/model.hpp"
 

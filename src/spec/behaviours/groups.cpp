@@ -1,4 +1,4 @@
-#include "spec/groups/groups.hpp"
+#include "spec/behaviours/groups.hpp"
 
 #include <algorithm>
 #include <array>

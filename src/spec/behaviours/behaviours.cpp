@@ -1,16 +1,16 @@
-#include "spec/agents/behaviours.hpp"
+#include "spec/behaviours/behaviours.hpp"
 
 #include <algorithm>
 #include <map>
 #include <utility>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/agents/conditions.hpp"
-#include "spec/agents/neighbours.hpp"
-#include "spec/agents/sending.hpp"
+#include "spec/behaviours/conditions.hpp"
+#include "spec/behaviours/groups.hpp"
+#include "spec/behaviours/neighbours.hpp"
+#include "spec/behaviours/sending.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
-#include "spec/groups/groups.hpp"
 #include "spec/memory/few_values.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"

@@ -3,11 +3,11 @@
 #include <optional>
 #include <vector>
 
-#include "spec/agents/defaults.hpp"
+#include "spec/behaviours/defaults.hpp"
+#include "spec/behaviours/group_templates.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/document/document.hpp"
 #include "spec/document/families.hpp"
-#include "spec/groups/group_templates.hpp"
 #include "spec/model/model.hpp"
 
 namespace tessera::spec {

@@ -1,11 +1,11 @@
-#include "spec/agents/sending.hpp"
+#include "spec/behaviours/sending.hpp"
 
 #include <algorithm>
 #include <optional>
 #include <string>
 
 #include "diagnostics/utf8.hpp"
-#include "spec/agents/conditions.hpp"
+#include "spec/behaviours/conditions.hpp"
 #include "spec/document/section.hpp"
 #include "tessera/nearest.hpp"
 

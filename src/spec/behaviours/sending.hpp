@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "spec/agents/defaults.hpp"
+#include "spec/behaviours/defaults.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/model/model.hpp"
 

@@ -2,7 +2,7 @@
 
 #include <optional>
 
-#include "spec/agents/defaults.hpp"
+#include "spec/behaviours/defaults.hpp"
 #include "spec/conditions/scope.hpp"
 #include "spec/document/document.hpp"
 #include "spec/model/model.hpp"

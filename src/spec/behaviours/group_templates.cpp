@@ -1,4 +1,4 @@
-#include "spec/groups/group_templates.hpp"
+#include "spec/behaviours/group_templates.hpp"
 
 #include <algorithm>
 #include <array>

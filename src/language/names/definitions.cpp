@@ -4,8 +4,8 @@
 #include <set>
 
 #include "language/names/index_builder.hpp"
-#include "spec/document/families.hpp"
 #include "spec/behaviours/groups.hpp"
+#include "spec/document/families.hpp"
 #include "spec/model/few_values.hpp"
 
 namespace tessera::language {

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "language/names/index_builder.hpp"
-#include "spec/document/families.hpp"
 #include "spec/behaviours/groups.hpp"
+#include "spec/document/families.hpp"
 
 namespace tessera::language {
 

@@ -153,13 +153,20 @@ class Builder {
     net_.facts.push_back(fact);
   }
 
+  [[nodiscard]] int initial_value(const FlatNet::FactInfo& cell) const {
+    return net_.subsystems[static_cast<std::size_t>(cell.subsystem)]
+        .of->memory[static_cast<std::size_t>(cell.cell)]
+        .initial;
+  }
+
   /// Their places, which belong to no page.
   void fact_places() {
     for (FlatNet::FactInfo& fact : net_.facts) {
       const std::string path = net_.subsystems[static_cast<std::size_t>(fact.subsystem)].path;
+      const int initial = fact.cell >= 0 ? initial_value(fact) : fact.sends ? 0 : 1;
       for (std::size_t value = 0; value < fact.values.size(); ++value)
         fact.places.push_back(add_place(path + "." + fact.buffer + "." + fact.values[value],
-                                        value == (fact.sends || fact.cell >= 0 ? 0U : 1U), true));
+                                        static_cast<int>(value) == initial, true));
     }
   }
 
@@ -274,7 +281,10 @@ class Builder {
     std::map<int, int> first;  // memory that the first behaviour changes
     const std::vector<Change> begun =
         changes_of(*subsystem.of, {start, Entry::When::always, "", Truth::open});
-    for (const Change& change : begun) first[fact_of_cell(net_, s, change.cell)] = 0;
+    for (const Change& change : begun) {
+      const int fact = fact_of_cell(net_, s, change.cell);
+      first[fact] = initial_value(net_.facts[static_cast<std::size_t>(fact)]);
+    }
     for (const auto& [fact, value] : first) begin.pre.push_back(place_of(fact, value));
     const std::map<int, int> later = changed(net_, s, begun, first).value();
     for (const auto& [fact, value] : later) begin.post.push_back(place_of(fact, value));

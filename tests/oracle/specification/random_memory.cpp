@@ -14,6 +14,7 @@ Cell random_cell(RandomNumbers& random, const std::string& name) {
   if (random.percent(55)) made.least = random.below(2) * 3;
   for (int value = 0; value < count; ++value)
     made.values.push_back(made.least < 0 ? "v" + std::to_string(value) : std::to_string(made.least + value));
+  if (random.percent(30)) made.initial = random.below(count);
   return made;
 }
 
@@ -50,7 +51,10 @@ void keep_in_range(Subsystem& subsystem) {
   const std::string& first = first_in(subsystem, "").name;
   for (Behaviour& behaviour : subsystem.behaviours)
     if (behaviour.name == first)
-      std::erase_if(behaviour.sets, [](const Change& one) { return one.step < 0; });
+      std::erase_if(behaviour.sets, [&](const Change& one) {
+        const int initial = subsystem.memory[static_cast<std::size_t>(one.cell)].initial;
+        return one.step != 0 && !allows(subsystem, {one}, one.cell, initial);
+      });
   for (Behaviour& behaviour : subsystem.behaviours)
     for (Entry& entry : behaviour.next) {
       const std::vector<Change> changes = changes_of(subsystem, entry);

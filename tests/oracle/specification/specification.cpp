@@ -166,9 +166,12 @@ void subsystem(std::ostream& out, const std::string& indent, const Subsystem& of
   buffers(out, inner, "outputs", of.outputs, of.each);
   std::vector<std::string> cells{"dice: uint32"};
   for (const Cell& cell : of.memory)
-    cells.push_back(cell.name + (cell.least < 0 ? ": { values: " + list(cell.values) + " }"
-                                                : ": { counts: " + cell.values.front() + ".." +
-                                                      cell.values.back() + " }"));
+    cells.push_back(
+        cell.name +
+        (cell.least < 0 ? ": { values: " + list(cell.values)
+                        : ": { counts: " + cell.values.front() + ".." + cell.values.back()) +
+        (cell.initial == 0 ? "" : ", initial: " + cell.values[static_cast<std::size_t>(cell.initial)]) +
+        " }");
   out << inner << "memory: " << map(cells) << "\n";
   if (!of.start.empty()) out << inner << "start: " << of.start << "\n";
   if (!of.on_error.empty()) out << inner << "on_error: " << of.on_error << "\n";

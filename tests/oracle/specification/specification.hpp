@@ -26,7 +26,8 @@ struct Asked {
 struct Cell {
   std::string name;
   std::vector<std::string> values;
-  int least = -1;  // of a counter; otherwise the values are names
+  int least = -1;   // of a counter; otherwise the values are names
+  int initial = 0;  // position; the first is not written
 };
 
 /// A change of a cell: by one step, or to a value.

@@ -81,7 +81,10 @@ Branches branches_of(const net::Page& page) {
   for (const net::PageTransition& transition : page.transitions) {
     const Nodes inputs = own(transition.inputs), outputs = own(transition.outputs);
     if (outputs.size() > 1) starts = outputs;
-    if (outputs.size() == 1 && inputs.size() == 1) neighbours[inputs.front()].push_back(outputs.front());
+    if (outputs.size() != 1 || inputs.size() != 1) continue;
+    neighbours[inputs.front()].push_back(outputs.front());
+    // A send whose condition never holds has places that no transition leads to.
+    neighbours[outputs.front()].push_back(inputs.front());
   }
   Branches found;
   std::vector<bool> seen(page.nodes.size(), false);

@@ -52,7 +52,9 @@ class Answering {
       if (!holds) show(finding);
     }
     result_.method = method;
-    if (finding.kind != Finding::Kind::holds) question_.subjects = std::move(finding.subjects);
+    // A decider that could say nothing, and names no subject, leaves all of them open.
+    const bool is_silent = finding.kind == Finding::Kind::unknown && finding.subjects.empty();
+    if (finding.kind != Finding::Kind::holds && !is_silent) question_.subjects = std::move(finding.subjects);
   }
 
  private:

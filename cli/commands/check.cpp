@@ -50,7 +50,7 @@ int check_command(const CheckOptions& options) {
   if (!simulation_is_possible(*specification, terminal()) || !sound) return exit_code_without_net();
   const std::optional<Nets> nets = build(*specification, terminal());
   if (!nets) return failed;
-  diagnostics::Diagnostics notes(specification->diagnostics.file(), specification->diagnostics.text());
+  diagnostics::Diagnostics notes = specification->diagnostics.of_same_source();
   note_former_routes(specification->model, notes);
   terminal().say(notes);
   const spec::Model& model = specification->model;

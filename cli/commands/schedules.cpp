@@ -130,7 +130,7 @@ int run_schedules(const Controller& controller, const ScheduleOptions& options, 
   results.whole = whole;
   results.parts = part.of;
   results.again = reproduction(options);
-  results.identity.specification = hash_of(controller.specification.diagnostics.text());
+  results.identity.specification = hash_of(controller.specification.diagnostics.whole_text());
   results.identity.controller = hash_of(content_of(controller.program));
   results.identity.settings = settings;
   const std::string json = statistics::to_json(results);

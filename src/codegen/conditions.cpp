@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 #include <utility>
 
@@ -342,11 +343,14 @@ void Conditions::add_marked(const Function& function, std::string& out) const {
       fmt::format("bool tessera_Conditions::{}() const {{ return static_cast<bool>(  // {}\n", function.name,
                   comment_text(function.says));
   const std::uint32_t line = std::max(function.expression->span.line, 1U);
+  const diagnostics::SourceLine place = project_.model.sources.at(line);
+  const std::string file = (std::filesystem::path(project_.spec_path).parent_path() / place.file).string();
   const auto marker = [&](std::uint32_t number) {
-    return fmt::format("#line {} {}\n", number, string_literal(project_.spec_path));
+    return fmt::format("#line {} {}\n", number,
+                       string_literal(place.file.empty() ? project_.spec_path : file));
   };
   // There is no line 0 for the head of an expression on line 1.
-  out += line > 1 ? marker(line - 1) + head : head + marker(line);
+  out += place.line > 1 ? marker(place.line - 1) + head : head + marker(place.line);
   out += at_column(*function.expression, std::max(function.expression->span.column, 1U),
                    buffer_families(subsystem_)) +
          "); }\n";

@@ -60,7 +60,9 @@ std::string user_file(const std::vector<Unit>& units, const Unit& unit) {
 }
 
 std::string Project::at(const spec::Span& span) const {
-  return fmt::format("{}:{}", comment_text(spec_name), span.line);
+  const diagnostics::SourceLine place = model.sources.at(span.line);
+  return fmt::format("{}:{}", comment_text(place.file.empty() ? spec_name : std::string(place.file)),
+                     place.line);
 }
 
 std::string Project::banner(std::string_view marker) const {

@@ -107,10 +107,10 @@ std::string shortened(const std::string& text) {
   return visible(std::string_view(text).substr(0, end)) + std::string(cut);
 }
 
-std::string location(const Diagnostic& diagnostic, const std::string& file) {
-  std::string result = visible(file) + ":";
+std::string location(const Diagnostic& diagnostic, const Diagnostics& source) {
+  std::string result = visible(source.file_of(diagnostic.span.line)) + ":";
   if (diagnostic.span.line == 0) return result;
-  return result + std::to_string(diagnostic.span.line) + ":" + std::to_string(diagnostic.span.column) + ":";
+  return result + std::to_string(source.sources().at(diagnostic.span.line).line) + ":" + std::to_string(diagnostic.span.column) + ":";
 }
 
 std::string margin(const std::string& number) {
@@ -139,12 +139,12 @@ std::string summary(const std::vector<Diagnostic>& all) {
 std::string render(const Diagnostic& diagnostic, const Diagnostics& source, bool colour) {
   const Paint paint(colour);
   const Style shown = style(diagnostic.severity);
-  std::string result = paint(bold, location(diagnostic, source.file())) + " " +
+  std::string result = paint(bold, location(diagnostic, source)) + " " +
                        paint(shown.colour, std::string(shown.word) + " " + diagnostic.code + ":") + " " +
                        shortened(diagnostic.message) + "\n";
   if (diagnostic.span.line != 0) {
     const Quote lines = quote(source.line(diagnostic.span.line), diagnostic.span);
-    result += margin(std::to_string(diagnostic.span.line)) + lines.text + "\n";
+    result += margin(std::to_string(source.sources().at(diagnostic.span.line).line)) + lines.text + "\n";
     result += margin("") + paint(green, lines.caret) + "\n";
   }
   if (!diagnostic.hint.empty()) result += paint(cyan, "hint:") + " " + shortened(diagnostic.hint) + "\n";

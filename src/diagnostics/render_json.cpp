@@ -24,8 +24,8 @@ std::string render_json(const Diagnostics& diagnostics) {
   for (const Diagnostic& one : diagnostics.sorted()) {
     list.push_back({{"severity", word(one.severity)},
                     {"code", one.code},
-                    {"file", diagnostics.file()},
-                    {"line", one.span.line},
+                    {"file", diagnostics.file_of(one.span.line)},
+                    {"line", diagnostics.sources().at(one.span.line).line},
                     {"column", one.span.column},
                     {"length", one.span.length},
                     {"message", one.message},

@@ -72,7 +72,7 @@ Diagnostics load(const fs::path& path) {
   }
   if (in.bad()) return failed(path, "the file cannot be read");
   if (text.size() > largest_source) return failed(path, "the file is larger than 64 MB");
-  return {path.string(), std::move(text)};
+  return {path.string(), std::move(text), path.has_parent_path() ? path.parent_path() : fs::path(".")};
 }
 
 bool is_xml(std::string_view text) {

@@ -215,7 +215,8 @@ class Folding {
 /// Writes the system's own net: numbers of the whole net.
 class SystemWriter : public NetWriter {
  public:
-  explicit SystemWriter(const Folding& folding) : folding_(folding) {}
+  SystemWriter(const Folding& folding, const diagnostics::Sources& sources)
+      : NetWriter(sources), folding_(folding) {}
 
  protected:
   using NetWriter::written;
@@ -228,8 +229,9 @@ class SystemWriter : public NetWriter {
 /// Writes a shape: numbers count within the agent.
 class ShapeWriter : public SystemWriter {
  public:
-  ShapeWriter(const Folding& folding, const Part& part, std::size_t prefix)
-      : SystemWriter(folding), part_(part), prefix_(prefix) {}
+  ShapeWriter(const Folding& folding, const diagnostics::Sources& sources, const Part& part,
+              std::size_t prefix)
+      : SystemWriter(folding, sources), part_(part), prefix_(prefix) {}
 
  protected:
   [[nodiscard]] std::optional<std::uint32_t> written(net::PageId id) const override {
@@ -263,7 +265,8 @@ class ShapeWriter : public SystemWriter {
 /// Writes the places of a channel's memory: names without that of the channel, whose number is not written.
 class MemoryWriter : public NetWriter {
  public:
-  explicit MemoryWriter(std::size_t prefix) : prefix_(prefix) {}
+  MemoryWriter(const diagnostics::Sources& sources, std::size_t prefix)
+      : NetWriter(sources), prefix_(prefix) {}
 
  protected:
   using NetWriter::written;
@@ -292,7 +295,7 @@ void write_elements(NetWriter& writer, const net::HierarchicalNet& pages, const 
 
 std::string shape_text(const Folding& folding, const net::HierarchicalNet& pages, const net::Net& net,
                        const Part& part) {
-  ShapeWriter shape(folding, part, pages.pages[part.pages.first].name.size() + 1);
+  ShapeWriter shape(folding, pages.parts.sources, part, pages.pages[part.pages.first].name.size() + 1);
   shape.object([&] {
     write_elements(shape, pages, net, part.pages, part.places, part.transitions);
     std::uint32_t subsystems = 0;
@@ -312,7 +315,7 @@ std::string shape_text(const Folding& folding, const net::HierarchicalNet& pages
 }
 
 std::string memory_text(const net::Net& net, Range memory, std::string_view channel) {
-  MemoryWriter writer(channel.size() + 1);
+  MemoryWriter writer(net.parts().sources, channel.size() + 1);
   std::vector<std::uint32_t> places(memory.size);
   for (std::uint32_t at = 0; at < memory.size; ++at) places[at] = memory.first + at;
   writer.list(places, [&](std::uint32_t place) { writer.place(net.places()[place]); });
@@ -334,7 +337,7 @@ std::string to_folded_json(const net::HierarchicalNet& pages, const net::Net& ne
     memory_of.push_back(at->second);
   }
 
-  SystemWriter all(folding);
+  SystemWriter all(folding, pages.parts.sources);
   const auto numbers = [&](const std::vector<std::uint32_t>& list) {
     all.list(list, [&](std::uint32_t number) { all.value(number); });
   };

@@ -8,7 +8,7 @@ namespace tessera::drawing {
 
 std::string to_json(const net::HierarchicalNet& pages, const net::Net& net, int indent) {
   constexpr std::size_t bytes_per_element = 400;
-  NetWriter all;
+  NetWriter all(pages.parts.sources);
   all.reserve((net.places().size() + net.transitions().size()) * bytes_per_element);
   all.object([&] {
     std::uint32_t index = 0;

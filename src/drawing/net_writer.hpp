@@ -16,13 +16,20 @@ namespace tessera::drawing {
 /// Writes a net. Each function writes one part as one JSON value.
 class NetWriter : public JsonWriter {
  public:
+  /// sources: of the lines of spans; they outlive the writer.
+  explicit NetWriter(const diagnostics::Sources& sources) : sources_(sources) {}
   virtual ~NetWriter() = default;
+  NetWriter(const NetWriter&) = delete;
+  NetWriter& operator=(const NetWriter&) = delete;
 
   void span(const net::Span& span) {
+    // Who knows nothing of included files would look up their lines in the specification.
+    const std::string included = sources_.included_line(span.line);
     object([&] {
-      member("line", span.line);
+      member("line", sources_.own_line(span.line));
       member("column", span.column);
       member("length", span.length);
+      if (!included.empty()) member("included", std::string_view(included));
     });
   }
 
@@ -162,6 +169,9 @@ class NetWriter : public JsonWriter {
       });
     });
   }
+
+ private:
+  const diagnostics::Sources& sources_;
 };
 
 }  // namespace tessera::drawing

@@ -103,6 +103,10 @@ class Document {
   Index index_;
 };
 
+/// The files of its `include`, for messages: "parts/docking.yaml and parts/types.yaml"; empty: there are none. Their
+/// names are not in its index.
+[[nodiscard]] std::string included_files(const Document& document);
+
 /// The possible texts at the cursor, most likely first. At most 1000.
 [[nodiscard]] std::vector<Proposal> complete(const Document& document, Position position);
 
@@ -126,7 +130,8 @@ class Document {
 [[nodiscard]] std::optional<Range> renameable(const Document& document, const Source* in, Position position);
 
 /// Gives the name at the cursor another one, in the specification and all sources. Refuses names that are taken or
-/// not allowed, and whatever would bring the specification a new error.
+/// not allowed, and whatever would bring the specification a new error. Refuses every name of a specification that
+/// includes files, which may have the name too.
 [[nodiscard]] Renaming rename(const Document& document, const Source* in, Position position,
                               std::span<const Source> sources, const std::string& name);
 

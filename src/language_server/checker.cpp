@@ -3,14 +3,28 @@
 #include <algorithm>
 #include <utility>
 
+#include "language_server/workspace.hpp"
 #include "project/verification/pipeline.hpp"
 
 namespace tessera::language_server {
 
-Checked check(const std::string& name, const std::string& text) {
-  diagnostics::Diagnostics out(name, text);
+Checked check(const std::string& uri, const std::string& text) {
+  const std::filesystem::path folder = path_of(uri).parent_path();
+  diagnostics::Diagnostics out(uri, text, folder);
   project::Draft draft = project::draft_of(out);
-  Checked checked{out.sorted(), nullptr};
+  Checked checked;
+  const std::vector<std::string> names = out.sources().included();
+  for (std::size_t at = 0; at < names.size(); ++at)
+    checked.included.push_back({folder / names[at], out.included_text(at)});
+  for (diagnostics::Diagnostic& one : out.sorted()) {
+    const diagnostics::SourceLine place = out.sources().at(one.span.line);
+    const auto file = std::ranges::find(names, place.file);
+    one.span.line = place.line;
+    auto& found = file == names.end()
+                      ? checked.found
+                      : checked.included[static_cast<std::size_t>(file - names.begin())].found;
+    found.push_back(std::move(one));
+  }
   if (draft.nets.pages && !out.has_errors())
     checked.pages = std::make_shared<const net::HierarchicalNet>(*std::move(draft.nets.pages));
   return checked;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 #include <condition_variable>
+#include <filesystem>
 #include <functional>
 #include <map>
 #include <memory>
@@ -16,13 +17,22 @@
 
 namespace tessera::language_server {
 
+/// A file that a checked text includes, as it is saved.
+struct IncludedFile {
+  std::filesystem::path path;
+  std::string text;
+  std::vector<diagnostics::Diagnostic> found{};  ///< of its own lines
+};
+
 /// The results for a text that was checked.
 struct Checked {
   std::vector<diagnostics::Diagnostic>
       found;  ///< those of project::draft_of, which `tessera check` finds too
+  std::vector<IncludedFile> included;
   std::shared_ptr<const net::HierarchicalNet> pages;  ///< nullptr: of a text with errors
 };
-[[nodiscard]] Checked check(const std::string& name, const std::string& text);
+/// uri: of the text, whose included files are looked up beside it.
+[[nodiscard]] Checked check(const std::string& uri, const std::string& text);
 
 /// Checks texts in a thread of its own, some time after they were changed for the last time.
 ///

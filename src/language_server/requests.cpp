@@ -155,7 +155,7 @@ void Session::add_function_fixes(const Specification& specification, language::R
       for (const auto& [name, path] : unit.functions) {
         const language::SymbolId id = path.back();
         if (!overlaps(document.lines().range(index[id].definition), range)) continue;
-        diagnostics::Diagnostics out(specification.uri, document.text());
+        diagnostics::Diagnostics out(specification.uri, document.text(), specification.project);
         const std::optional<spec::Model> model = spec::parse(out);
         if (!model || specification.project.empty()) return;
         const project::TransitionFunctions functions(specification.project, codegen::stubs(*model));

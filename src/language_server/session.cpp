@@ -105,6 +105,7 @@ void Session::notification(const std::string& method, const json& parameters) {
     if (method == "textDocument/didOpen") did_open(parameters);
     if (method == "textDocument/didChange") did_change(parameters);
     if (method == "textDocument/didClose") did_close(parameters);
+    if (method == "textDocument/didSave") did_save(parameters);
   } catch (const std::exception& error) {
     // A notification has no answer. The editor shows this in its log.
     connection_.write({{"jsonrpc", "2.0"},
@@ -131,7 +132,7 @@ json Session::initialize(const json& parameters) {
   initialized_ = true;
   return {{"capabilities",
            {{"positionEncoding", "utf-16"},
-            {"textDocumentSync", {{"openClose", true}, {"change", 2}}},
+            {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", true}}},
             {"completionProvider", {{"triggerCharacters", {".", " ", ":", ">", "[", "{"}}}},
             {"hoverProvider", true},
             {"definitionProvider", true},
@@ -172,10 +173,20 @@ void Session::did_close(const json& parameters) {
   take_back(uri);
 }
 
+/// Specifications that include the file are checked again: they read it as it is saved.
+void Session::did_save(const json& parameters) {
+  const auto uri = parameters.at("textDocument").at("uri").get<std::string>();
+  if (checked_.contains(uri)) return;  // checked as it is typed
+  for (const auto& [specification, document] : workspace_.all())
+    if (checked_.contains(specification) && language::Document(document.text, grammar_).outline().root().find("include"))
+      check_later(document);
+}
+
 /// The mistakes of a text that is no specification any more.
 void Session::take_back(const std::string& uri) {
   if (checked_.erase(uri) == 0) return;
   checker_.forget(uri);
+  publish_included(uri, {});
   pictures_.forget(uri);
   connection_.write({{"jsonrpc", "2.0"},
                      {"method", "textDocument/publishDiagnostics"},
@@ -193,10 +204,35 @@ void Session::publish(const Checker::Text& text, const Checked& checked) {
   const language::Document document(text.text, grammar_);
   json list = json::array();
   for (const diagnostics::Diagnostic& one : checked.found) list.push_back(to_json(one, document));
+  publish_included(text.uri, checked);
   connection_.write(
       {{"jsonrpc", "2.0"},
        {"method", "textDocument/publishDiagnostics"},
        {"params", {{"uri", text.uri}, {"version", text.version}, {"diagnostics", std::move(list)}}}});
+}
+
+/// Mistakes are shown in the file in which they are. Those that are not there any more are taken back.
+void Session::publish_included(const std::string& uri, const Checked& checked) {
+  const std::lock_guard lock(mistakes_);
+  std::set<std::string> with_mistakes;
+  const auto write = [&](const std::string& file, json list) {
+    connection_.write({{"jsonrpc", "2.0"},
+                       {"method", "textDocument/publishDiagnostics"},
+                       {"params", {{"uri", file}, {"diagnostics", std::move(list)}}}});
+  };
+  for (const IncludedFile& one : checked.included) {
+    if (one.found.empty()) continue;
+    const language::Document document(one.text, grammar_);
+    json list = json::array();
+    for (const diagnostics::Diagnostic& mistake : one.found) list.push_back(to_json(mistake, document));
+    const std::string file = uri_of(one.path);
+    with_mistakes.insert(file);
+    write(file, std::move(list));
+  }
+  std::set<std::string>& before = included_mistakes_[uri];
+  for (const std::string& file : before)
+    if (!with_mistakes.contains(file)) write(file, json::array());
+  before = std::move(with_mistakes);
 }
 
 }  // namespace tessera::language_server

@@ -2,6 +2,7 @@
 
 #include <functional>
 #include <map>
+#include <mutex>
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
@@ -44,9 +45,11 @@ class Session {
   void did_open(const json& parameters);
   void did_change(const json& parameters);
   void did_close(const json& parameters);
+  void did_save(const json& parameters);
   void check_later(const Workspace::Open& document);
   void take_back(const std::string& uri);
   void publish(const Checker::Text& text, const Checked& checked);
+  void publish_included(const std::string& uri, const Checked& checked);
 
   json completion(const json& parameters);
   json hover(const json& parameters);
@@ -73,6 +76,8 @@ class Session {
   std::map<std::string, json (Session::*)(const json&)> requests_;
   EditAbilities edits_;
   std::set<std::string> checked_;  ///< texts whose mistakes the editor may show
+  std::mutex mistakes_;
+  std::map<std::string, std::set<std::string>> included_mistakes_;  ///< included files with mistakes, per text
   bool markdown_ = false;
   PictureForm pictures_form_ = PictureForm::none;
   Pictures pictures_;

@@ -46,8 +46,25 @@ std::string escaped(std::string_view text) {
 
 std::string uri_of(const fs::path& path) { return "file://" + escaped(path.string()); }
 
+namespace {
+
+bool has_key(const std::string& text, std::string_view key) {
+  const std::string line = std::string(key) + ":";
+  return text.starts_with(line) || text.find("\n" + line) != std::string::npos;
+}
+
+/// A file that specifications include says nothing of agents. It is checked with them, not alone.
+bool is_included_part(const fs::path& file, const std::string& text) {
+  return file.filename() != project::file_names::specification &&
+         (has_key(text, "types") || has_key(text, "templates")) && !has_key(text, "system") &&
+         !has_key(text, "agents");
+}
+
+}  // namespace
+
 bool Workspace::is_specification(const fs::path& file, const std::string& text) const {
   if (project::is_code(file)) return false;
+  if (is_included_part(file, text)) return false;
   std::string first;
   std::size_t at = 0;
   for (int line = 0; line < 50 && at < text.size(); ++line) {

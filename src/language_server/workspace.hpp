@@ -37,7 +37,8 @@ class Workspace {
   [[nodiscard]] const std::map<std::string, Open>& all() const { return open_; }
 
   /// Whether a text is a specification, or is about to become one: a line of its beginning starts with `tessera:`, or
-  /// its file is called spec.yaml and begins with a key of a specification. Other programs have a spec.yaml too.
+  /// its file is called spec.yaml and begins with a key of a specification. Other programs have a spec.yaml too. A file
+  /// that has only parts for specifications that include it is none.
   [[nodiscard]] bool is_specification(const std::filesystem::path& file, const std::string& text) const;
 
   /// A file as the editor shows it, or as it is on disk.

@@ -27,6 +27,7 @@ std::optional<net::HierarchicalNet> build(const spec::Model& model, diagnostics:
   if (!examine(model, out)) return std::nullopt;
   Draft draft(model);
   draw_system(draft);
+  draft.net.parts.sources = model.sources;
   return std::move(draft.net);
 }
 

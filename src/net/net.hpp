@@ -118,6 +118,7 @@ struct Parts {
   std::vector<std::string> channels{};  ///< "robot.control.motion->robot.motor.velocity"
   std::vector<Block> blocks{};
   std::vector<Fact> facts{};
+  diagnostics::Sources sources{};  ///< of the lines of all spans
 
   [[nodiscard]] const std::string& operator[](AgentId id) const { return agents[id.value]; }
   [[nodiscard]] const Subsystem& operator[](SubsystemId id) const { return subsystems[id.value]; }

@@ -78,7 +78,7 @@ class ParameterReader {
 
 /// Says what an error means in a file of parameters.
 [[nodiscard]] Diagnostics about_parameters(const Diagnostics& found) {
-  Diagnostics out(found.file(), found.text());
+  Diagnostics out = found.of_same_source();
   for (const diagnostics::Diagnostic& one : found.sorted())
     out.error(one.code, one.span, one.message,
               one.code == "E006" ? "one file holds one map of parameters" : one.hint);

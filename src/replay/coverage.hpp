@@ -87,7 +87,8 @@ struct Coverage {
                                    const FiringCounts& counts);
 
 /// file: the name of the specification, for its lines.
-[[nodiscard]] std::string coverage_text(const Coverage& coverage, const std::string& file);
+[[nodiscard]] std::string coverage_text(const Coverage& coverage, const std::string& file,
+                                        const diagnostics::Sources& sources);
 
 /// {"runs", "lacks_events", "unreachable", "behaviours", "places", "transitions", "conditions", "groups":
 /// [{"path", "kind", "line", "reached", "places", "transitions", "conditions", "missing": [{"kind", "name",

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
@@ -30,22 +31,37 @@ std::string_view local(const Missing& missing, const Group& group) {
   return name;
 }
 
-std::string line_text(const net::Span& span, const std::string& file) {
-  return span.line == 0 ? "" : fmt::format("   {}:{}", file, span.line);
+/// The lines of a specification, with the name of its file.
+struct Lines {
+  const diagnostics::Sources& sources;
+  const std::string& file;
+};
+
+std::string line_text(const net::Span& span, const Lines& lines) {
+  if (span.line == 0) return "";
+  const diagnostics::SourceLine place = lines.sources.at(span.line);
+  const std::filesystem::path beside = std::filesystem::path(lines.file).parent_path();
+  return fmt::format("   {}:{}", place.file.empty() ? lines.file : (beside / place.file).string(), place.line);
 }
 
-std::string describe(const Missing& missing, const Group& group, const std::string& file) {
+void add_line(ordered_json& to, const net::Span& span, const diagnostics::Sources& sources) {
+  to["line"] = sources.own_line(span.line);
+  if (const std::string included = sources.included_line(span.line); !included.empty())
+    to["included"] = included;
+}
+
+std::string describe(const Missing& missing, const Group& group, const Lines& lines) {
   const std::string_view name = local(missing, group);
   const std::string condition = missing.text.empty() ? "" : fmt::format(" [{}]", missing.text);
   switch (missing.kind) {
     case Missing::Kind::place:
-      return fmt::format("    never marked: {}{}\n", name, line_text(missing.span, file));
+      return fmt::format("    never marked: {}{}\n", name, line_text(missing.span, lines));
     case Missing::Kind::transition:
-      return fmt::format("    never fired: {}{}{}\n", name, condition, line_text(missing.span, file));
+      return fmt::format("    never fired: {}{}{}\n", name, condition, line_text(missing.span, lines));
     case Missing::Kind::holds:
-      return fmt::format("    never true: {}{}{}\n", name, condition, line_text(missing.span, file));
+      return fmt::format("    never true: {}{}{}\n", name, condition, line_text(missing.span, lines));
     case Missing::Kind::does_not_hold:
-      return fmt::format("    never false: {}{}{}\n", name, condition, line_text(missing.span, file));
+      return fmt::format("    never false: {}{}{}\n", name, condition, line_text(missing.span, lines));
   }
   return "";
 }
@@ -60,9 +76,9 @@ const char* name_of(Missing::Kind kind) {
   return names[static_cast<std::size_t>(kind)];
 }
 
-std::string text_of(const Group& group, const std::string& file) {
+std::string text_of(const Group& group, const Lines& lines) {
   std::string text =
-      fmt::format("\n{}{}\n", group.path.empty() ? "the system" : group.path, line_text(group.span, file));
+      fmt::format("\n{}{}\n", group.path.empty() ? "the system" : group.path, line_text(group.span, lines));
   if (group.kind == Group::Kind::behaviour && !group.reached) return text + "    never entered\n";
   // A condition that never held says more than its transition, which never fired.
   std::size_t shown = 0, left = 0;
@@ -73,7 +89,7 @@ std::string text_of(const Group& group, const std::string& file) {
                       });
     if (said) continue;
     if (shown++ < most_missing)
-      text += describe(missing, group, file);
+      text += describe(missing, group, lines);
     else
       ++left;
   }
@@ -83,24 +99,26 @@ std::string text_of(const Group& group, const std::string& file) {
 
 ordered_json to_json(const Share& share) { return {{"reached", share.reached}, {"all", share.all}}; }
 
-ordered_json to_json(const Group& group) {
+ordered_json to_json(const Group& group, const diagnostics::Sources& sources) {
   ordered_json missing = ordered_json::array();
-  for (const Missing& one : group.missing)
-    missing.push_back(
-        {{"kind", name_of(one.kind)}, {"name", one.name}, {"text", one.text}, {"line", one.span.line}});
-  return {{"path", group.path},
-          {"kind", name_of(group.kind)},
-          {"line", group.span.line},
-          {"reached", group.reached},
-          {"places", to_json(group.places)},
-          {"transitions", to_json(group.transitions)},
-          {"conditions", to_json(group.conditions)},
-          {"missing", std::move(missing)}};
+  for (const Missing& one : group.missing) {
+    missing.push_back({{"kind", name_of(one.kind)}, {"name", one.name}, {"text", one.text}});
+    add_line(missing.back(), one.span, sources);
+  }
+  ordered_json json{{"path", group.path}, {"kind", name_of(group.kind)}};
+  add_line(json, group.span, sources);
+  json["reached"] = group.reached;
+  json["places"] = to_json(group.places);
+  json["transitions"] = to_json(group.transitions);
+  json["conditions"] = to_json(group.conditions);
+  json["missing"] = std::move(missing);
+  return json;
 }
 
 }  // namespace
 
-std::string coverage_text(const Coverage& coverage, const std::string& file) {
+std::string coverage_text(const Coverage& coverage, const std::string& file,
+                          const diagnostics::Sources& sources) {
   std::string text =
       fmt::format("coverage of the net by {} run{}:\n", coverage.runs, coverage.runs == 1 ? "" : "s");
   text += total("behaviours", coverage.behaviours);
@@ -116,7 +134,7 @@ std::string coverage_text(const Coverage& coverage, const std::string& file) {
   for (const Group& group : coverage.groups) {
     if (group.missing.empty()) continue;
     if (shown++ < most_groups)
-      text += text_of(group, file);
+      text += text_of(group, {sources, file});
     else
       ++left;
   }
@@ -126,7 +144,7 @@ std::string coverage_text(const Coverage& coverage, const std::string& file) {
 
 std::string coverage_json(const Coverage& coverage, const net::Net& net, const FiringCounts& counts) {
   ordered_json groups = ordered_json::array(), firings = ordered_json::object();
-  for (const Group& group : coverage.groups) groups.push_back(to_json(group));
+  for (const Group& group : coverage.groups) groups.push_back(to_json(group, net.parts().sources));
   for (std::uint32_t index = 0; index < net.transitions().size(); ++index)
     firings[net.transitions()[index].name] = counts.of(net::TransitionId{index});
   const ordered_json json{{"runs", coverage.runs},

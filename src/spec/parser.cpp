@@ -1,6 +1,5 @@
 #include "spec/parser.hpp"
 
-#include "diagnostics/utf8.hpp"
 #include "spec/agents/buffers.hpp"
 #include "spec/agents/deployment.hpp"
 #include "spec/agents/fleets.hpp"
@@ -15,6 +14,7 @@
 #include "spec/devices/simulation.hpp"
 #include "spec/devices/writers.hpp"
 #include "spec/document/document.hpp"
+#include "spec/document/includes.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/document/text_checks.hpp"
@@ -23,17 +23,6 @@
 
 namespace tessera::spec {
 namespace {
-
-void check_version(const Section& file, Diagnostics& out) {
-  const Entry* version = file.require("tessera", "begin the file with 'tessera: 1'");
-  if (version == nullptr) return;
-  const Node* text = text_of(*version->value, version->span, "'tessera'", out, "write tessera: 1");
-  if (text != nullptr && (text->text != "1" || text->quoted)) {
-    out.error("E108", text->span,
-              "version " + diagnostics::in_quotes(text->text) + " of the format is unknown",
-              "this program reads version 1: write tessera: 1");
-  }
-}
 
 std::string read_system(const Section& file, Diagnostics& out) {
   const Entry* system = file.require("system", "for example system: line_follower");
@@ -44,14 +33,15 @@ std::string read_system(const Section& file, Diagnostics& out) {
   return text->text;
 }
 
-Model read_model(const Document& document, Diagnostics& out) {
-  const Section file(document.root(), document.root().span, "a specification",
-                     {"tessera", "system", "types", "parameters", "templates", "agents", "channels",
+Model read_model(const Node& root, Diagnostics& out) {
+  const Section file(root, root.span, "a specification",
+                     {"tessera", "system", "include", "types", "parameters", "templates", "agents", "channels",
                       "drivers", "properties", "simulation", "models", "deploy", "on_error"},
                      out);
   Model model;
   if (!file.readable()) return model;
-  check_version(file, out);
+  if (const Entry* version = file.require("tessera", "begin the file with 'tessera: 1'"))
+    check_version(*version, out);
   model.system = read_system(file, out);
   Types types;
   types.read(file.find("types"), out);
@@ -87,7 +77,11 @@ std::optional<Model> parse(diagnostics::Diagnostics& out) {
   if (out.has_errors() || !check_text(out)) return std::nullopt;
   const auto document = read_document(out);
   if (!document) return std::nullopt;
-  std::optional<Model> model = read_model(*document, out);
+  Includes includes;
+  const Node& root = includes.whole(*document, out);
+  if (!includes.complete()) return std::nullopt;
+  std::optional<Model> model = read_model(root, out);
+  model->sources = out.sources();
   if (out.has_errors()) model.reset();
   return model;
 }

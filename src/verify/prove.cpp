@@ -194,8 +194,7 @@ class Prover {
     result.states += by_itself.result.states;
     const bool holds = result.verdict == Verdict::holds;
     for (const std::uint32_t place : holds ? by_itself.dead : failing.dead)
-      result.behaviours.push_back(
-          {behaviour_of(facts_.subject().net, {place}), facts_.subject().net.places()[place].span.line});
+      result.behaviours.push_back(behaviour_at(facts_.subject().net, place));
     if (holds && !result.behaviours.empty())
       result.why = named(result.behaviours, "is reachable only after a failure",
                          "behaviours are reachable only after a failure");
@@ -204,11 +203,18 @@ class Prover {
     return result;
   }
 
+  static PropertyResult::Behaviour behaviour_at(const net::Net& net, std::uint32_t place) {
+    const diagnostics::Sources& sources = net.parts().sources;
+    const std::uint32_t line = net.places()[place].span.line;
+    return {behaviour_of(net, {place}), sources.own_line(line), sources.included_line(line)};
+  }
+
   static std::string named(const std::vector<PropertyResult::Behaviour>& behaviours, const std::string& one,
                            const std::string& several) {
     constexpr std::size_t shown = 20;
     const auto with_line = [](const PropertyResult::Behaviour& behaviour) {
-      return behaviour.path + " (line " + std::to_string(behaviour.line) + ")";
+      const std::string own = "line " + std::to_string(behaviour.line);
+      return behaviour.path + " (" + (behaviour.included.empty() ? own : behaviour.included) + ")";
     };
     if (behaviours.size() == 1) return with_line(behaviours.front()) + " " + one;
     std::string text = std::to_string(behaviours.size()) + " " + several + ": ";

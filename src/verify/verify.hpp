@@ -41,6 +41,7 @@ struct PropertyResult {
   struct Behaviour {
     std::string path;        ///< "robot.control.stop"
     std::uint32_t line = 0;  ///< of the specification
+    std::string included{};  ///< "parts/docking.yaml:3": it is a line of an included file, and `line` is 0
     bool operator==(const Behaviour&) const = default;
   };
   /// live_behaviours: all behaviours that are known never to run (violated), or to run only after a failure

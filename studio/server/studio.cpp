@@ -3,9 +3,12 @@
 #include <fmt/core.h>
 
 #include <exception>
+#include <filesystem>
+#include <mutex>
 #include <optional>
 #include <stdexcept>
 #include <thread>
+#include <vector>
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/file_watch.hpp"
@@ -95,12 +98,24 @@ struct Studio::Parts {
     http.Get("/.*", [this](const Request& request, Response& response) { serve_page(request, response); });
   }
 
-  /// Publishes only changes: the same text written again is none.
+  /// Publishes only changes: the same text written again is none. A change of an included file has the revision of
+  /// the text that includes it.
   void look_at_file() {
-    std::string revision = file.read().revision;
-    if (revision == seen_revision) return;
-    seen_revision = std::move(revision);
+    const std::lock_guard lock(looking);
+    const SpecFile::Content now = file.read();
+    const bool included_changed = state_of(included) != seen_included;
+    if (now.revision == seen_revision && !included_changed) return;
+    seen_revision = now.revision;
     events.publish("spec", text_of(nlohmann::json{{"revision", seen_revision}}));
+    look_at_included(now.text);
+  }
+
+  /// Watches the files that the text includes. Precondition: `looking` is locked.
+  void look_at_included(const std::string& text) {
+    const std::shared_ptr<const Analysis> analysis = analyses.of(text);
+    included = analysis->included;
+    seen_included = analysis->state_of_included;
+    for (const std::filesystem::path& one : included) watch->add(one);
   }
 
   StudioOptions options;
@@ -117,7 +132,10 @@ struct Studio::Parts {
   HttpServer http;
   int port;
   RequestGuard guard;
+  std::mutex looking;  ///< guards what follows
   std::string seen_revision = file.read().revision;
+  std::vector<std::filesystem::path> included;
+  std::string seen_included;
   std::optional<FileWatch> watch;
   std::thread serving;
   std::thread looking_ahead;
@@ -131,7 +149,8 @@ Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   // The first requests of every page are answered without a wait.
   parts.looking_ahead = std::thread([&parts] {
     try {
-      (void)parts.analyses.of(parts.file.read().text);
+      const std::lock_guard lock(parts.looking);
+      parts.look_at_included(parts.file.read().text);
     } catch (const std::exception&) {
       // The request for it fails, too, and says why.
     }
@@ -140,12 +159,12 @@ Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
 }
 
 Studio::~Studio() {
+  parts_->looking_ahead.join();  // it adds files to the watch
   parts_->watch.reset();
   parts_->runs.stop_all();
   parts_->events.close();
   parts_->http.shut_down();
   parts_->serving.join();
-  parts_->looking_ahead.join();
 }
 
 int Studio::port() const { return parts_->port; }

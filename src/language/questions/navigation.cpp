@@ -162,8 +162,24 @@ std::optional<Range> renameable(const Document& document, const Source* in, Posi
   return here->range;
 }
 
+std::string included_files(const Document& document) {
+  const Node& include = document.outline().root()["include"];
+  std::vector<std::string> files;
+  if (include.is_scalar()) files.push_back(include.text);
+  for (const Entry& item : include.items) files.push_back(item.value->text);
+  std::string text;
+  for (std::size_t at = 0; at < files.size(); ++at)
+    text += (at == 0 ? "" : at + 1 == files.size() ? " and " : ", ") + files[at];
+  return text;
+}
+
 Renaming rename(const Document& document, const Source* in, Position position,
                 std::span<const Source> sources, const std::string& name) {
+  if (const std::string included = included_files(document); !included.empty())
+    return {{},
+            fmt::format("the specification includes {}, where the name may stand too: rename it by hand, and run "
+                        "`tessera check`",
+                        included)};
   const std::optional<AtCursor> here = at_cursor(document, in, position);
   if (!here) return {{}, "there is no name of the specification here"};
   const Index& index = document.index();

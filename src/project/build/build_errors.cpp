@@ -62,7 +62,7 @@ class Explanation {
     // Errors in a library follow from a mistake that has been shown.
     if (!shown || (count_ > 0 && !is_of_user(shown->file.string()))) return;
     // Two conditions may stand in one line of the specification.
-    const bool is_specification = shown->file == context_.specification.file;
+    const bool is_specification = is_of_specification(shown->file);
     if (!is_specification && follows_from_punctuation(*shown)) return;
     const std::string place = fmt::format("{}:{}:{}", shown->file.string(), shown->span.line,
                                           is_specification ? shown->span.column : 0);
@@ -100,8 +100,21 @@ class Explanation {
     if (file == context_.lines.end()) return;
     const auto line = std::ranges::lower_bound(file->second, place.line, {}, &codegen::SourceLine::line);
     if (line == file->second.end() || line->line > place.line + 1) return;
-    place = {context_.specification.file.string(), line->spec_line,
+    const diagnostics::SourceLine written = context_.specification.model.sources.at(line->spec_line);
+    place = {file_of(written).string(), written.line,
              line->column + (line->line == place.line ? place.column - 1 : 0)};
+  }
+
+  [[nodiscard]] fs::path file_of(const diagnostics::SourceLine& line) const {
+    return line.file.empty() ? context_.specification.file : context_.specification.project / line.file;
+  }
+
+  /// It is the specification or a file that it includes.
+  [[nodiscard]] bool is_of_specification(const fs::path& file) const {
+    const std::vector<std::string> included = context_.specification.model.sources.included();
+    return file == context_.specification.file || std::ranges::any_of(included, [&](const std::string& one) {
+             return file == context_.specification.project / one;
+           });
   }
 
   [[nodiscard]] bool follows_from_punctuation(const Shown& shown) const {
@@ -126,7 +139,7 @@ class Explanation {
 
   [[nodiscard]] std::optional<Shown> place_of(const CompilerError& error) const {
     CppMistake mistake = understand(error, context_.specification.model, context_.functions);
-    const bool is_condition = fs::path(error.at.file).lexically_normal() == context_.specification.file;
+    const bool is_condition = is_of_specification(fs::path(error.at.file).lexically_normal());
     if (is_condition && (mistake.code == "E502" || mistake.code == "E503"))
       mistake.hint =
           "a condition includes no headers: call it in a transition function, and keep the result "

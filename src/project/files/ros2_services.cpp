@@ -51,7 +51,7 @@ class ServiceCheck {
       complain(driver.span,
                std::string("a second ") + (effects ? "effector" : "receptor") + " of the " + role + " of '" +
                    driver.target() + "'",
-               "the first is on line " + std::to_string(side->span.line) +
+               "the first is on " + out_.words(side->span) +
                    "; an agent has one client and one server of a service");
   }
 
@@ -81,7 +81,7 @@ class ServiceCheck {
     const spec::Driver& partner = in_second ? one : other;
     const auto place = named.option_spans.find(option);
     complain(place == named.option_spans.end() ? named.span : place->second,
-             "'" + option + "' differs from that on line " + std::to_string(partner.span.line),
+             "'" + option + "' differs from that on " + out_.words(partner.span),
              "both drivers are one " + text_option(named, "role") + " of the service");
   }
 

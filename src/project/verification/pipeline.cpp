@@ -94,7 +94,7 @@ std::optional<Nets> build(const spec::Model& model, diagnostics::Diagnostics& ou
 }
 
 std::optional<Nets> build(const Specification& specification, Listener& listener) {
-  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  diagnostics::Diagnostics found = specification.diagnostics.of_same_source();
   std::optional<Nets> nets = build(specification.model, found);
   listener.say(found);
   return nets;
@@ -112,7 +112,7 @@ bool judge_models(const spec::Model& model, diagnostics::Diagnostics& out) {
 }
 
 bool models_are_sound(const Specification& specification, Listener& listener) {
-  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  diagnostics::Diagnostics found = specification.diagnostics.of_same_source();
   const bool sound = judge_models(specification.model, found);
   listener.say(found);
   return sound;
@@ -120,7 +120,7 @@ bool models_are_sound(const Specification& specification, Listener& listener) {
 
 bool simulation_is_possible(const Specification& specification, Listener& listener,
                             const std::string& world) {
-  diagnostics::Diagnostics found(specification.diagnostics.file(), specification.diagnostics.text());
+  diagnostics::Diagnostics found = specification.diagnostics.of_same_source();
   const bool there = check_simulation_files(specification.model, specification.project, found) &&
                      check_world(specification.model, specification.project, world, found);
   listener.say(found);

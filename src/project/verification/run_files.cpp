@@ -11,6 +11,11 @@ namespace {
 
 using nlohmann::json;
 
+void add_line(json& to, std::uint32_t line, const std::string& included) {
+  to["line"] = line;
+  if (!included.empty()) to["included"] = included;
+}
+
 json names_of(const net::Net& net, std::span<const net::Arc> arcs) {
   json names = json::array();
   for (const net::Arc& arc : arcs)
@@ -31,7 +36,10 @@ json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
     if (transition.subsystem.value < net.parts().subsystems.size())
       firing["subsystem"] = net.parts()[transition.subsystem].path;
     if (pages != nullptr && transition.page.valid()) firing["page"] = pages->path(transition.page);
-    if (transition.span.line > 0) firing["line"] = transition.span.line;
+    if (transition.span.line > 0) {
+      const diagnostics::Sources& sources = net.parts().sources;
+      add_line(firing, sources.own_line(transition.span.line), sources.included_line(transition.span.line));
+    }
     firings.push_back(std::move(firing));
   }
   return firings;
@@ -39,9 +47,10 @@ json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
 
 json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) {
   json story = json::array();
-  for (const verify::Act& act : verify::narrate(net, run))
-    story.push_back(
-        {{"first", act.first}, {"last", act.last}, {"who", act.who}, {"text", act.text}, {"line", act.line}});
+  for (const verify::Act& act : verify::narrate(net, run)) {
+    story.push_back({{"first", act.first}, {"last", act.last}, {"who", act.who}, {"text", act.text}});
+    add_line(story.back(), act.line, act.included);
+  }
   return story;
 }
 
@@ -89,8 +98,10 @@ std::vector<verify::SubsystemAtEnd> at_end_from(const json& waits) {
 
 json behaviours_json(const verify::PropertyResult& property) {
   json behaviours = json::array();
-  for (const verify::PropertyResult::Behaviour& one : property.behaviours)
-    behaviours.push_back({{"path", one.path}, {"line", one.line}});
+  for (const verify::PropertyResult::Behaviour& one : property.behaviours) {
+    behaviours.push_back({{"path", one.path}});
+    add_line(behaviours.back(), one.line, one.included);
+  }
   return behaviours;
 }
 

@@ -6,7 +6,9 @@
 #include "net/net.hpp"
 #include "verify/verify.hpp"
 
-/// Writes runs that show violations for viewers that step through them, and for `simulate --scenario`.
+/// Writes runs that show violations for viewers that step through them, and for `simulate --scenario`. A "line" is one
+/// of the specification itself. It is 0, and "included": "parts/docking.yaml:3" stands beside it, for a line of an
+/// included file.
 namespace tessera::project {
 
 /// {"net", "net_hash", "initial": [place...], "traces": [{"property", "verdict", "method", "why",

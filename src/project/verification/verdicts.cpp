@@ -62,7 +62,8 @@ verify::PropertyResult property_from(const json& kept) {
   kept.at("has_trace").get_to(property.has_trace);
   property.waits = at_end_from(kept.at("waits"));
   for (const json& one : kept.at("behaviours"))
-    property.behaviours.push_back({one.at("path").get<std::string>(), one.at("line").get<std::uint32_t>()});
+    property.behaviours.push_back({one.at("path").get<std::string>(), one.at("line").get<std::uint32_t>(),
+                                   one.value("included", std::string())});
   kept.at("seconds").get_to(property.seconds);
   kept.at("states").get_to(property.states);
   kept.at("warning").get_to(property.warning);

@@ -101,7 +101,7 @@ void check_distinct(const std::vector<const std::vector<Field>*>& scope, Diagnos
       const auto [first, added] = lines.emplace(field.name, field.span.line);
       if (added) continue;
       out.error("E107", field.span, "the name " + in_quotes(field.name) + " is taken",
-                "a transition function sees both; the first is on line " + std::to_string(first->second));
+                "a transition function sees both; the first is on " + out.words(first->second));
     }
   }
 }

@@ -25,7 +25,7 @@ void read_group(const Entry* section, SubsystemKind kind, const SystemScope& aro
                 std::string(name_of(kind)) + " name 'control' is reserved for the control subsystem");
     } else if (check_name(entry.key, entry.span, name_of(kind), out) && first != known.end()) {
       out.error("E107", entry.span, "subsystem " + in_quotes(entry.key) + " exists already",
-                "the first is on line " + std::to_string(first->span.line));
+                "the first is on " + out.words(first->span.line));
     }
     definition.subsystems.push_back(read_subsystem(entry, kind, around, out));
   }

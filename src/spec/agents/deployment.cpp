@@ -137,7 +137,7 @@ class DeploymentReader {
     const auto [first, added] = lines_.emplace(key.name, entry.span.line);
     if (added) return key;
     out_.error("E107", entry.span, "the name of process " + in_quotes(key.name) + " is taken",
-               "by the process on line " + std::to_string(first->second));
+               "by the process on " + out_.words(first->second));
     return std::nullopt;
   }
 
@@ -241,7 +241,7 @@ class DeploymentReader {
       if (added) continue;
       out_.error("E315", at, "agent " + in_quotes(model_.agents[agent].path) + " is in a process already",
                  first->second == at.line ? "name it once"
-                                          : "see line " + std::to_string(first->second) + ": name it once");
+                                          : "see " + out_.words(first->second) + ": name it once");
       return false;
     }
     return true;

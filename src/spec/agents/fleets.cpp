@@ -145,7 +145,7 @@ void check_clashes(const Model& model, const std::vector<Structure>& structures,
     const auto clash = types.find(name);
     if (clash == types.end()) return;
     out.error("E107", span, what + " " + in_quotes(name) + " has the name of a type",
-              "the type is on line " + std::to_string(clash->second->span.line) +
+              "the type is on " + out.words(clash->second->span.line) +
                   "; begin types with a capital letter");
   };
   for (const Definition& definition : model.definitions) {
@@ -165,7 +165,7 @@ void check_definitions(const Model& model, Diagnostics& out) {
     const auto [first, added] = spans.emplace(definition.name, definition.span);
     if (added) continue;
     out.error("E107", definition.span, "agent " + in_quotes(definition.name) + " has the name of a template",
-              "the template is on line " + std::to_string(first->second.line));
+              "the template is on " + out.words(first->second.line));
   }
 }
 

@@ -175,7 +175,7 @@ class LimitReader {
     });
     if (twice != limits_.end())
       out_.error("E107", entry.span, in_quotes(entry.key) + " is limited twice",
-                 "the first is on line " + std::to_string(twice->span.line));
+                 "the first is on " + out_.words(twice->span.line));
     if (section.find("min") == nullptr && section.find("max") == nullptr &&
         section.find("per_second") == nullptr)
       out_.error("E103", entry.span, "a limit needs min, max, per_second or non_finite", limits_hint);

@@ -95,7 +95,7 @@ void check_shadowing(const std::vector<Parameter>& own, const std::vector<Parame
     if (outer == system.end()) continue;
     out.error("E107", parameter.span,
               "parameter " + in_quotes(parameter.name) + " is one of the system already",
-              "the first is on line " + std::to_string(outer->span.line));
+              "the first is on " + out.words(outer->span.line));
   }
 }
 

@@ -97,7 +97,7 @@ class BehaviourReader {
       return;
     }
     Diagnostics* const all = out_;
-    Diagnostics ignored(all->file(), all->text());
+    Diagnostics ignored = all->of_same_source();
     for (std::uint32_t number = 0; number < one.each->count; ++number) {
       const Member member = one.each->member(one.slot->entry->key, number);
       if (number == 1) out_ = &ignored;

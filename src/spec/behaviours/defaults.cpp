@@ -28,8 +28,6 @@ std::vector<std::string> labels_of(const std::vector<BehaviourId>& behaviours, c
   return names;
 }
 
-std::string line_of(Span span) { return "line " + std::to_string(span.line); }
-
 /// The name in a list, or the key of the map form.
 struct Item : Node {
   const Entry* option = nullptr;  ///< that key, if something stands behind it
@@ -178,7 +176,7 @@ class ListReader {
     if (around_.entry == nullptr)
       return scope_.what == "output" ? "a subsystem without 'send' sends " + all
                                      : "a subsystem without 'receive' receives " + all;
-    return "the list of the subsystem is on " + line_of(around_.entry->span);
+    return "the list of the subsystem is on " + out_.words(around_.entry->span);
   }
 
   void complain_about_mixture(const std::vector<Item>& items) {
@@ -227,7 +225,7 @@ BehaviourId resolve_on_error(OnError& on_error, BehaviourId around, bool own, co
       out.error("E275", own ? on_error.span : subsystem.span,
                 own ? "'stop' is a behaviour here, and stands for the end of the subsystem"
                     : "subsystem " + in_quotes(subsystem.name) +
-                          " has a behaviour 'stop', and 'on_error: stop' on " + line_of(on_error.span) +
+                          " has a behaviour 'stop', and 'on_error: stop' on " + out.words(on_error.span) +
                           " stands for its end",
                 "rename the behaviour; or leave 'on_error: stop' out, which is the default");
     return {};
@@ -244,7 +242,7 @@ BehaviourId resolve_on_error(OnError& on_error, BehaviourId around, bool own, co
   } else {
     out.error("E271", subsystem.span,
               "subsystem " + in_quotes(subsystem.name) + " has no behaviour " + in_quotes(wanted) +
-                  ", to which 'on_error' on " + line_of(on_error.span) + " leads its failures",
+                  ", to which 'on_error' on " + out.words(on_error.span) + " leads its failures",
               "give it a behaviour " + in_quotes(wanted) + ", or write on_error: stop in it");
   }
   return {};

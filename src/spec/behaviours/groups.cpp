@@ -88,8 +88,8 @@ class SlotFinder {
     const auto [first, added] = lines_.emplace(identifier, std::pair(slot.name, slot.entry->span.line));
     if (added || first->second.first == slot.name) return;
     out_.error("E343", slot.entry->span,
-               in_quotes(slot.name) + " and " + in_quotes(first->second.first) + " on line " +
-                   std::to_string(first->second.second) + " have the same name in C++: " + identifier,
+               in_quotes(slot.name) + " and " + in_quotes(first->second.first) + " on " +
+                   out_.words(first->second.second) + " have the same name in C++: " + identifier,
                "rename one of them");
   }
 

@@ -254,8 +254,8 @@ class ChannelReader {
     const Field& input = lookup_.subsystem(to.target).inputs[to.buffer];
     if (Types::is_unknown(output.type) || Types::is_unknown(input.type)) return;
     const std::string both = types_.spelled(output.type) + " -> " + types_.spelled(input.type);
-    const std::string where = "the output is declared on line " + std::to_string(output.span.line) +
-                              ", the input on line " + std::to_string(input.span.line);
+    const std::string where = "the output is declared on " + out_.words(output.span.line) +
+                              ", the input on " + out_.words(input.span.line);
     if (bare(output.type) != bare(input.type)) {
       out_.error("E207", to.path.whole, "the ends of this channel differ in type: " + both, where);
     } else if (output.type.unit != input.type.unit && !output.type.unit.empty() && !input.type.unit.empty()) {
@@ -276,7 +276,7 @@ class ChannelReader {
                      source_name(channel),
                  first.span.line == channel.span.line
                      ? "an input has one source; give every agent an input of its own"
-                     : "the first is on line " + std::to_string(first.span.line));
+                     : "the first is on " + out_.words(first.span.line));
       return false;
     }
     check_direction(channel);

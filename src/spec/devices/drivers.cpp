@@ -233,7 +233,7 @@ class DriverReader {
       out_.error(
           "E308", driver.span,
           "a second driver for " + lookup_.model().instance_path(driver.instance) + "." + real[buffer].name,
-          "the first is on line " + std::to_string(taken->second));
+          "the first is on " + out_.words(taken->second));
       return false;
     }
     return true;

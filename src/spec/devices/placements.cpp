@@ -334,7 +334,7 @@ class PlacementReader {
     const auto [taken, added] = lines_.emplace(placement.instance, placement.span.line);
     if (!added)
       out_.error("E308", placement.span, "a second model for " + placement.instance,
-                 "the first is on line " + std::to_string(taken->second));
+                 "the first is on " + out_.words(taken->second));
     return added;
   }
 

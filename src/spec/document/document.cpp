@@ -39,6 +39,13 @@ Span Node::part(std::size_t offset, std::size_t length) const {
   return {span.line, span.column + static_cast<std::uint32_t>(offset), static_cast<std::uint32_t>(length)};
 }
 
+void Document::shift(std::uint32_t lines) {
+  for (Node& node : nodes_) {
+    node.span.line += lines;
+    for (Entry& entry : node.entries) entry.span.line += lines;
+  }
+}
+
 /// Builds the tree from yaml-cpp's events.
 class TreeBuilder final : public YAML::EventHandler {
  public:
@@ -197,7 +204,7 @@ class TreeBuilder final : public YAML::EventHandler {
                                : "write { and [ in a value in quotes");
     } else if (const auto [first, added] = frame.lines.emplace(key.text, key.span.line); !added) {
       out_.error("E009", key.span, "duplicate key " + diagnostics::in_quotes(key.text),
-                 "the first one is on line " + std::to_string(first->second) + "; keep one of them");
+                 "the first one is on " + out_.words(first->second) + "; keep one of them");
     } else {
       frame.key_usable = true;
     }
@@ -233,7 +240,7 @@ bool feed(TreeBuilder& builder, Diagnostics& out) {
 
 }  // namespace
 
-std::optional<Document> read_document(Diagnostics& out) {
+std::optional<Document> read_document(Diagnostics& out, std::string beginning) {
   Document document;
   TreeBuilder builder(document, out);
   if (!feed(builder, out)) return std::nullopt;
@@ -242,7 +249,7 @@ std::optional<Document> read_document(Diagnostics& out) {
   if (document.empty()) {
     out.error("E002", {},
               first == std::string::npos ? "the file is empty" : "the file holds no specification",
-              "begin with 'tessera: 1' and 'system: NAME'");
+              std::move(beginning));
     return std::nullopt;
   }
   return document;

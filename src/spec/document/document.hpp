@@ -49,6 +49,8 @@ class Document {
   /// Whether there is no node, or only null. Otherwise there is a root.
   [[nodiscard]] bool empty() const { return root_ == nullptr || root_->is_null(); }
   [[nodiscard]] const Node& root() const { return *root_; }
+  /// Adds `lines` to the line of every span: the text stands behind so many others.
+  void shift(std::uint32_t lines);
 
  private:
   friend class TreeBuilder;
@@ -64,6 +66,8 @@ inline constexpr std::uint32_t deepest = 64;            ///< nesting
 /// Errors: E002 empty, E005 syntax, E006 several documents, E007 nested too deeply, E008 aliases that
 ///         expand too far or contain themselves, E009 duplicate keys, E010 keys that are not text, tags. A
 ///         tree is returned with E009 and E010, so that the rest of the text is checked too.
-[[nodiscard]] std::optional<Document> read_document(Diagnostics& out);
+/// beginning: the hint of E002.
+[[nodiscard]] std::optional<Document> read_document(
+    Diagnostics& out, std::string beginning = "begin with 'tessera: 1' and 'system: NAME'");
 
 }  // namespace tessera::spec

@@ -102,7 +102,7 @@ std::vector<Property> read_properties(const Entry* entry, const Model& model, co
     const auto [first, added] = lines.emplace(property->name, property->span.line);
     if (!added) {
       out.error("E107", property->span, "property " + in_quotes(property->name) + " exists already",
-                "the first is on line " + std::to_string(first->second));
+                "the first is on " + out.words(first->second));
     }
     properties.push_back(std::move(*property));
   }

@@ -53,8 +53,8 @@ std::string timeout_hint(const CommunicationStructure& structure, const net::Net
   for (const auto& [key, group] : groups) {
     if (told++ == shown) break;
     text += (told == 1 ? "" : "; ") +
-            std::string(key.second == Side::send ? "send_timeout" : "receive_timeout") + " on line " +
-            std::to_string(key.first) + " (" + group.first +
+            std::string(key.second == Side::send ? "send_timeout" : "receive_timeout") + " on " +
+            net.parts().sources.words(key.first) + " (" + group.first +
             (group.members > 1 ? " and " + std::to_string(group.members - 1) + " more" : "") + ")";
   }
   return text +

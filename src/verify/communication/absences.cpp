@@ -44,7 +44,7 @@ class Absences {
   [[nodiscard]] std::string named(const BehaviourKey& key) const {
     std::string text = net_.parts()[key.first].behaviours[key.second.value];
     if (const auto line = lines_.find(key); line != lines_.end() && line->second > 0)
-      text += " (line " + std::to_string(line->second) + ")";
+      text += " (" + net_.parts().sources.short_words(line->second) + ")";
     return text;
   }
 

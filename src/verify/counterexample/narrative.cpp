@@ -268,7 +268,9 @@ std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& r
     act.first = first + 1;
     act.last = end;
     act.who = teller.subsystem(part.front());
-    act.line = net[part.front()].span.line;
+    const std::uint32_t line = net[part.front()].span.line;
+    act.line = net.parts().sources.own_line(line);
+    act.included = net.parts().sources.included_line(line);
     if (medium) {
       act.who = "the network";
       act.text = medium_text(net, part);

@@ -16,6 +16,7 @@ struct Act {
   /// follow: computes (t1), sends motion (t1, t2), waits for the acknowledgement".
   std::string text;
   std::uint32_t line = 0;  ///< of the specification, where the stretch begins; 0: none
+  std::string included{};  ///< "parts/docking.yaml:3": it is a line of an included file, and `line` is 0
 };
 
 /// Describes in words a run of a net made of the five layers, or of its abstract net

@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 #include <nlohmann/json.hpp>
+#include <system_error>
 #include <utility>
 
 #include "diagnostics/diagnostics.hpp"
@@ -32,29 +34,48 @@ std::uint32_t browser_column(std::string_view line, std::uint32_t column) {
   return units;
 }
 
+bool is_ready(const std::shared_future<std::shared_ptr<const Analysis>>& analysis) {
+  return analysis.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+}
+
 Json diagnostic_json(const diagnostics::Diagnostic& one, const Diagnostics& all) {
   constexpr std::array<const char*, 3> severities{"error", "warning", "hint"};
   const std::string_view line = all.line(one.span.line);
+  // The page marks the line in the text of the specification, where the lines of included files are not.
+  const std::string included = all.sources().included_line(one.span.line);
+  const std::uint32_t own = all.sources().own_line(one.span.line);
   return {{"severity", severities[static_cast<std::size_t>(one.severity)]},
           {"code", one.code},
-          {"message", one.message},
+          {"message", included.empty() ? one.message : included + ": " + one.message},
           {"hint", one.hint},
-          {"line", one.span.line},
+          {"line", own},
           {"column", browser_column(line, one.span.column)},
-          {"end_line", one.span.line},
+          {"end_line", own},
           {"end_column", browser_column(line, one.span.column + one.span.length)}};
 }
 
 }  // namespace
 
+std::string state_of(const std::vector<std::filesystem::path>& files) {
+  std::string state;
+  for (const std::filesystem::path& file : files) {
+    std::error_code missing;
+    const auto changed = std::filesystem::last_write_time(file, missing).time_since_epoch().count();
+    state += file.string() + " " + (missing ? std::string("-") : std::to_string(changed)) + "\n";
+  }
+  return state;
+}
+
 Analysis analyse(const std::string& name, const std::string& text, const std::filesystem::path& project) {
   Analysis analysis;
-  Diagnostics found(name, text);
+  Diagnostics found(name, text, project);
   project::Draft draft = project::draft_of(found, project);
   analysis.model = std::move(draft.model);
   analysis.pages = std::move(draft.nets.pages);
   analysis.net = std::move(draft.nets.flat);
   if (draft.nets.properties) analysis.properties = std::move(*draft.nets.properties);
+  for (const std::string& file : found.sources().included()) analysis.included.push_back(project / file);
+  analysis.state_of_included = state_of(analysis.included);
   if (analysis.net) analysis.net_hash = verify::hash_of(*analysis.net);
   Json diagnostics = Json::array();
   for (const diagnostics::Diagnostic& one : found.sorted())
@@ -80,9 +101,14 @@ std::shared_ptr<const Analysis> Analyses::of(const std::string& text) {
     const auto found = std::ranges::find(kept_, revision, &Kept::revision);
     if (found != kept_.end()) {
       // Another thread may still be working on it.
-      const std::shared_future<std::shared_ptr<const Analysis>> analysis = found->analysis;
+      const std::shared_future<std::shared_ptr<const Analysis>> future = found->analysis;
       lock.unlock();
-      return analysis.get();
+      std::shared_ptr<const Analysis> analysis = future.get();
+      if (state_of(analysis->included) == analysis->state_of_included) return analysis;
+      lock.lock();
+      std::erase_if(kept_, [&](const Kept& one) {
+        return one.revision == revision && is_ready(one.analysis) && one.analysis.get() == analysis;
+      });
     }
     kept_.push_front({revision, promise.get_future().share()});
     if (kept_.size() > most_kept) kept_.pop_back();

@@ -24,16 +24,22 @@ struct Analysis {
   std::optional<net::Net> net;
   std::vector<net::Property> properties;  ///< of the author; none if one of them is wrong
   std::string net_hash;
+  std::vector<std::filesystem::path> included;  ///< files that the text includes, also those that cannot be read
+  std::string state_of_included;                ///< server::state_of them, when they were read
 };
 
-/// name: of the file, for messages. project: its folder, with the messages of ROS 2; empty: it looks up none.
+/// When each of the files was changed for the last time. Another text: one of them may have another content.
+[[nodiscard]] std::string state_of(const std::vector<std::filesystem::path>& files);
+
+/// name: of the file, for messages. project: its folder, with the messages of ROS 2 and the included files; empty: it
+/// looks up none.
 ///
 /// Threads: any.
 [[nodiscard]] Analysis analyse(const std::string& name, const std::string& text,
                                const std::filesystem::path& project = {});
 
 /// The last few analyses by their texts, because several browsers, and several requests of one, concern the
-/// same text. Each text is analysed once.
+/// same text. Each text is analysed once, and again when a file that it includes has changed.
 ///
 /// Threads: any.
 class Analyses {

@@ -97,7 +97,8 @@ void report_coverage(const CoverageInput& input, const std::string& to, bool sho
   const CoverageInput::State& state = *input.state_;
   const replay::Coverage coverage = replay::coverage_of(state.nets.pages, state.nets.flat, state.counts);
   if (to != shown_only) write_output(to, replay::coverage_json(coverage, state.nets.flat, state.counts));
-  if (shown) fmt::print("{}", replay::coverage_text(coverage, state.specification, state.nets.flat.parts().sources));
+  if (shown)
+    fmt::print("{}", replay::coverage_text(coverage, state.specification, state.nets.flat.parts().sources));
 }
 
 }  // namespace tessera::cli

@@ -66,8 +66,9 @@ int migrate_command(const MigrateOptions& options) {
   const language::Grammar grammar("{}");  // which keys are allowed is not asked
   const language::Document document(found.text(), grammar);
   if (const std::string included = language::included_files(document); !included.empty())
-    return complain(fmt::format("{} includes {}: `migrate` changes a specification in one file; nothing is written",
-                                file.string(), included));
+    return complain(
+        fmt::format("{} includes {}: `migrate` changes a specification in one file; nothing is written",
+                    file.string(), included));
   std::optional<language::Migration> migration = language::migrate(document);
   if (!migration) return complain("cannot migrate " + file.string());
   std::vector<language::TextEdit> edits;

@@ -110,7 +110,8 @@ std::string shortened(const std::string& text) {
 std::string location(const Diagnostic& diagnostic, const Diagnostics& source) {
   std::string result = visible(source.file_of(diagnostic.span.line)) + ":";
   if (diagnostic.span.line == 0) return result;
-  return result + std::to_string(source.sources().at(diagnostic.span.line).line) + ":" + std::to_string(diagnostic.span.column) + ":";
+  return result + std::to_string(source.sources().at(diagnostic.span.line).line) + ":" +
+         std::to_string(diagnostic.span.column) + ":";
 }
 
 std::string margin(const std::string& number) {

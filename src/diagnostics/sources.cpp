@@ -25,9 +25,7 @@ std::string Sources::words(std::uint32_t number) const {
   return text;
 }
 
-std::uint32_t Sources::own_line(std::uint32_t number) const {
-  return at(number).file.empty() ? number : 0;
-}
+std::uint32_t Sources::own_line(std::uint32_t number) const { return at(number).file.empty() ? number : 0; }
 
 std::string Sources::included_line(std::uint32_t number) const {
   const SourceLine place = at(number);

@@ -178,7 +178,8 @@ void Session::did_save(const json& parameters) {
   const auto uri = parameters.at("textDocument").at("uri").get<std::string>();
   if (checked_.contains(uri)) return;  // checked as it is typed
   for (const auto& [specification, document] : workspace_.all())
-    if (checked_.contains(specification) && language::Document(document.text, grammar_).outline().root().find("include"))
+    if (checked_.contains(specification) &&
+        language::Document(document.text, grammar_).outline().root().find("include"))
       check_later(document);
 }
 

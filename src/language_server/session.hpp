@@ -77,7 +77,8 @@ class Session {
   EditAbilities edits_;
   std::set<std::string> checked_;  ///< texts whose mistakes the editor may show
   std::mutex mistakes_;
-  std::map<std::string, std::set<std::string>> included_mistakes_;  ///< included files with mistakes, per text
+  std::map<std::string, std::set<std::string>>
+      included_mistakes_;  ///< included files with mistakes, per text
   bool markdown_ = false;
   PictureForm pictures_form_ = PictureForm::none;
   Pictures pictures_;

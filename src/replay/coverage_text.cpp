@@ -41,7 +41,8 @@ std::string line_text(const net::Span& span, const Lines& lines) {
   if (span.line == 0) return "";
   const diagnostics::SourceLine place = lines.sources.at(span.line);
   const std::filesystem::path beside = std::filesystem::path(lines.file).parent_path();
-  return fmt::format("   {}:{}", place.file.empty() ? lines.file : (beside / place.file).string(), place.line);
+  return fmt::format("   {}:{}", place.file.empty() ? lines.file : (beside / place.file).string(),
+                     place.line);
 }
 
 void add_line(ordered_json& to, const net::Span& span, const diagnostics::Sources& sources) {

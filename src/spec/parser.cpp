@@ -24,8 +24,16 @@
 namespace tessera::spec {
 namespace {
 
+/// It has no system and no agents: perhaps it is meant for `include`.
+bool is_part(const Section& file) {
+  return file.find("system") == nullptr && file.find("agents") == nullptr &&
+         (file.find("types") != nullptr || file.find("templates") != nullptr);
+}
+
 std::string read_system(const Section& file, Diagnostics& out) {
-  const Entry* system = file.require("system", "for example system: line_follower");
+  const Entry* system = file.require(
+      "system", is_part(file) ? "check the specification that includes this file, or give it a system"
+                              : "for example system: line_follower");
   if (system == nullptr) return {};
   const Node* text = text_of(*system->value, system->span, "the name of the system", out);
   if (text == nullptr) return {};
@@ -35,8 +43,8 @@ std::string read_system(const Section& file, Diagnostics& out) {
 
 Model read_model(const Node& root, Diagnostics& out) {
   const Section file(root, root.span, "a specification",
-                     {"tessera", "system", "include", "types", "parameters", "templates", "agents", "channels",
-                      "drivers", "properties", "simulation", "models", "deploy", "on_error"},
+                     {"tessera", "system", "include", "types", "parameters", "templates", "agents",
+                      "channels", "drivers", "properties", "simulation", "models", "deploy", "on_error"},
                      out);
   Model model;
   if (!file.readable()) return model;

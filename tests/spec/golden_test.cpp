@@ -9,10 +9,13 @@ namespace {
 
 namespace fs = std::filesystem;
 
+fs::path folder_of(const std::string& folder) {
+  return fs::path(TESSERA_SOURCE_DIR) / "tests/golden/spec" / folder;
+}
+
 std::vector<std::string> specifications(const std::string& folder) {
   std::set<std::string> names;
-  for (const auto& entry :
-       fs::directory_iterator(fs::path(TESSERA_SOURCE_DIR) / "tests/golden/spec" / folder)) {
+  for (const auto& entry : fs::directory_iterator(folder_of(folder))) {
     if (entry.path().extension() == ".yaml") names.insert(entry.path().stem().string());
   }
   return {names.begin(), names.end()};
@@ -25,7 +28,7 @@ class WrongSpecification : public testing::TestWithParam<std::string> {};
 /// TESSERA_UPDATE_GOLDEN=1 writes the present messages; read the difference before you keep it.
 TEST_P(WrongSpecification, GetsItsDiagnostics) {
   const std::string name = GetParam() + ".yaml";
-  diagnostics::Diagnostics out(name, golden("wrong/" + name));
+  diagnostics::Diagnostics out(name, golden("wrong/" + name), folder_of("wrong"));
   EXPECT_FALSE(parse(out).has_value());
   EXPECT_TRUE(out.has_errors());
   const std::string report = render(out);
@@ -42,7 +45,7 @@ TEST(Catalogue, ListsEveryCodeThatASpecificationCanGet) {
   const std::string catalogue =
       text_of_file(std::string(TESSERA_SOURCE_DIR) + "/docs/reference/diagnostics.md");
   for (const std::string& name : specifications("wrong")) {
-    diagnostics::Diagnostics out(name, golden("wrong/" + name + ".yaml"));
+    diagnostics::Diagnostics out(name, golden("wrong/" + name + ".yaml"), folder_of("wrong"));
     EXPECT_FALSE(parse(out).has_value());
     for (const auto& one : out.sorted()) {
       EXPECT_NE(catalogue.find("| " + one.code + " |"), std::string::npos) << one.code << " in " << name;

@@ -15,6 +15,12 @@ namespace {
 constexpr const char* not_there =
     "the text has changed: there is nothing of that name to change here any more";
 
+/// An edit changes no included file; behind what is not found.
+std::string perhaps_included(const Document& document) {
+  const std::string files = included_files(document);
+  return files.empty() ? files : "; what stands in " + files + " is changed there, by hand";
+}
+
 bool next_changed(TextEditor& editor, const Edit& edit) {
   if (editor.entry(edit.at) == nullptr) return false;
   if (edit.key.empty()) return add_next(editor, edit.at, edit.fields);
@@ -65,7 +71,7 @@ std::optional<std::string> problem_with(const Document& document, TextEditor& ed
            "move it in the text";
   if (const Entry* entry = editor.entry(edit.at); entry != nullptr && entry->is_alias)
     return editor.value_text(edit.at) + " stands here; change what it stands for in the text";
-  return not_there;
+  return not_there + perhaps_included(document);
 }
 
 /// Why the text after an edit is not taken; nullopt: it is.
@@ -185,7 +191,8 @@ Named find_name(const Document& document, std::string_view name) {
     if (symbol.path == path && (colon == std::string_view::npos || prefix_of(symbol.kind) == kind))
       found.push_back(&symbol);
   if (found.size() == 1) return {document.lines().position(found.front()->definition.begin), {}};
-  if (found.empty()) return {{}, fmt::format("the specification has no name '{}'", name)};
+  if (found.empty())
+    return {{}, fmt::format("the specification has no name '{}'", name) + perhaps_included(document)};
   std::string all;
   for (const Symbol* symbol : found) {
     const std::string_view prefix = prefix_of(symbol->kind);

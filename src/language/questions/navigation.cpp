@@ -176,10 +176,11 @@ std::string included_files(const Document& document) {
 Renaming rename(const Document& document, const Source* in, Position position,
                 std::span<const Source> sources, const std::string& name) {
   if (const std::string included = included_files(document); !included.empty())
-    return {{},
-            fmt::format("the specification includes {}, where the name may stand too: rename it by hand, and run "
-                        "`tessera check`",
-                        included)};
+    return {
+        {},
+        fmt::format("the specification includes {}, where the name may stand too: rename it by hand, and run "
+                    "`tessera check`",
+                    included)};
   const std::optional<AtCursor> here = at_cursor(document, in, position);
   if (!here) return {{}, "there is no name of the specification here"};
   const Index& index = document.index();

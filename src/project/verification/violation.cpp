@@ -33,7 +33,7 @@ std::string told(const std::vector<verify::Act>& acts) {
     const std::string numbers =
         act.first == act.last ? fmt::format("{}", act.first) : fmt::format("{}-{}", act.first, act.last);
     text += fmt::format("  {:>7}  {:<{}}  {}{}\n", numbers, act.who, widest, act.text,
-                        act.line > 0               ? fmt::format("  [line {}]", act.line)
+                        act.line > 0            ? fmt::format("  [line {}]", act.line)
                         : !act.included.empty() ? fmt::format("  [{}]", act.included)
                                                 : "");
   }

@@ -137,7 +137,8 @@ void Templates::complain_about_unused(Diagnostics& out) const {
   if (one_is_unknown_) return;  // the unknown name may mean this template
   for (const std::string& name : order_) {
     const Template& one = by_name_.at(name);
-    if (!one.used)
+    // A file that several specifications include may have more than one of them needs.
+    if (!one.used && out.sources().own_line(one.entry->span.line) > 0)
       out.warning("W319", one.entry->span, "template " + in_quotes(name) + " is used by no agent");
   }
 }

@@ -239,9 +239,9 @@ class DeploymentReader {
     for (const AgentId agent : agents) {
       const auto [first, added] = taken_.emplace(agent, at.line);
       if (added) continue;
-      out_.error("E315", at, "agent " + in_quotes(model_.agents[agent].path) + " is in a process already",
-                 first->second == at.line ? "name it once"
-                                          : "see " + out_.words(first->second) + ": name it once");
+      out_.error(
+          "E315", at, "agent " + in_quotes(model_.agents[agent].path) + " is in a process already",
+          first->second == at.line ? "name it once" : "see " + out_.words(first->second) + ": name it once");
       return false;
     }
     return true;

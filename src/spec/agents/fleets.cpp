@@ -144,9 +144,9 @@ void check_clashes(const Model& model, const std::vector<Structure>& structures,
   const auto check = [&](const std::string& name, Span span, const std::string& what) {
     const auto clash = types.find(name);
     if (clash == types.end()) return;
-    out.error("E107", span, what + " " + in_quotes(name) + " has the name of a type",
-              "the type is on " + out.words(clash->second->span.line) +
-                  "; begin types with a capital letter");
+    out.error(
+        "E107", span, what + " " + in_quotes(name) + " has the name of a type",
+        "the type is on " + out.words(clash->second->span.line) + "; begin types with a capital letter");
   };
   for (const Definition& definition : model.definitions) {
     for (const Subsystem& subsystem : definition.subsystems)

@@ -90,9 +90,9 @@ void read_shared(const Entry& entry, Condition& result, SharedConditions& shared
 
 /// The line of the condition of the subsystem that has the name, too.
 void complain_about_shared(const Entry& entry, const Expression& one, Diagnostics& out) {
-  out.error("E107", entry.span, "condition " + in_quotes(entry.key) + " is one of the subsystem already",
-            "the first is on " + out.words(one.span.line) + "; " + entry.key +
-                " without an expression names it");
+  out.error(
+      "E107", entry.span, "condition " + in_quotes(entry.key) + " is one of the subsystem already",
+      "the first is on " + out.words(one.span.line) + "; " + entry.key + " without an expression names it");
 }
 
 void read_named(const Entry& condition, Condition& result, const ConditionScope& scope,

@@ -277,8 +277,9 @@ const Node* GroupTemplates::map_of(const Node& at, std::vector<Entry> entries) {
 
 void GroupTemplates::complain_about_unused(Diagnostics& out) const {
   if (one_is_unknown_) return;  // the unknown name may mean this template
+  // A file that several specifications include may have more than one of them needs.
   for (const auto& [name, one] : by_name_)
-    if (!one.used)
+    if (!one.used && out.sources().own_line(one.entry->span.line) > 0)
       out.warning("W319", one.entry->span, "template " + in_quotes(name) + " is used by no behaviour",
                   "write use: " + name + " in a behaviour, or leave the template out");
 }

@@ -35,8 +35,8 @@ std::string one_of(const std::string& section) { return section.substr(0, sectio
 void refuse_key(const Entry& entry, const std::string& main, Diagnostics& out) {
   Hint hint = did_you_mean(entry.key, {"tessera", "types", "templates", "include"});
   if (hint.empty())
-    hint = "an included file holds 'types', 'templates' and 'include'; write " + in_quotes(entry.key) + " in " +
-           main;
+    hint = "an included file holds 'types', 'templates' and 'include'; write " + in_quotes(entry.key) +
+           " in " + main;
   out.error("E359", entry.span, in_quotes(entry.key) + " does not belong in an included file",
             std::move(hint));
 }
@@ -57,7 +57,7 @@ const Node& Includes::whole(const Document& main, Diagnostics& out) {
   if (include == nullptr) return root;
   if (out.folder().empty()) {
     refuse("E361", include->span, "this text has no folder in which the included files could be found",
-              "save it in a file", out);
+           "save it in a file", out);
     return root;
   }
   const fs::path own = fs::path(out.file()).filename();
@@ -106,10 +106,10 @@ void Includes::read_file(const Node& name, const Path& from, Diagnostics& out) {
   const bool leaves = !file.empty() && *file.begin() == "..";
   if (written.is_absolute() || leaves || !file.has_filename() || name.text.find('\0') != std::string::npos) {
     refuse("E356", name.span,
-              written.is_absolute() ? in_quotes(name.text) + " is an absolute path"
-              : leaves              ? in_quotes(name.text) + " is outside the folder of the specification"
-                                    : in_quotes(name.text) + " names no file",
-              file_hint, out);
+           written.is_absolute() ? in_quotes(name.text) + " is an absolute path"
+           : leaves              ? in_quotes(name.text) + " is outside the folder of the specification"
+                                 : in_quotes(name.text) + " names no file",
+           file_hint, out);
     return;
   }
   const std::string shown = file.generic_string();
@@ -117,7 +117,7 @@ void Includes::read_file(const Node& name, const Path& from, Diagnostics& out) {
     std::string circle;
     for (auto one = first; one != chain_.end(); ++one) circle += *one + " -> ";
     refuse("E358", name.span, "files include each other in a circle: " + circle + shown,
-              "leave out one of these; move what both need into a file of its own", out);
+           "leave out one of these; move what both need into a file of its own", out);
     return;
   }
   if (!read_.insert(file).second) return;
@@ -136,7 +136,7 @@ void Includes::read_file(const Node& name, const Path& from, Diagnostics& out) {
   if (part.has_errors()) {
     const diagnostics::Diagnostic why = part.sorted().front();
     refuse_unread("the included file " + in_quotes(shown) + " cannot be read: " + why.message,
-              why.hint.empty() ? "it is looked for in " + path.parent_path().string() : Hint(why.hint));
+                  why.hint.empty() ? "the path is relative to " + chain_.back() : Hint(why.hint));
     return;
   }
   bytes_ += part.text().size();
@@ -179,7 +179,8 @@ void Includes::collect(const Entry& section, Diagnostics& out) {
       all.entries.push_back(entry);
       continue;
     }
-    out.error("E360", entry.span, one_of(section.key) + " " + in_quotes(entry.key) + " is defined in two files",
+    out.error("E360", entry.span,
+              one_of(section.key) + " " + in_quotes(entry.key) + " is defined in two files",
               "the first is on " + out.words(first->second) + "; keep one of them");
   }
 }

@@ -325,7 +325,7 @@ struct Simulation {
 /// A whole specification. Invariant: every index is valid, and every path is resolved.
 struct Model {
   std::string system;
-  diagnostics::Sources sources;  ///< of the lines of all spans
+  diagnostics::Sources sources;                 ///< of the lines of all spans
   Numbered<StructureId, Structure> structures;  ///< in an order in which each uses only earlier ones
   std::vector<Parameter> parameters;            ///< of the system, visible in every subsystem
   Numbered<DefinitionId, Definition> definitions;

@@ -24,8 +24,9 @@ struct Analysis {
   std::optional<net::Net> net;
   std::vector<net::Property> properties;  ///< of the author; none if one of them is wrong
   std::string net_hash;
-  std::vector<std::filesystem::path> included;  ///< files that the text includes, also those that cannot be read
-  std::string state_of_included;                ///< server::state_of them, when they were read
+  std::vector<std::filesystem::path>
+      included;                   ///< files that the text includes, also those that cannot be read
+  std::string state_of_included;  ///< server::state_of them, when they were read
 };
 
 /// When each of the files was changed for the last time. Another text: one of them may have another content.

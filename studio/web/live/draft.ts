@@ -273,7 +273,11 @@ export class Draft {
     // Edits that are not done yet are changes of this page, too.
     await this.settled();
     await this.saving;
-    if (revision === this.store.get().revision) return this.asBefore();
+    if (revision === this.store.get().revision) {
+      this.asBefore();
+      // An included file may have changed, and with it the meaning of the same text.
+      return this.check();
+    }
     let answer: SpecAnswer;
     try {
       answer = await this.api.spec();

@@ -22,7 +22,7 @@ export interface Cause {
   verdicts: Judged[];
   atEnd: readonly SubsystemAtEnd[];
   /** Behaviours that never run. */
-  dead: readonly { path: string; line: number }[];
+  dead: readonly { path: string; line: number; included?: string }[];
   /** Only a warning: it needs a failure or the network to become a problem. */
   warning: boolean;
 }

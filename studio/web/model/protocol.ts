@@ -346,7 +346,12 @@ export interface Verdict {
   warning: boolean;
   /** The waits at the end of the run. */
   waits: string[];
-  behaviours: { path: string; line: number }[];
+  behaviours: {
+    path: string;
+    line: number;
+    /** A line of an included file, such as parts/docking.yaml:3; line is 0 then. */
+    included?: string;
+  }[];
   /** The run that shows the verdict. */
   trace: TracedFiring[] | null;
   /** Violated: what would help. */
@@ -367,6 +372,8 @@ export interface TracedFiring {
   subsystem?: string;
   page?: string;
   line?: number;
+  /** A line of an included file, such as parts/docking.yaml:3; line is 0 then. */
+  included?: string;
 }
 /** The state of a subsystem where a run has stopped or no longer goes on as it should. */
 export interface SubsystemAtEnd {
@@ -892,7 +899,7 @@ export interface Hello {
    */
   revision: string;
 }
-/** The file changed on disk. */
+/** The file changed on disk, or, with the same revision, a file that it includes. */
 export interface SpecEvent {
   revision: string;
 }

@@ -48,10 +48,10 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
       {cause.dead.length > 0 && cause.atEnd.length > 0 && <p className="faint">Behaviours that never run because of it:</p>}
       {cause.dead.length > 0 && (
         <ul className="at-end" aria-label="Behaviours that never run">
-          {cause.dead.map(({ path, line }) => (
+          {cause.dead.map(({ path, line, included }) => (
             <li key={path}>
               <button className="choice" onClick={() => studio.flyTo(path)}>
-                {sentence(path)} <span className="faint">line {line}</span>
+                {sentence(path)} <span className="faint">{included ?? `line ${line}`}</span>
               </button>
             </li>
           ))}

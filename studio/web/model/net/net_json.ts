@@ -34,6 +34,8 @@ export interface Span {
   line: number;
   column: number;
   length: number;
+  /** A line of an included file, such as parts/docking.yaml:3; line is 0 then. */
+  included?: string;
 }
 /** A place, or the page behind a node. */
 export interface PageNode {

@@ -23,7 +23,7 @@ class NetWriter : public JsonWriter {
   NetWriter& operator=(const NetWriter&) = delete;
 
   void span(const net::Span& span) {
-    // Who knows nothing of included files would look up their lines in the specification.
+    // A reader that knows nothing of included files would look up their lines in the specification.
     const std::string included = sources_.included_line(span.line);
     object([&] {
       member("line", sources_.own_line(span.line));

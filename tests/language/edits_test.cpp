@@ -38,6 +38,23 @@ std::vector<std::string> lines_of(const std::string& text) {
   return lines;
 }
 
+TEST(Edits, OfASpecificationThatIncludesFilesChangeItsOwnTextAlone) {
+  const std::string text = R"(tessera: 1
+system: demo
+include: [parts/types.yaml, parts/robot.yaml]
+types: { Pose: { x: float64 } }
+agents: { robot: { use: robot } }
+)";
+  const Outcome renamed = after(text, R"({"do": "rename", "at": ["types", "Pose"], "text": "Place"})");
+  EXPECT_NE(renamed.problem.value_or("").find("includes parts/types.yaml and parts/robot.yaml"),
+            std::string::npos)
+      << renamed.problem.value_or("no problem");
+  const Outcome elsewhere =
+      after(text, R"({"do": "set", "at": ["templates", "robot", "control"], "key": "rate", "text": "5 Hz"})");
+  EXPECT_NE(elsewhere.problem.value_or("").find("parts/types.yaml and parts/robot.yaml"), std::string::npos)
+      << elsewhere.problem.value_or("no problem");
+}
+
 /// The texts that the page of the studio made when it edited texts itself.
 TEST(Edits, OfTheFormsGiveTheTextsThatTheyAlwaysGave) {
   const ordered_json fixture =

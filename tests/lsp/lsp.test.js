@@ -1,7 +1,7 @@
 // Speaks to `tessera lsp` with the client library of VS Code. TESSERA names the command.
 import assert from "node:assert/strict";
 import { spawn } from "node:child_process";
-import { cpSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
+import { cpSync, mkdirSync, mkdtempSync, readFileSync, readdirSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { after, before, test } from "node:test";
@@ -307,6 +307,44 @@ test("leaves the spec.yaml of other programs alone", async () => {
   assert.deepEqual(await editor.diagnostics(other, undefined), []);
   const here = { textDocument: { uri: other }, position: { line: 1, character: 0 } };
   assert.deepEqual((await editor.request("textDocument/completion", here)).items, []);
+});
+
+test("shows the mistakes of an included file in that file, as it is saved", async () => {
+  const project = join(folder, "parted");
+  mkdirSync(join(project, "parts"), { recursive: true });
+  const types = text.slice(text.indexOf("types:"), text.indexOf("parameters:"));
+  const part = join(project, "parts", "types.yaml");
+  const partUri = pathToFileURL(part).href;
+  const ownUri = pathToFileURL(join(project, "spec.yaml")).href;
+  writeFileSync(part, `tessera: 1\n${types.replace("left: bool", "left: bol")}`);
+  const own = text.replace(types, "include: parts/types.yaml\n");
+  const told = (uri, fits) =>
+    new Promise((resolve) => {
+      const look = () => {
+        const one = [...editor.published.values()].find((each) => decodeURIComponent(each.uri) === decodeURIComponent(uri));
+        if (!one || !fits(one.diagnostics)) return false;
+        resolve(one.diagnostics);
+        return true;
+      };
+      if (!look()) editor.waiting.push(look);
+    });
+  await editor.open(ownUri, own);
+  const [mistake] = await told(partUri, (all) => all.length > 0);
+  assert.equal(mistake.code, "E101");
+  assert.deepEqual(mistake.range.start, { line: 2, character: types.split("\n")[1].indexOf("bool") });
+  assert.deepEqual(await editor.diagnostics(ownUri, 1), []);
+  await assert.rejects(
+    editor.request("textDocument/rename", {
+      textDocument: { uri: ownUri },
+      position: position(own, "follow: {}"),
+      newName: "pursue",
+    }),
+    /includes parts\/types.yaml/,
+  );
+  await editor.open(partUri, `tessera: 1\n${types}`);
+  writeFileSync(part, `tessera: 1\n${types}`);
+  await editor.notify("textDocument/didSave", { textDocument: { uri: partUri } });
+  assert.deepEqual(await told(partUri, (all) => all.length === 0), []);
 });
 
 test("answers within 50 ms in a file of a thousand lines", async () => {

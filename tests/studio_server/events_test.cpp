@@ -28,6 +28,30 @@ TEST_F(EventsOfAServer, TellEveryBrowserOfAChangedFile) {
   EXPECT_FALSE(second.next("spec", is_it).is_null());
 }
 
+/// The page does not know which line of another file a number would be.
+TEST_F(EventsOfAServer, TellOfAChangedFileThatTheSpecificationIncludes) {
+  std::string text = content_of(spec());
+  const std::size_t begin = text.find("types:"), end = text.find("parameters:");
+  fs::create_directories(spec().parent_path() / "parts");
+  const fs::path part = spec().parent_path() / "parts/types.yaml";
+  const std::string types = text.substr(begin, end - begin);
+  write(part, types);
+  write(spec(), text.replace(begin, end - begin, "include: parts/types.yaml\n"));
+  serve();
+  const json before = get("/api/spec").json();
+  EXPECT_TRUE(before.at("analysis").at("diagnostics").empty()) << before.at("analysis").at("diagnostics");
+  EXPECT_FALSE(before.at("analysis").at("net").is_null());
+  EventStream stream(port_, token_);
+  ASSERT_FALSE(stream.next("hello").is_null());
+  write(part, types + "  Wrong: { x: flot64 }\n");
+  EXPECT_EQ(stream.next("spec").at("revision"), before.at("revision"));
+  const json after = post("/api/check", {{"text", text}}).json();
+  ASSERT_EQ(after.at("diagnostics").size(), 1U) << after;
+  const json& mistake = after.at("diagnostics")[0];
+  EXPECT_EQ(mistake.at("line"), 0);
+  EXPECT_EQ(mistake.at("message").get<std::string>().substr(0, 19), "parts/types.yaml:5:") << mistake;
+}
+
 TEST_F(EventsOfAServer, TellOfAFileThatWasReplacedByRenaming) {
   serve();
   EventStream stream(port_, token_);

@@ -21,6 +21,14 @@ std::string perhaps_included(const Document& document) {
   return files.empty() ? files : "; what stands in " + files + " is changed there, by hand";
 }
 
+/// Whether a path leads into a type or template that this text does not have, so that only an included file may have it.
+bool leads_elsewhere(const Document& document, const Path& at) {
+  if (at.size() < 2 || included_files(document).empty()) return false;
+  const std::string *section = key_of(at[0]), *name = key_of(at[1]);
+  return section != nullptr && name != nullptr && (*section == "types" || *section == "templates") &&
+         document.outline().root()[*section].find(*name) == nullptr;
+}
+
 bool next_changed(TextEditor& editor, const Edit& edit) {
   if (editor.entry(edit.at) == nullptr) return false;
   if (edit.key.empty()) return add_next(editor, edit.at, edit.fields);
@@ -60,6 +68,7 @@ bool changed(const Document& document, TextEditor& editor, const Edit& edit) {
 
 /// Why an edit cannot be done; nullopt: the editor has its text.
 std::optional<std::string> problem_with(const Document& document, TextEditor& editor, const Edit& edit) {
+  if (leads_elsewhere(document, edit.at)) return not_there + perhaps_included(document);
   if (edit.kind == Edit::Kind::insert && editor.entry(edit.at / edit.key) != nullptr)
     return fmt::format("'{}' is there already", edit.key);
   if (edit.kind == Edit::Kind::remove)

@@ -13,7 +13,7 @@
 /// Types and templates that stand in files of their own: `include: parts/docking.yaml`.
 namespace tessera::spec {
 
-/// What the files of `include` add to a specification. It outlives the nodes that it gives.
+/// The additions of the files of `include` to a specification. They outlive the nodes that they give.
 ///
 /// Threads: one at a time.
 class Includes {

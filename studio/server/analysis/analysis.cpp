@@ -56,6 +56,21 @@ Json diagnostic_json(const diagnostics::Diagnostic& one, const Diagnostics& all)
 
 }  // namespace
 
+namespace {
+
+/// Dates of files come from a clock that stands still between its ticks.
+constexpr std::chrono::milliseconds clock_tick{20};
+
+bool written_since(std::filesystem::file_time_type moment, const std::vector<std::filesystem::path>& files) {
+  return std::ranges::any_of(files, [&](const std::filesystem::path& file) {
+    std::error_code missing;
+    const auto written = std::filesystem::last_write_time(file, missing);
+    return !missing && written >= moment;
+  });
+}
+
+}  // namespace
+
 std::string state_of(const std::vector<std::filesystem::path>& files) {
   std::string state;
   for (const std::filesystem::path& file : files) {
@@ -68,6 +83,7 @@ std::string state_of(const std::vector<std::filesystem::path>& files) {
 
 Analysis analyse(const std::string& name, const std::string& text, const std::filesystem::path& project) {
   Analysis analysis;
+  const auto begun = std::filesystem::file_time_type::clock::now();
   Diagnostics found(name, text, project);
   project::Draft draft = project::draft_of(found, project);
   analysis.model = std::move(draft.model);
@@ -75,7 +91,9 @@ Analysis analyse(const std::string& name, const std::string& text, const std::fi
   analysis.net = std::move(draft.nets.flat);
   if (draft.nets.properties) analysis.properties = std::move(*draft.nets.properties);
   for (const std::string& file : found.sources().included()) analysis.included.push_back(project / file);
-  analysis.state_of_included = state_of(analysis.included);
+  // A file that was written meanwhile may have been read before: its state is not known.
+  if (!written_since(begun - clock_tick, analysis.included))
+    analysis.state_of_included = state_of(analysis.included);
   if (analysis.net) analysis.net_hash = verify::hash_of(*analysis.net);
   Json diagnostics = Json::array();
   for (const diagnostics::Diagnostic& one : found.sorted())

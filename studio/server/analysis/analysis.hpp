@@ -26,7 +26,7 @@ struct Analysis {
   std::string net_hash;
   std::vector<std::filesystem::path>
       included;                   ///< files that the text includes, also those that cannot be read
-  std::string state_of_included;  ///< server::state_of them, when they were read
+  std::string state_of_included;  ///< server::state_of them, when they were read; "": not known
 };
 
 /// When each of the files was changed for the last time. Another text: one of them may have another content.

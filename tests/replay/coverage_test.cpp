@@ -188,20 +188,39 @@ TEST(Coverage, OfASegmentHasTheMarkingItBeginsWithAndSaysThatEventsAreMissing) {
   EXPECT_TRUE(coverage.lacks_events);
   EXPECT_FALSE(missing_in(coverage, Missing::Kind::place).contains("robot.control.follow.in"));
   EXPECT_EQ(coverage.behaviours.reached, 2u);
-  EXPECT_NE(coverage_text(coverage, "spec.yaml").find("events are missing"), std::string::npos);
+  EXPECT_NE(coverage_text(coverage, "spec.yaml", built.net.parts().sources).find("events are missing"),
+            std::string::npos);
 }
 
 TEST(Coverage, TextNamesABehaviourThatWasNotEnteredOnceAndSharesInPercent) {
   const test::Built built = test::build(test::line_follower());
-  const std::string text = coverage_text(coverage_of_runs(built, {run_of(built.net, {"t_in"})}), "spec.yaml");
+  const std::string text = coverage_text(coverage_of_runs(built, {run_of(built.net, {"t_in"})}), "spec.yaml",
+                                         built.net.parts().sources);
   EXPECT_TRUE(text.starts_with("coverage of the net by 1 run:\n")) << text;
   EXPECT_NE(text.find("robot.control.follow\n    never entered\n"), std::string::npos) << text;
   EXPECT_EQ(text.find("follow.t1"), std::string::npos) << text;
 }
 
+TEST(Coverage, NamesTheLinesOfIncludedFilesWithTheirFiles) {
+  diagnostics::Sources sources;
+  sources.add("spec.yaml", "parts/robot.yaml", 2);
+  Coverage coverage;
+  Coverage::Group& group = coverage.groups.emplace_back();
+  group.kind = Coverage::Group::Kind::subsystem;
+  group.path = "robot.control";
+  group.span = {2, 1, 1};
+  Coverage::Missing& missing = group.missing.emplace_back();
+  missing.kind = Missing::Kind::place;
+  missing.name = "robot.control.in";
+  missing.span = {5, 1, 1};
+  const std::string text = coverage_text(coverage, "robots/spec.yaml", sources);
+  EXPECT_NE(text.find("robot.control   robots/spec.yaml:2\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("in   robots/parts/robot.yaml:3\n"), std::string::npos) << text;
+}
+
 TEST(Coverage, OfALargeFleetIsCut) {
   const test::Built built = test::build(test::fleet(100));
-  const std::string text = coverage_text(coverage_of_runs(built, {}), "spec.yaml");
+  const std::string text = coverage_text(coverage_of_runs(built, {}), "spec.yaml", built.net.parts().sources);
   EXPECT_LT(std::ranges::count(text, '\n'), 1000);
   EXPECT_NE(text.find("more, which --coverage=FILE has"), std::string::npos);
 }

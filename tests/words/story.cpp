@@ -76,7 +76,8 @@ void compare_with_the_net(const Recording& recording, const test::Generated& mad
       << '\n';
   replay::FiringCounts counts(made.net);
   out << counts.add(recording).value_or(Problem{}).text
-      << replay::coverage_text(coverage_of(made.pages, made.net, counts), "spec.yaml");
+      << replay::coverage_text(coverage_of(made.pages, made.net, counts), "spec.yaml",
+                               made.net.parts().sources);
 }
 
 void verify(const test::Generated& made) {

@@ -231,6 +231,27 @@ TEST(Conditions, OnTheFirstLineOfASpecificationHaveALineToo) {
   EXPECT_THAT(compile(spec).output, HasSubstr("spec.yaml:1:123: error:"));
 }
 
+TEST(Conditions, OfAnIncludedFileHaveItsLines) {
+  const Folder project;
+  project.write("parts/robot.yaml", R"(templates:
+  robot:
+    control:
+      rate: 10 Hz
+      memory: { count: int32 }
+      behaviours: { work: { terminal: memory.count > 3, next: work } }
+)");
+  const std::string spec =
+      "tessera: 1\nsystem: demo\ninclude: parts/robot.yaml\nagents: { a: { use: robot } }\n";
+  const std::string path = (project.path() / "spec.yaml").string();
+  const Generated marked = generate(spec, path);
+  EXPECT_THAT(marked["robot.control.conditions.cpp"],
+              HasSubstr("#line 5 \"" + (project.path() / "parts/robot.yaml").string() + "\"\n"));
+  const Generated listed = generate(spec, path, codegen::Lines::listed);
+  for (const codegen::File& file : listed.files)
+    for (const codegen::SourceLine& line : file.lines)
+      EXPECT_EQ(listed.model.sources.included_line(line.spec_line), "parts/robot.yaml:6") << file.path;
+}
+
 TEST(Conditions, PathsOfSpecificationsAreEscaped) {
   const Generated generated = generate(lonely, "/tmp/a \"strange\" \\ name/spec.yaml");
   EXPECT_THAT(generated["robot.control.conditions.cpp"],

@@ -26,7 +26,7 @@ const std::string& Generated::operator[](const std::string& path) const {
 }
 
 Generated generate(const std::string& text, const std::string& spec_path, codegen::Lines lines) {
-  diagnostics::Diagnostics diagnostics(spec_path, text);
+  diagnostics::Diagnostics diagnostics(spec_path, text, std::filesystem::path(spec_path).parent_path());
   const auto refuse = [&] { throw std::runtime_error(diagnostics::render(diagnostics)); };
   std::optional<spec::Model> model = spec::parse(diagnostics);
   if (!model) refuse();

@@ -71,7 +71,7 @@ PartialNets::Answer goes_on(const PartialNets& parts, const net::Net& net,
 class ByParts final : public Decider {
  public:
   [[nodiscard]] const char* name() const override { return "parts"; }
-  [[nodiscard]] const char* title() const override { return "some subsystems, whatever the others do"; }
+  [[nodiscard]] const char* title() const override { return "search of parts"; }
 
   [[nodiscard]] bool suits(const net::Net& net) const override {
     return std::ranges::any_of(net.places(), [](const net::Place& place) { return place.fact.valid(); });

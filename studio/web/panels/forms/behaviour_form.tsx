@@ -68,7 +68,6 @@ function GroupForm(shown: Shown) {
   const field = (key: string) => structure.yaml.lineText([...behaviour.yaml, key]);
   const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
   const inside = targetsIn(subsystem, behaviour.path);
-  const kept = keptCells(structure, subsystem);
   const add = (wish: string, adding: typeof edits.addBehaviour) => {
     const added = named(wish, keysNow([...behaviour.yaml, "behaviours"]), (name) => adding(behaviour, name));
     void edit(added.wish, () => `${behaviour.path}.${added.name}`);
@@ -101,16 +100,7 @@ function GroupForm(shown: Shown) {
         hint="Where failures in it lead that no behaviour in it names"
         onChange={set("on_error")}
       />
-      {(kept.length > 0 || behaviour.sets) && (
-        <Field
-          label="Sets"
-          mono
-          value={behaviour.sets}
-          placeholder="no memory"
-          hint={`Memory when the group begins: ${exampleOf(kept)}`}
-          onChange={set("sets")}
-        />
-      )}
+      <Sets {...shown} what="group" />
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
       <div className="buttons">
         <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
@@ -121,11 +111,27 @@ function GroupForm(shown: Shown) {
   );
 }
 
+/** What becomes of memory with few values when it begins. */
+function Sets({ structure, behaviour, subsystem, what }: Shown & { what: string }) {
+  const edit = useEdit();
+  const kept = keptCells(structure, subsystem);
+  if (kept.length === 0 && !behaviour.sets) return null;
+  return (
+    <Field
+      label="Sets"
+      mono
+      value={behaviour.sets}
+      placeholder="no memory"
+      hint={`Memory when the ${what} begins: ${exampleOf(kept)}`}
+      onChange={(text) => edit(edits.set(behaviour.yaml, "sets", text))}
+    />
+  );
+}
+
 function OneForm(shown: Shown) {
   const { structure, behaviour, subsystem } = shown;
   const edit = useEdit();
   const field = (key: string) => structure.yaml.lineText([...behaviour.yaml, key]);
-  const kept = keptCells(structure, subsystem);
   const set = (key: string) => (text: string) => edit(edits.set(behaviour.yaml, key, text));
   // Groups have none for each member of a fleet.
   const fleets = behaviour.group ? [] : structure.agents.filter(({ count }) => count).map(({ name }) => name);
@@ -156,16 +162,7 @@ function OneForm(shown: Shown) {
         onChange={set("terminal")}
       />
       <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
-      {(kept.length > 0 || behaviour.sets) && (
-        <Field
-          label="Sets"
-          mono
-          value={behaviour.sets}
-          placeholder="no memory"
-          hint={`Memory when the behaviour begins: ${exampleOf(kept)}`}
-          onChange={set("sets")}
-        />
-      )}
+      <Sets {...shown} what="behaviour" />
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
       <Field
         label="Sends"

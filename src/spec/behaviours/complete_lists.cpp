@@ -1,4 +1,4 @@
-#include "spec/channels/complete_lists.hpp"
+#include "spec/behaviours/complete_lists.hpp"
 
 #include <algorithm>
 #include <map>
@@ -44,9 +44,8 @@ enum Outcome : std::uint32_t { came, timed_out, neither };
 /// One list `next`, with the answers to its questions.
 class List {
  public:
-  List(const Subsystem& subsystem, const Behaviour& behaviour,
-       const std::vector<std::vector<const Channel*>>& sources)
-      : subsystem_(subsystem), behaviour_(behaviour), sources_(sources) {
+  List(const Subsystem& subsystem, const Behaviour& behaviour)
+      : subsystem_(subsystem), behaviour_(behaviour) {
     for (const Condition* condition : {&behaviour.terminal, &behaviour.error})
       for (const Expression& one : condition->expressions) find(one);
     for (const Next& next : behaviour.next)
@@ -92,21 +91,10 @@ class List {
     }));
   }
 
-  [[nodiscard]] std::vector<std::uint32_t> outcomes(const Subject& subject) const {
+  /// An invalid value, of a sender that has failed or never wrote, is neither fresh, nor has the wait timed out.
+  static std::vector<std::uint32_t> outcomes(const Subject& subject) {
     if (subject.kind == Subject::Kind::output) return {came, timed_out};
-    const BufferId input{subject.number};
-    const bool is_received =
-        !behaviour_.receive || std::ranges::find(*behaviour_.receive, input) != behaviour_.receive->end();
-    bool may_time_out = false, may_be_neither = !is_received;
-    for (const Channel* channel : sources_[subject.number]) {
-      const bool waits = channel->receive == Mode::blocking && !channel->model.valid();
-      may_time_out = may_time_out || !waits || channel->receive_timeout.has_value();
-      may_be_neither = may_be_neither || !waits;
-    }
-    std::vector<std::uint32_t> all{came};
-    if (may_time_out) all.push_back(timed_out);
-    if (may_be_neither) all.push_back(neither);
-    return all;
+    return {came, timed_out, neither};
   }
 
   [[nodiscard]] Asked questions(std::span<const Token> part, std::optional<std::uint32_t> member) const {
@@ -167,7 +155,6 @@ class List {
 
   const Subsystem& subsystem_;
   const Behaviour& behaviour_;
-  const std::vector<std::vector<const Channel*>>& sources_;  // per input
   std::map<Subject, std::vector<std::uint32_t>> possible_;
   std::vector<Subject> asked_;
   std::map<Subject, std::uint32_t> now_;
@@ -183,13 +170,6 @@ bool asks_what_is_known(const Behaviour& behaviour) {
 }
 
 void check_complete_lists(const Model& model, Diagnostics& out) {
-  // The channels of all agents with one definition count together.
-  std::map<const Subsystem*, std::vector<std::vector<const Channel*>>> sources;
-  for (const Definition& definition : model.definitions)
-    for (const Subsystem& subsystem : definition.subsystems)
-      sources[&subsystem].resize(subsystem.inputs.size());
-  for (const Channel& channel : model.channels)
-    sources[&model.subsystem(channel.to.instance)][channel.to.buffer.value].push_back(&channel);
   for (const Definition& definition : model.definitions)
     for (const Subsystem& subsystem : definition.subsystems)
       for (const Behaviour& behaviour : subsystem.behaviours) {
@@ -198,7 +178,7 @@ void check_complete_lists(const Model& model, Diagnostics& out) {
         const bool has_written =
             std::ranges::any_of(behaviour.next, [](const Next& n) { return !n.implied; });
         if (is_other || !has_written || !asks_what_is_known(behaviour)) continue;
-        if (!List(subsystem, behaviour, sources[&subsystem]).is_incomplete()) continue;
+        if (!List(subsystem, behaviour).is_incomplete()) continue;
         const auto last = std::ranges::find_if(behaviour.next.rbegin(), behaviour.next.rend(),
                                                [](const Next& next) { return !next.implied; });
         out.warning(

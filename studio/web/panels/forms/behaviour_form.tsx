@@ -111,7 +111,7 @@ function GroupForm(shown: Shown) {
   );
 }
 
-/** What becomes of memory with few values when it begins. */
+/** The field of what memory with few values becomes when a behaviour or a group begins. */
 function Sets({ structure, behaviour, subsystem, what }: Shown & { what: string }) {
   const edit = useEdit();
   const kept = keptCells(structure, subsystem);

@@ -3,8 +3,6 @@
 #include <thread>
 #include <utility>
 
-#include "ros2/codec/request_header.hpp"
-
 namespace tessera::ros2 {
 namespace {
 
@@ -96,17 +94,14 @@ void ServiceClient::progress() {
 }
 
 void ServiceClient::take_replies() {
-  for (ServiceEnds::Taken& one : ends_->take()) {
-    const auto header = take_header(one.message);
-    if (!header) {
-      warn(strange_, "a reply without the header of rmw_cyclonedds_cpp was dropped");
-    } else if (header->client != ends_->identity()) {
-      continue;  // all clients get all replies
-    } else if (!pending_ || !pending_->sent || pending_->sequence != header->sequence) {
+  ServiceEnds::Replies replies = ends_->take_replies();
+  for (; replies.strange > 0; --replies.strange)
+    warn(strange_, "a reply without the header of rmw_cyclonedds_cpp was dropped");
+  for (ServiceEnds::Reply& one : replies.ours) {
+    if (!pending_ || !pending_->sent || pending_->sequence != one.number)
       warn(stray_, "a reply was dropped: its call is over, or was answered already");
-    } else {
+    else
       finish(CallOutcome::answered, std::move(one.message));
-    }
   }
 }
 
@@ -118,10 +113,10 @@ void ServiceClient::try_to_send() {
                 "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
   if (servers.ready == 0) return;
   if (servers.ready > 1) warn(several_, "several servers get this request, and the first reply counts");
-  pending_->sequence = ++sequence_;
-  put_header({ends_->identity(), pending_->sequence}, pending_->request);
+  const auto sequence = ends_->send_request(std::move(pending_->request));
+  pending_->sequence = sequence.value_or(0);
   pending_->sent = true;
-  refused_ = !ends_->write(pending_->request);
+  refused_ = !sequence;
 }
 
 void ServiceClient::finish(CallOutcome outcome, std::vector<std::byte> reply) {

@@ -63,7 +63,6 @@ class ServiceClient : public SharedService {
 
   bool keeps_results_ = false, refused_ = false;
   std::uint64_t last_ = 0;
-  std::int64_t sequence_ = 0;
   std::optional<Pending> pending_;
   std::deque<Result> results_;
   std::optional<CallOutcome> newest_;

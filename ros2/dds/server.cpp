@@ -48,7 +48,6 @@ bool ServiceServer::reply(std::uint64_t number, std::vector<std::byte> message) 
   const std::lock_guard lock(mutex_);
   refused_ = false;
   if (number != 0 && current_ && number == number_ && reply_.empty()) {
-    put_header(current_->header, message);
     reply_ = std::move(message);
   } else if (number != 0 && number != told_) {  // an effector may write the same reply several times
     warn(useless_, "a reply was dropped: its call is over, or there was none of that number");
@@ -75,30 +74,24 @@ void ServiceServer::progress() {
 }
 
 void ServiceServer::take_requests() {
-  for (ServiceEnds::Taken& one : ends_->take()) {
-    auto client = ends_->client_of(one.writer);
-    const auto header = client ? take_header(one.message) : std::nullopt;
-    if (!header) {
-      warn(foreign_,
-           "a request was dropped: its client is not one of rmw_cyclonedds_cpp. Start it with "
-           "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
-    } else if (waiting_.size() >= most_waiting) {
+  ServiceEnds::Requests requests = ends_->take_requests();
+  for (; requests.foreign > 0; --requests.foreign)
+    warn(foreign_,
+         "a request was dropped: its client is not one of rmw_cyclonedds_cpp. Start it with "
+         "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
+  for (ServiceEnds::Request& one : requests.all) {
+    if (waiting_.size() >= most_waiting)
       warn(crowded_, "a request was dropped: too many wait");
-    } else {
-      waiting_.push_back(
-          Waiting{*header, *std::move(client), one.writer, Clock::now() + timeout_, std::move(one.message)});
-    }
+    else
+      waiting_.push_back(Waiting{std::move(one.asker), Clock::now() + timeout_, std::move(one.message)});
   }
 }
 
-/// The writer of replies may not have found the client of a request yet.
 void ServiceServer::send_reply() {
-  const bool hears = ends_->hears(current_->client);
-  if (!hears && ends_->is_there(current_->writer)) return;
-  if (hears)
-    refused_ = !ends_->write(reply_);
-  else
-    warn(unheard_, "a reply was dropped: its client has gone");
+  const ServiceEnds::Sending sending = ends_->send_reply(current_->asker, reply_);
+  if (sending == ServiceEnds::Sending::not_yet) return;
+  refused_ = sending == ServiceEnds::Sending::refused;
+  if (sending == ServiceEnds::Sending::gone) warn(unheard_, "a reply was dropped: its client has gone");
   current_.reset();
   reply_.clear();
 }

@@ -4,10 +4,8 @@
 #include <cstdint>
 #include <deque>
 #include <optional>
-#include <string>
 #include <vector>
 
-#include "ros2/codec/request_header.hpp"
 #include "ros2/dds/service_ends.hpp"
 
 namespace tessera::ros2 {
@@ -38,9 +36,7 @@ class ServiceServer : public SharedService {
  private:
   using Instant = std::chrono::steady_clock::time_point;
   struct Waiting {
-    RequestHeader header{};
-    std::string client{};
-    dds_instance_handle_t writer = 0;
+    ServiceEnds::Asker asker{};
     Instant until{};
     std::vector<std::byte> message{};
   };

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <string_view>
+#include <utility>
 
 #include "ros2/dds/prepared.hpp"
 #include "ros2/naming/names.hpp"
@@ -44,7 +46,42 @@ ServiceEnds::ServiceEnds(const ServiceSetup& setup) {
   writer_.emplace(setup.is_client ? requests : replies, /*writes=*/true);
 }
 
-bool ServiceEnds::write(std::span<const std::byte> message) { return writer_->write(message); }
+std::optional<std::int64_t> ServiceEnds::send_request(std::vector<std::byte> request) {
+  put_header({writer_->identity(), ++newest_request_}, request);
+  return writer_->write(request) ? std::optional(newest_request_) : std::nullopt;
+}
+
+ServiceEnds::Replies ServiceEnds::take_replies() {
+  Replies replies;
+  for (Taken& one : take()) {
+    const auto header = take_header(one.message);
+    if (!header)
+      ++replies.strange;
+    else if (header->client == writer_->identity())  // all clients get all replies
+      replies.ours.push_back({header->sequence, std::move(one.message)});
+  }
+  return replies;
+}
+
+ServiceEnds::Requests ServiceEnds::take_requests() {
+  Requests requests;
+  for (Taken& one : take()) {
+    auto client = client_of(one.writer);
+    const auto header = client ? take_header(one.message) : std::nullopt;
+    if (header)
+      requests.all.push_back({{*header, *std::move(client), one.writer}, std::move(one.message)});
+    else
+      ++requests.foreign;
+  }
+  return requests;
+}
+
+/// The writer of replies may not have found the client of a request yet.
+ServiceEnds::Sending ServiceEnds::send_reply(const Asker& asker, std::vector<std::byte> reply) {
+  if (!hears(asker.client)) return is_there(asker.writer) ? Sending::not_yet : Sending::gone;
+  put_header(asker.header, reply);
+  return writer_->write(reply) ? Sending::sent : Sending::refused;
+}
 
 std::vector<ServiceEnds::Taken> ServiceEnds::take() const {
   std::vector<Taken> taken;
@@ -88,21 +125,10 @@ bool ServiceEnds::hears(const std::string& client) const {
   });
 }
 
-void SharedService::use_timeout(Duration timeout) {
-  const std::lock_guard lock(mutex_);
-  if (timeout > Duration::zero()) timeout_ = timeout;
-}
-
-void SharedService::open() {
-  const std::lock_guard lock(mutex_);
-  if (!ends_) ends_.emplace(setup_);
-  ++users_;
-}
-
-void SharedService::warn(std::uint64_t& count, const char* text) const {
+void warn_of(const ServiceSetup& setup, std::uint64_t& count, const char* text) {
   if (!is_told(++count)) return;
-  std::fprintf(stderr, "warning: %s: service %s: %s (%llu until now)\n", setup_.endpoint.path.c_str(),
-               setup_.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
+  std::fprintf(stderr, "warning: %s: %s %s: %s (%llu until now)\n", setup.endpoint.path.c_str(), setup.kind,
+               setup.endpoint.topic.c_str(), text, static_cast<unsigned long long>(count));
 }
 
 }  // namespace tessera::ros2

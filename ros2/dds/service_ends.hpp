@@ -7,11 +7,11 @@
 #include <memory>
 #include <mutex>
 #include <optional>
-#include <span>
 #include <string>
 #include <tuple>
 #include <vector>
 
+#include "ros2/codec/request_header.hpp"
 #include "ros2/dds/endpoint.hpp"
 
 namespace tessera::ros2 {
@@ -26,7 +26,10 @@ struct ServiceSetup {
   std::string type;        ///< "std_srvs/srv/SetBool"
   bool is_client = false;
   Duration timeout{};
+  const char* kind = "service";  ///< for messages: "service", "action"
 };
+/// Counts an event and prints a warning the 1st, 10th, 100th time and so on.
+void warn_of(const ServiceSetup& setup, std::uint64_t& count, const char* text);
 
 /// The two endpoints of a client or server, as rmw_cyclonedds_cpp makes them: their user data identifies them
 /// ("clientid=...;", "serviceid=...;").
@@ -40,16 +43,47 @@ class ServiceEnds {
   /// Throws std::runtime_error.
   explicit ServiceEnds(const ServiceSetup& setup);
 
-  [[nodiscard]] bool write(std::span<const std::byte> message);
   /// Whether all matched readers have received everything within this time.
   [[nodiscard]] bool await_receipt(Duration timeout) const { return writer_->await_receipt(timeout); }
-  struct Taken {
-    std::vector<std::byte> message;
+
+  /// For a client: sends a request, with encapsulation and without a header. Gives its number, which its reply
+  /// has, too. nullopt: DDS refused.
+  [[nodiscard]] std::optional<std::int64_t> send_request(std::vector<std::byte> request);
+  struct Reply {
+    std::int64_t number = 0;  ///< of its request
+    std::vector<std::byte> message{};
+  };
+  struct Replies {
+    std::vector<Reply> ours{};  ///< the oldest first; those to other clients are left out
+    std::size_t strange = 0;    ///< without a header
+  };
+  /// For a client: what came since the last call.
+  [[nodiscard]] Replies take_replies();
+
+  /// The origin of a request.
+  struct Asker {
+    RequestHeader header{};
+    std::string client{};
     dds_instance_handle_t writer = 0;
   };
-  /// The messages since the last call, the oldest first.
-  [[nodiscard]] std::vector<Taken> take() const;
-  [[nodiscard]] std::uint64_t identity() const { return writer_->identity(); }
+  struct Request {
+    Asker asker{};
+    std::vector<std::byte> message{};
+  };
+  struct Requests {
+    std::vector<Request> all{};  ///< the oldest first
+    std::size_t foreign = 0;     ///< of clients of another kind, or without a header
+  };
+  /// For a server: what came since the last call.
+  [[nodiscard]] Requests take_requests();
+  enum class Sending : std::uint8_t {
+    sent,
+    not_yet,  ///< the client exists, and does not hear us yet
+    gone,     ///< the client has left
+    refused   ///< by DDS
+  };
+  /// For a server: sends a reply, with encapsulation and without a header, if the client hears it.
+  [[nodiscard]] Sending send_reply(const Asker& asker, std::vector<std::byte> reply);
 
   /// For a client: the number of servers that receive a request and can reply to us.
   struct Servers {
@@ -59,42 +93,59 @@ class ServiceEnds {
   [[nodiscard]] Servers servers() const;
   /// For a server: the number of other servers that were found since the last call.
   [[nodiscard]] std::size_t new_other_servers() { return writer_->new_other_writers().size(); }
-  /// For a server: the client with that writer, which may have left; nullopt: it is no client of this kind.
+
+ private:
+  struct Taken {
+    std::vector<std::byte> message;
+    dds_instance_handle_t writer = 0;
+  };
+  /// The messages since the last call, the oldest first.
+  [[nodiscard]] std::vector<Taken> take() const;
+  /// The client with that writer, which may have left; nullopt: it is no client of this kind.
   [[nodiscard]] std::optional<std::string> client_of(dds_instance_handle_t writer) const;
   /// Whether that client still exists.
   [[nodiscard]] bool is_there(dds_instance_handle_t writer) const;
   /// Whether that client receives a reply.
   [[nodiscard]] bool hears(const std::string& client) const;
 
- private:
   std::optional<Endpoint> writer_, reader_;
+  std::int64_t newest_request_ = 0;
 };
 
-/// The common part of a client and a server: the drivers of a service share one.
+/// One side of a service or action, which its drivers share. Ends: its endpoints, made of a ServiceSetup.
 ///
 /// Threads: any.
-class SharedService {
+template <class Ends>
+class Shared {
  public:
   /// Zero keeps the present timeout.
-  void use_timeout(Duration timeout);
-  /// Opens the service; for the second driver of it, it is open already. Throws std::runtime_error.
-  void open();
+  void use_timeout(Duration timeout) {
+    const std::lock_guard lock(mutex_);
+    if (timeout > Duration::zero()) timeout_ = timeout;
+  }
+  /// Opens it; for the second driver, it is open already. Throws std::runtime_error.
+  void open() {
+    const std::lock_guard lock(mutex_);
+    if (!ends_) ends_.emplace(setup_);
+    ++users_;
+  }
 
  protected:
-  SharedService(const ServiceSetup& setup, Duration timeout) : timeout_(timeout), setup_(setup) {}
-  /// Whether the driver that closes the service is the last one. Precondition: the mutex is locked.
+  Shared(const ServiceSetup& setup, Duration timeout) : timeout_(timeout), setup_(setup) {}
+  /// Whether the driver that closes it is the last one. Precondition: the mutex is locked.
   [[nodiscard]] bool is_last_to_close() { return users_ > 0 && --users_ == 0 && ends_; }
   /// Prints a warning the first times.
-  void warn(std::uint64_t& count, const char* text) const;
+  void warn(std::uint64_t& count, const char* text) const { warn_of(setup_, count, text); }
 
   std::mutex mutex_;
   Duration timeout_;
-  std::optional<ServiceEnds> ends_;
+  std::optional<Ends> ends_;
 
  private:
   const ServiceSetup setup_;
   int users_ = 0;
 };
+using SharedService = Shared<ServiceEnds>;
 
 /// The object that the drivers of that service and role share in an agent of this process.
 template <class Service>

@@ -231,6 +231,34 @@ bool is_text(std::string_view text, std::string_view file, std::vector<Mistake>&
   return false;
 }
 
+/// A part of a file, and its first line, counted from 1.
+struct Part {
+  std::string_view text;
+  std::size_t line = 1;
+};
+
+/// The parts of a file that lines of three dashes separate; at most `most`, the last of which has the rest.
+std::vector<Part> parts_between_dashes(std::string_view text, std::size_t most) {
+  std::vector<Part> parts{{text}};
+  std::size_t line = 1, at = 0, begin = 0;
+  while (at < text.size() && parts.size() < most) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const bool dashes = trimmed(without_comment(text.substr(at, end - at))) == "---";
+    if (dashes) parts.back().text = text.substr(begin, at - begin);
+    at = std::min(end + 1, text.size());
+    ++line;
+    if (!dashes) continue;
+    begin = at;
+    parts.push_back({text.substr(begin), line});
+  }
+  return parts;
+}
+
+std::optional<Structure> read_part(std::string_view name, const char* ending, const Part& part,
+                                   std::string_view file, std::vector<Mistake>& mistakes) {
+  return MessageReader(std::string(name) + ending, file, mistakes).read(part.text, part.line);
+}
+
 }  // namespace
 
 std::string Mistake::shown() const {
@@ -249,22 +277,31 @@ std::optional<Structure> parse_message(std::string_view name, std::string_view t
 std::optional<Service> parse_service(std::string_view name, std::string_view text, std::string_view file,
                                      std::vector<Mistake>& mistakes) {
   if (!is_text(text, file, mistakes)) return std::nullopt;
-  std::size_t line = 1, at = 0;
-  while (at < text.size()) {
-    const std::size_t end = std::min(text.find('\n', at), text.size());
-    if (trimmed(without_comment(text.substr(at, end - at))) == "---") {
-      const std::string base(name);
-      auto request = MessageReader(base + "_Request", file, mistakes).read(text.substr(0, at), 1);
-      auto response = MessageReader(base + "_Response", file, mistakes)
-                          .read(text.substr(std::min(end + 1, text.size())), line + 1);
-      if (!request || !response) return std::nullopt;
-      return Service{std::move(*request), std::move(*response)};
-    }
-    at = end + 1;
-    ++line;
+  const auto parts = parts_between_dashes(text, 2);
+  if (parts.size() != 2) {
+    mistakes.push_back({std::string(file), 0, "a service needs a line --- between request and response"});
+    return std::nullopt;
   }
-  mistakes.push_back({std::string(file), 0, "a service needs a line --- between request and response"});
-  return std::nullopt;
+  auto request = read_part(name, "_Request", parts[0], file, mistakes);
+  auto response = read_part(name, "_Response", parts[1], file, mistakes);
+  if (!request || !response) return std::nullopt;
+  return Service{std::move(*request), std::move(*response)};
+}
+
+std::optional<Action> parse_action(std::string_view name, std::string_view text, std::string_view file,
+                                   std::vector<Mistake>& mistakes) {
+  if (!is_text(text, file, mistakes)) return std::nullopt;
+  const auto parts = parts_between_dashes(text, 3);
+  if (parts.size() != 3) {
+    mistakes.push_back(
+        {std::string(file), 0, "an action needs two lines ---: behind the goal, and behind the result"});
+    return std::nullopt;
+  }
+  auto goal = read_part(name, "_Goal", parts[0], file, mistakes);
+  auto result = read_part(name, "_Result", parts[1], file, mistakes);
+  auto feedback = read_part(name, "_Feedback", parts[2], file, mistakes);
+  if (!goal || !result || !feedback) return std::nullopt;
+  return Action{std::move(*goal), std::move(*result), std::move(*feedback)};
 }
 
 }  // namespace tessera::ros2

@@ -36,4 +36,11 @@ struct Service {
 [[nodiscard]] std::optional<Service> parse_service(std::string_view name, std::string_view text,
                                                    std::string_view file, std::vector<Mistake>& mistakes);
 
+struct Action {
+  Structure goal, result, feedback;  ///< "nav2_msgs/action/NavigateToPose_Goal", "..._Result", "..._Feedback"
+};
+/// Reads a .action file: goal, result and feedback, with lines of three dashes between them.
+[[nodiscard]] std::optional<Action> parse_action(std::string_view name, std::string_view text,
+                                                 std::string_view file, std::vector<Mistake>& mistakes);
+
 }  // namespace tessera::ros2

@@ -1,6 +1,7 @@
 #include "ros2/definitions/resolver.hpp"
 
 #include <algorithm>
+#include <array>
 #include <fstream>
 #include <functional>
 #include <iterator>
@@ -23,6 +24,19 @@ const std::string bundle_separator(80, '=');
 std::string short_name(std::string name) {
   if (const std::size_t at = name.find("/msg/"); at != std::string::npos) name.erase(at, 4);
   return name;
+}
+
+/// A kind of definition: the name of its folder, which is the ending of its files, too, and its name in texts.
+struct Kind {
+  const char* ending;
+  const char* word;
+  bool operator==(const Kind&) const = default;
+};
+constexpr std::array kinds =
+    std::to_array<Kind>({{"msg", "message"}, {"srv", "service"}, {"action", "action"}});
+
+const Kind& kind_of(const std::string& name) {
+  return kinds[is_action_type(name) ? 2 : is_service_type(name) ? 1 : 0];
 }
 
 class Resolver {
@@ -55,6 +69,31 @@ class Resolver {
     return service;
   }
 
+  std::optional<ResolvedAction> resolve_action(const std::string& name) {
+    const auto text = definitions_.find(name);
+    if (!text) {
+      unknown(name, "");
+      return std::nullopt;
+    }
+    auto parsed = parse_action(name, text->text, text->file, mistakes_);
+    if (!parsed) return std::nullopt;
+    // The two parts get names of messages, as a bundle of definitions needs them.
+    const std::string base = name.substr(name.rfind('/') + 1);
+    const std::string package = name.substr(0, name.find('/'));
+    const auto add = [&](const std::string& ending, Structure part) {
+      return complete(package + "/msg/" + base + ending, std::move(part), text->file) != nullptr;
+    };
+    const bool has_feedback = add("_Feedback", std::move(parsed->feedback));
+    const bool has_result = add("_Result", std::move(parsed->result));
+    ResolvedAction action{complete(goal_type(name), std::move(parsed->goal), text->file), nullptr};
+    if (!has_feedback || !has_result || action.goal == nullptr) return std::nullopt;
+    auto progress =
+        parse_message(name, base + "_Feedback feedback\n" + base + "_Result result\n", text->file, mistakes_);
+    if (progress) action.progress = complete(progress_type(name), std::move(*progress), text->file);
+    if (action.progress == nullptr) return std::nullopt;
+    return action;
+  }
+
  private:
   /// Looks up the messages that it uses.
   std::shared_ptr<const Structure> complete(const std::string& name, Structure parsed,
@@ -77,18 +116,14 @@ class Resolver {
   }
 
   std::shared_ptr<const Structure> unknown(const std::string& name, const std::string& used_by) {
-    const bool service = is_service_type(name);
+    const Kind& kind = kind_of(name);
     std::vector<std::string> names;
     for (const std::string& one : definitions_.names())
-      if (is_service_type(one) == service) names.push_back(short_name(one));
+      if (kind_of(one) == kind) names.push_back(short_name(one));
     Hint hint = did_you_mean(short_name(name), names);
     if (hint.empty())
-      hint =
-          "write its definition into msg/" + name + (service ? ".srv" : ".msg") + " beside the specification";
-    return wrong(
-        used_by,
-        std::string("there is no ") + (service ? "service" : "message") + " '" + short_name(name) + "'",
-        hint);
+      hint = "write its definition into msg/" + name + "." + kind.ending + " beside the specification";
+    return wrong(used_by, std::string("there is no ") + kind.word + " '" + short_name(name) + "'", hint);
   }
 
   const Definitions& definitions_;
@@ -101,7 +136,7 @@ class Resolver {
 
 std::optional<DefinitionFolders::Text> DefinitionFolders::find(const std::string& name) const {
   for (const fs::path& folder : folders_) {
-    const fs::path file = folder / (name + (is_service_type(name) ? ".srv" : ".msg"));
+    const fs::path file = folder / (name + "." + kind_of(name).ending);
     std::error_code ignored;
     if (!fs::is_regular_file(file, ignored)) continue;
     std::ifstream stream(file, std::ios::binary);
@@ -115,10 +150,11 @@ std::vector<std::string> DefinitionFolders::names() const {
   std::error_code ignored;
   for (const fs::path& folder : folders_)
     for (const auto& package : fs::directory_iterator(folder, ignored))
-      for (const std::string kind : {"msg", "srv"})
-        for (const auto& file : fs::directory_iterator(package.path() / kind, ignored))
-          if (file.path().extension() == "." + kind)
-            found.insert(package.path().filename().string() + "/" + kind + "/" + file.path().stem().string());
+      for (const auto& [ending, word] : kinds)
+        for (const auto& file : fs::directory_iterator(package.path() / ending, ignored))
+          if (file.path().extension() == std::string(".") + ending)
+            found.insert(package.path().filename().string() + "/" + ending + "/" +
+                         file.path().stem().string());
   return {found.begin(), found.end()};
 }
 
@@ -157,6 +193,11 @@ std::shared_ptr<const Structure> resolve(const std::string& name, const Definiti
 std::optional<ResolvedService> resolve_service(const std::string& name, const Definitions& definitions,
                                                std::vector<Mistake>& mistakes) {
   return Resolver(definitions, mistakes).resolve_service(name);
+}
+
+std::optional<ResolvedAction> resolve_action(const std::string& name, const Definitions& definitions,
+                                             std::vector<Mistake>& mistakes) {
+  return Resolver(definitions, mistakes).resolve_action(name);
 }
 
 std::string bundle_of(const Structure& message) {

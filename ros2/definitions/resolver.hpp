@@ -19,13 +19,14 @@ class Definitions {
     std::string text, file;
   };
   virtual ~Definitions() = default;
-  /// name: "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool". nullopt: there is no such definition.
+  /// name: "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", "nav2_msgs/action/NavigateToPose". nullopt: there is no such definition.
   [[nodiscard]] virtual std::optional<Text> find(const std::string& name) const = 0;
   /// All names, for hints.
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
 };
 
-/// Folders with PACKAGE/msg/NAME.msg and PACKAGE/srv/NAME.srv; the first folder that has a file wins.
+/// Folders with PACKAGE/msg/NAME.msg, PACKAGE/srv/NAME.srv and PACKAGE/action/NAME.action; the first folder
+/// that has a file wins.
 class DefinitionFolders : public Definitions {
  public:
   explicit DefinitionFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
@@ -63,6 +64,16 @@ struct ResolvedService {
 [[nodiscard]] std::optional<ResolvedService> resolve_service(const std::string& name,
                                                              const Definitions& definitions,
                                                              std::vector<Mistake>& mistakes);
+
+/// The messages of an action, "nav2_msgs/action/NavigateToPose", as buffers have them.
+struct ResolvedAction {
+  std::shared_ptr<const Structure> goal;
+  /// Two fields, `feedback` and `result`, because one buffer takes both. Such a message exists nowhere else.
+  std::shared_ptr<const Structure> progress;
+};
+[[nodiscard]] std::optional<ResolvedAction> resolve_action(const std::string& name,
+                                                           const Definitions& definitions,
+                                                           std::vector<Mistake>& mistakes);
 
 /// The text of DefinitionBundle.
 [[nodiscard]] std::string bundle_of(const Structure& message);

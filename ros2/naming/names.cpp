@@ -26,6 +26,15 @@ bool is_name(std::string_view part) {
          std::ranges::all_of(part, [](char c) { return is_letter(c) || is_digit(c) || c == '_'; });
 }
 
+/// PACKAGE, the folder and NAME.
+std::optional<std::string> name_in(std::string_view folder, std::string_view written) {
+  const std::size_t at = written.find(folder);
+  if (at == std::string_view::npos || !is_name(written.substr(0, at)) ||
+      !is_name(written.substr(at + folder.size())))
+    return std::nullopt;
+  return std::string(written);
+}
+
 std::string_view without_blanks(std::string_view text) {
   while (text.starts_with(' ')) text.remove_prefix(1);
   while (text.ends_with(' ')) text.remove_suffix(1);
@@ -93,16 +102,27 @@ std::string dds_reply_name(std::string_view service) { return "rr" + std::string
 std::string request_type(std::string_view service_type) { return std::string(service_type) + "_Request"; }
 std::string response_type(std::string_view service_type) { return std::string(service_type) + "_Response"; }
 
+std::string goal_type(std::string_view action_type) { return std::string(action_type) + "_Goal"; }
+std::string progress_type(std::string_view action_type) { return std::string(action_type); }
+
+ActionNames names_of_action(std::string_view action, std::string_view action_type) {
+  const std::string name = std::string(action) + "/_action/", type(action_type);
+  return {name + "send_goal",        name + "get_result",
+          name + "cancel_goal",      type + "_SendGoal",
+          type + "_GetResult",       "action_msgs/srv/CancelGoal",
+          name + "feedback",         name + "status",
+          type + "_FeedbackMessage", "action_msgs/msg/GoalStatusArray"};
+}
+
 bool is_service_type(std::string_view type) { return type.find(service_folder) != std::string_view::npos; }
 
 bool is_action_type(std::string_view type) { return type.find(action_folder) != std::string_view::npos; }
 
 std::optional<std::string> full_service_name(std::string_view written) {
-  const std::size_t folder = written.find(service_folder);
-  if (folder == std::string_view::npos || !is_name(written.substr(0, folder)) ||
-      !is_name(written.substr(folder + service_folder.size())))
-    return std::nullopt;
-  return std::string(written);
+  return name_in(service_folder, written);
+}
+std::optional<std::string> full_action_name(std::string_view written) {
+  return name_in(action_folder, written);
 }
 
 std::optional<std::string> full_message_name(std::string_view written) {

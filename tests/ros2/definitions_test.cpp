@@ -150,5 +150,51 @@ TEST(Names, AreThoseOfRos2) {
   EXPECT_FALSE(parse_qos("depth 0", error).has_value());
 }
 
+TEST(Definitions, ActionsHaveThreeParts) {
+  const DefinitionFolders folders({std::string(TESSERA_SOURCE_DIR) + "/share/tessera/ros2"});
+  std::vector<Mistake> mistakes;
+  const auto action = resolve_action("nav2_msgs/action/NavigateToPose", folders, mistakes);
+  for (const Mistake& one : mistakes) ADD_FAILURE() << one.shown();
+  ASSERT_TRUE(action.has_value());
+  EXPECT_EQ(action->goal->name, "nav2_msgs/action/NavigateToPose_Goal");
+  EXPECT_EQ(action->goal->find("pose")->type.refers, "geometry_msgs/msg/PoseStamped");
+  ASSERT_EQ(action->progress->fields.size(), 2U);
+  EXPECT_NE(action->progress->find("feedback")->type.structure->find("distance_remaining"), nullptr);
+  EXPECT_EQ(action->progress->find("result")->type.structure->fields.size(), 1U);
+  // A bundle of it is read as it was written.
+  const std::string text = bundle_of(*action->progress);
+  const std::string name = "nav2_msgs/action/NavigateToPose";
+  const auto again = resolve(name, DefinitionBundle(name, text), mistakes);
+  ASSERT_NE(again, nullptr) << (mistakes.empty() ? "" : mistakes.front().shown());
+  EXPECT_EQ(bundle_of(*again), text);
+}
+
+TEST(Definitions, MistakesInActionsHaveTheirLine) {
+  std::vector<Mistake> mistakes;
+  EXPECT_FALSE(parse_action("pkg/action/Go", "int32 a\n---\nint32 b\n", "Go.action", mistakes));
+  EXPECT_FALSE(parse_action("pkg/action/Go", "int32 a\n---\nint3 b\n---\nint32 c\n", "Go.action", mistakes));
+  EXPECT_FALSE(parse_action("pkg/action/Go", "---\n---\n---\n", "Go.action", mistakes));
+  EXPECT_TRUE(parse_action("pkg/action/Go", "# nothing\n---\n--- # nor here\n", "Go.action", mistakes));
+  std::string all;
+  for (const Mistake& one : mistakes) all += one.shown() + "\n";
+  EXPECT_EQ(all,
+            "Go.action: an action needs two lines ---: behind the goal, and behind the result\n"
+            "Go.action:3: unknown type 'int3'; did you mean 'int8'?\n"
+            "Go.action:3: a field needs a name: '---'\n");
+}
+
+TEST(Definitions, ActionsHaveThreeServicesAndTwoTopics) {
+  const ActionNames names = names_of_action("/go", "pkg/action/Go");
+  EXPECT_EQ(dds_request_name(names.send_goal), "rq/go/_action/send_goalRequest");
+  EXPECT_EQ(dds_type_name(request_type(names.send_goal_type)), "pkg::action::dds_::Go_SendGoal_Request_");
+  EXPECT_EQ(dds_reply_name(names.get_result), "rr/go/_action/get_resultReply");
+  EXPECT_EQ(dds_type_name(response_type(names.cancel_goal_type)),
+            "action_msgs::srv::dds_::CancelGoal_Response_");
+  EXPECT_EQ(dds_topic_name(names.feedback), "rt/go/_action/feedback");
+  EXPECT_EQ(dds_type_name(names.feedback_type), "pkg::action::dds_::Go_FeedbackMessage_");
+  EXPECT_EQ(dds_topic_name(names.status), "rt/go/_action/status");
+  EXPECT_EQ(dds_type_name(names.status_type), "action_msgs::msg::dds_::GoalStatusArray_");
+}
+
 }  // namespace
 }  // namespace tessera::ros2

@@ -18,6 +18,8 @@ static_assert(std::endian::native == std::endian::little, "the codec writes numb
 
 /// Bytes before the data: the representation, and how much padding follows the data.
 inline constexpr std::size_t encapsulation_size = 4;
+/// Messages without fields have one byte.
+inline constexpr std::uint8_t empty_message = 0;
 
 /// Reads the data behind the encapsulation header. After the first failed read, `ok` stays false, and reads
 /// give zeros.

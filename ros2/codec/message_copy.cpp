@@ -7,9 +7,6 @@
 namespace tessera::ros2 {
 namespace {
 
-/// Messages without fields have one byte.
-constexpr std::uint8_t empty_message = 0;
-
 void copy_elements(const Type& type, std::size_t count, CdrReader& from, CdrWriter& to) {
   if (type.primitive == Primitive::structure) {
     for (std::size_t index = 0; index < count && from.ok(); ++index) copy_message(*type.structure, from, to);

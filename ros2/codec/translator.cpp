@@ -9,9 +9,6 @@
 namespace tessera::ros2 {
 namespace {
 
-/// Messages without fields have one byte.
-constexpr std::uint8_t empty_message = 0;
-
 /// The array of the buffer whose elements these are; empty: it is not known.
 std::string array_of(const Translator::Step& step, const std::vector<Translator::Block>& blocks) {
   if (step.length) return blocks[*step.length].path;

@@ -101,6 +101,10 @@ TEST(Definitions, ThatComeWithTesseraAreWhole) {
       EXPECT_TRUE(resolve_service(name, folders, mistakes).has_value()) << name;
       continue;
     }
+    if (is_action_type(name)) {
+      EXPECT_TRUE(resolve_action(name, folders, mistakes).has_value()) << name;
+      continue;
+    }
     const auto message = resolve(name, folders, mistakes);
     for (const Mistake& one : mistakes) ADD_FAILURE() << one.shown();
     ASSERT_NE(message, nullptr) << name;

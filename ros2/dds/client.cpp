@@ -46,7 +46,7 @@ bool ServiceClient::call(std::uint64_t number, std::vector<std::byte> request) {
     if (pending_) finish(CallOutcome::replaced);
     last_ = number;
     newest_.reset();
-    pending_ = Pending{number, 0, std::move(request), Clock::now() + timeout_, false};
+    pending_ = Pending{number, 0, std::move(request), Clock::now() + timeout_};
   }
   progress();
   return !refused_;
@@ -107,10 +107,13 @@ void ServiceClient::take_replies() {
 
 void ServiceClient::try_to_send() {
   const ServiceEnds::Servers servers = ends_->servers();
-  if (servers.foreign)
-    return warn(foreign_,
-                "no request is sent: a server is there that would misunderstand it. Start it with "
-                "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
+  if (servers.foreign) {
+    if (!std::exchange(pending_->told, true))
+      warn(foreign_,
+           "no request is sent: a server is there that would misunderstand it. Start it with "
+           "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
+    return;
+  }
   if (servers.ready == 0) return;
   if (servers.ready > 1) warn(several_, "several servers get this request, and the first reply counts");
   const auto sequence = ends_->send_request(std::move(pending_->request));

@@ -55,6 +55,7 @@ class ServiceClient : public SharedService {
     std::vector<std::byte> request{};
     std::chrono::steady_clock::time_point until{};
     bool sent = false;
+    bool told = false;  ///< whether a warning said why it is not sent
   };
   void progress();
   void take_replies();

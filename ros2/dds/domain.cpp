@@ -5,12 +5,10 @@
 #include <cstdlib>
 #include <cstring>
 #include <map>
-#include <set>
 #include <stdexcept>
+#include <vector>
 
 #include "network/dds/middleware_log.hpp"
-#include "ros2/codec/cdr.hpp"
-#include "ros2/dds/blob.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -54,19 +52,6 @@ dds_entity_t checked(const std::string& what, dds_entity_t entity) {
   return entity;
 }
 
-/// DDS identifiers have 16 bytes. ROS 2 up to Humble sends 24.
-std::size_t bytes_of_identifier() {
-  const char* const distribution = std::getenv("ROS_DISTRO");
-  static const std::set<std::string_view> old{"dashing", "eloquent", "foxy", "galactic", "humble"};
-  return distribution != nullptr && old.contains(distribution) ? 24 : 16;
-}
-
-void put_identifier(CdrWriter& writer, dds_entity_t entity) {
-  dds_guid_t guid{};
-  static_cast<void>(dds_get_guid(entity, &guid));
-  std::memcpy(writer.numbers(1, bytes_of_identifier()), guid.v, sizeof guid.v);
-}
-
 }  // namespace
 
 bool is_loopback(const Network& network) {
@@ -84,6 +69,8 @@ std::string configuration_of(const Network& network) {
   text += std::string(" multicast=\"") + (multicast ? "default" : "false") + "\"/></Interfaces>";
   text += std::string("<AllowMulticast>") + (multicast ? "spdp" : "false") + "</AllowMulticast></General>";
   text += "<Discovery><ExternalDomainId>" + std::to_string(network.domain) + "</ExternalDomainId>";
+  // The default is about 8 s, in which a node that starts later, and announces itself once, finds nobody.
+  text += "<SPDPInterval>1s</SPDPInterval>";
   text +=
       "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers>";
   for (const std::string& peer : peers) text += "<Peer Address=\"" + peer + "\"/>";
@@ -100,10 +87,6 @@ std::uint32_t domain_of_environment() {
   throw std::runtime_error("ROS_DOMAIN_ID is '" + std::string(text) + "', and not a number from 0 to 232");
 }
 
-struct Participant::Announcing {
-  BlobTopic topic;
-};
-
 std::shared_ptr<Participant> Participant::of(const Network& network) {
   static std::mutex mutex;
   static std::map<Network, std::weak_ptr<Participant>> known;
@@ -115,17 +98,21 @@ std::shared_ptr<Participant> Participant::of(const Network& network) {
   return made;
 }
 
-Participant::Participant(const Network& network) : announcing_(std::make_unique<Announcing>()) {
+Participant::Participant(const Network& network) {
   try {
     open(network);
   } catch (...) {
+    graph_.reset();
     if (domain_ > 0) dds_delete(domain_);
     throw;
   }
 }
 
 /// Deleting the domain deletes all that is in it.
-Participant::~Participant() { dds_delete(domain_); }
+Participant::~Participant() {
+  graph_.reset();
+  dds_delete(domain_);
+}
 
 void Participant::open(const Network& network) {
   const std::string configuration = configuration_of(network);
@@ -137,29 +124,9 @@ void Participant::open(const Network& network) {
   dds_qos_t* const qos = dds_create_qos();
   dds_qset_userdata(qos, user_data, std::strlen(user_data));
   participant_ = dds_create_participant(number, qos, nullptr);
-  dds_reset_qos(qos);
-  checked("cannot take part in domain " + std::to_string(network.domain) + " of DDS", participant_);
-  announcing_->topic = create_blob_topic(participant_, "ros_discovery_info",
-                                         "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_");
-  checked("cannot make the topic ros_discovery_info", announcing_->topic.entity);
-  dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-  dds_qset_durability(qos, DDS_DURABILITY_TRANSIENT_LOCAL);
-  dds_qset_history(qos, DDS_HISTORY_KEEP_LAST, 1);
-  writer_ = dds_create_writer(participant_, announcing_->topic.entity, qos, nullptr);
   dds_delete_qos(qos);
-  checked("cannot write to ros_discovery_info", writer_);
-}
-
-void Participant::add(const std::string& node, dds_entity_t endpoint, bool writes) {
-  const std::lock_guard lock(mutex_);
-  endpoints_.push_back(Endpoint{node, endpoint, writes});
-  announce();
-}
-
-void Participant::remove(dds_entity_t endpoint) {
-  const std::lock_guard lock(mutex_);
-  std::erase_if(endpoints_, [&](const Endpoint& one) { return one.entity == endpoint; });
-  announce();
+  checked("cannot take part in domain " + std::to_string(network.domain) + " of DDS", participant_);
+  graph_.emplace(participant_);
 }
 
 std::string Participant::new_service_identity() {
@@ -170,29 +137,6 @@ std::string Participant::new_service_identity() {
   for (const unsigned char byte : guid.v)
     for (const unsigned half : {byte / 16U, byte % 16U}) identity += "0123456789abcdef"[half];
   return identity + "." + std::to_string(++services_);
-}
-
-/// rmw_dds_common/msg/ParticipantEntitiesInfo.
-void Participant::announce() {
-  std::map<std::string, std::vector<const Endpoint*>> nodes;
-  for (const Endpoint& one : endpoints_) nodes[one.node].push_back(&one);
-  std::vector<std::byte> message;
-  CdrWriter writer(message);
-  put_identifier(writer, participant_);
-  writer.length(static_cast<std::uint32_t>(nodes.size()));
-  for (const auto& [name, endpoints] : nodes) {
-    writer.text("/");
-    writer.text(name);
-    for (const bool writes : {false, true}) {
-      const auto belongs = [&](const Endpoint* one) { return one->writes == writes; };
-      writer.length(static_cast<std::uint32_t>(std::ranges::count_if(endpoints, belongs)));
-      for (const Endpoint* one : endpoints)
-        if (belongs(one)) put_identifier(writer, one->entity);
-    }
-  }
-  writer.finish();
-  // If this fails, other programs see fewer nodes; the topics work all the same.
-  static_cast<void>(write_blob(writer_, announcing_->topic, message));
 }
 
 }  // namespace tessera::ros2

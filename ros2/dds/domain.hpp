@@ -2,11 +2,14 @@
 
 #include <dds/dds.h>
 
+#include <atomic>
 #include <cstdint>
 #include <memory>
 #include <mutex>
+#include <optional>
 #include <string>
-#include <vector>
+
+#include "ros2/dds/graph.hpp"
 
 namespace tessera::ros2 {
 
@@ -29,8 +32,7 @@ struct Network {
 /// The domain of ROS_DOMAIN_ID, or 0. Throws std::runtime_error: the variable is no number from 0 to 232.
 [[nodiscard]] std::uint32_t domain_of_environment();
 
-/// A participant of DDS, shared by all drivers of this process with the same network. It tells ROS 2 the
-/// nodes, and the topics that they read and write.
+/// A participant of DDS, shared by all drivers of this process with the same network.
 ///
 /// Threads: any.
 class Participant {
@@ -42,26 +44,21 @@ class Participant {
   Participant& operator=(const Participant&) = delete;
 
   [[nodiscard]] dds_entity_t entity() const { return participant_; }
-  void add(const std::string& node, dds_entity_t endpoint, bool writes);
-  void remove(dds_entity_t endpoint);
+  /// The nodes of this process in this domain.
+  [[nodiscard]] Graph& graph() { return *graph_; }
+  /// Whether the advice about a missing other side was given.
+  [[nodiscard]] std::atomic<bool>& advised() const { return advised_; }
   /// A text that identifies the two endpoints of a client or server of a service as belonging together.
   [[nodiscard]] std::string new_service_identity();
 
  private:
-  struct Endpoint {
-    std::string node;
-    dds_entity_t entity;
-    bool writes;
-  };
   explicit Participant(const Network& network);
   void open(const Network& network);
-  void announce();
 
   std::mutex mutex_;
-  dds_entity_t domain_ = 0, participant_ = 0, writer_ = 0;
-  struct Announcing;
-  std::unique_ptr<Announcing> announcing_;
-  std::vector<Endpoint> endpoints_;
+  dds_entity_t domain_ = 0, participant_ = 0;
+  std::optional<Graph> graph_;
+  mutable std::atomic<bool> advised_{false};
   std::uint32_t services_ = 0;
 };
 

@@ -30,12 +30,14 @@ void await_other_side(const Endpoint& endpoint, const Prepared& prepared, const 
 class WatchedEndpoint {
  public:
   WatchedEndpoint(const EndpointSetup& setup, bool writes)
-      : endpoint_(setup, writes), watch_(setup, writes, OtherSideWatch::Clock::now()) {}
+      : endpoint_(setup, writes),
+        watch_(setup, writes, OtherSideWatch::Clock::now(), endpoint_.participant().advised()) {}
   [[nodiscard]] Endpoint* operator->() { return &endpoint_; }
   [[nodiscard]] const Endpoint& operator*() const { return endpoint_; }
   /// Prints a pending message. The call takes a microsecond, so every read and write may make it.
   void watch() {
-    if (const auto text = watch_.look(endpoint_.has_other_side(), OtherSideWatch::Clock::now()))
+    if (const auto text = watch_.look(endpoint_.has_other_side(), OtherSideWatch::Clock::now(),
+                                      [this] { return endpoint_.tell_of_misfits(); }))
       std::fprintf(stderr, "warning: %s\n", text->c_str());
   }
 

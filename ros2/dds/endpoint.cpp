@@ -8,30 +8,13 @@
 #include <thread>
 
 #include "network/dds/middleware_log.hpp"
+#include "ros2/dds/misfits.hpp"
 
 namespace tessera::ros2 {
 namespace {
 
 dds_duration_t dds_time_of(Duration duration) {
   return std::chrono::duration_cast<std::chrono::nanoseconds>(duration).count();
-}
-
-/// The ROS 2 names of the policies that can differ.
-const char* name_of_policy(std::uint32_t policy) {
-  switch (policy) {
-    case DDS_RELIABILITY_QOS_POLICY_ID:
-      return "reliability";
-    case DDS_DURABILITY_QOS_POLICY_ID:
-      return "durability";
-    case DDS_DEADLINE_QOS_POLICY_ID:
-      return "deadline";
-    case DDS_LIVELINESS_QOS_POLICY_ID:
-      return "liveliness";
-    case DDS_DATA_REPRESENTATION_QOS_POLICY_ID:
-      return "data representation";
-    default:
-      return "quality of service";
-  }
 }
 
 dds_qos_t* new_qos(const Qos& qos, const std::string& user_data) {
@@ -62,17 +45,10 @@ void tell_of_middleware() {
 
 }  // namespace
 
-void Endpoint::warn_of_qos(const ListenerState& state, std::uint32_t policy) {
-  std::fprintf(
-      stderr,
-      "warning: %s: a %s another %s of %s than ours, so that nothing passes; see `qos` in docs/use/ros2.md\n",
-      state.path.c_str(), state.writes ? "subscriber asks for" : "publisher offers", name_of_policy(policy),
-      state.topic.c_str());
-}
-
 Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     : participant_(Participant::of(setup.network)),
-      state_(new ListenerState{setup.path, setup.topic, writes, !writes && !setup.user_data.empty()}),
+      state_(new ListenerState{setup.path, setup.topic, setup.dds_topic, setup.dds_type,
+                               !writes && !setup.user_data.empty()}),
       writes_(writes),
       depth_(static_cast<std::size_t>(setup.qos.depth)) {
   topic_ = create_blob_topic(participant_->entity(), setup.dds_topic.c_str(), setup.dds_type.c_str());
@@ -81,12 +57,12 @@ Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
   dds_qos_t* const qos = new_qos(setup.qos, setup.user_data);
   dds_listener_t* const listener = dds_create_listener(state_.get());
   dds_lset_offered_incompatible_qos(
-      listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t status, void* state) {
-        warn_of_qos(*static_cast<const ListenerState*>(state), status.last_policy_id);
+      listener, [](dds_entity_t, const dds_offered_incompatible_qos_status_t, void* state) {
+        static_cast<ListenerState*>(state)->misfit = true;
       });
   dds_lset_requested_incompatible_qos(
-      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t status, void* state) {
-        warn_of_qos(*static_cast<const ListenerState*>(state), status.last_policy_id);
+      listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t, void* state) {
+        static_cast<ListenerState*>(state)->misfit = true;
       });
   if (state_->remembers)
     dds_lset_subscription_matched(
@@ -102,7 +78,7 @@ Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     dds_delete(topic_.entity);
     throw std::runtime_error("cannot use the topic " + setup.topic + ": " + dds_strretcode(entity_));
   }
-  participant_->add(setup.node, entity_, writes);
+  participant_->graph().add(setup.node, entity_, writes);
   if (writes && setup.sole_writer) look_for_other_writers(setup);
 }
 
@@ -122,7 +98,7 @@ std::vector<OtherWriters::Writer> Endpoint::new_other_writers() {
 
 Endpoint::~Endpoint() {
   other_writers_.reset();
-  participant_->remove(entity_);
+  participant_->graph().remove(entity_);
   dds_delete(entity_);
   dds_delete(topic_.entity);
 }
@@ -146,8 +122,21 @@ bool Endpoint::await_other_side(Duration timeout) const {
   return true;
 }
 
+bool Endpoint::tell_of_misfits() const {
+  const auto found =
+      misfits(participant_->entity(), entity_, writes_, state_->topic, state_->dds_topic, state_->dds_type);
+  for (const std::string& text : found) {
+    const std::lock_guard lock(state_->mutex);
+    if (!state_->told.insert(text).second) continue;
+    std::fprintf(stderr, "warning: %s: %s, so that nothing passes between them; see docs/use/ros2.md\n",
+                 state_->path.c_str(), text.c_str());
+  }
+  return !found.empty();
+}
+
 bool Endpoint::write(std::span<const std::byte> message) {
   tell_of_middleware();
+  tell_if_misfit();
   return write_blob(entity_, topic_, message) == DDS_RETCODE_OK;
 }
 
@@ -202,6 +191,7 @@ std::uint64_t Endpoint::identity() const {
 
 void Endpoint::take(void (*use)(void*, const TakenBlob&), void* context) const {
   tell_of_middleware();
+  tell_if_misfit();
   take_blobs(entity_, depth_, use, context);
 }
 

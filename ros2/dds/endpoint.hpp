@@ -1,9 +1,11 @@
 #pragma once
 
+#include <atomic>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <vector>
@@ -29,7 +31,7 @@ struct EndpointSetup {
 };
 
 /// A writer or reader of a ROS 2 topic. If the quality of service of the other side is incompatible with
-/// ours, a warning on standard error says so.
+/// ours, the next read or write prints a warning with the values of both sides, once for each difference.
 ///
 /// Threads: one at a time.
 class Endpoint {
@@ -64,19 +66,26 @@ class Endpoint {
   [[nodiscard]] std::vector<OtherWriters::Writer> new_other_writers();
   /// A number that no other writer or reader has.
   [[nodiscard]] std::uint64_t identity() const;
+  /// Prints why endpoints of the other side cannot be matched, as far as it was not printed yet. Whether there
+  /// is such an endpoint.
+  bool tell_of_misfits() const;
+  [[nodiscard]] const Participant& participant() const { return *participant_; }
 
  private:
   /// The state that listeners use; its address stays the same.
   struct ListenerState {
-    std::string path, topic;
-    bool writes;
-    bool remembers;  ///< whether it keeps the writers that were found
+    std::string path, topic, dds_topic, dds_type;
+    bool remembers;                   ///< whether it keeps the writers that were found
+    std::atomic<bool> misfit{false};  ///< an incompatible endpoint was found that nothing was printed about
     std::mutex mutex{};
     std::map<dds_instance_handle_t, std::string> found{};
+    std::set<std::string> told{};  ///< what was printed about misfits
   };
   static void remember(dds_entity_t reader, dds_instance_handle_t writer, ListenerState& state);
   void look_for_other_writers(const EndpointSetup& setup);
-  static void warn_of_qos(const ListenerState& state, std::uint32_t policy);
+  void tell_if_misfit() const {
+    if (state_->misfit.exchange(false)) static_cast<void>(tell_of_misfits());
+  }
 
   std::shared_ptr<Participant> participant_;
   std::unique_ptr<ListenerState> state_;

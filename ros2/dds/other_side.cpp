@@ -39,14 +39,17 @@ std::string advice_for(const Network& network) {
 
 }  // namespace
 
-OtherSideWatch::OtherSideWatch(const EndpointSetup& setup, bool writes, Clock::time_point now)
+OtherSideWatch::OtherSideWatch(const EndpointSetup& setup, bool writes, Clock::time_point now,
+                               std::atomic<bool>& advised)
     : path_(setup.path),
       what_(std::string(writes ? "subscribes to " : "publishes ") + setup.topic + " on interface " +
             setup.network.interface + " in domain " + std::to_string(setup.network.domain)),
       network_(setup.network),
+      advised_(advised),
       alone_since_(now) {}
 
-std::optional<std::string> OtherSideWatch::look(bool is_there, Clock::time_point now) {
+std::optional<std::string> OtherSideWatch::look(bool is_there, Clock::time_point now,
+                                                const std::function<bool()>& is_misfit) {
   if (is_there) {
     alone_since_.reset();
     if (!std::exchange(told_, false)) return std::nullopt;
@@ -55,7 +58,10 @@ std::optional<std::string> OtherSideWatch::look(bool is_there, Clock::time_point
   if (!alone_since_) alone_since_ = now;
   if (told_ || now - *alone_since_ < patience) return std::nullopt;
   told_ = true;
-  return path_ + ": nobody " + what_ + ": " + advice_for(network_);
+  if (is_misfit()) return std::nullopt;
+  std::string text = path_ + ": nobody " + what_;
+  if (!advised_.exchange(true)) text += ": " + advice_for(network_);
+  return text;
 }
 
 }  // namespace tessera::ros2

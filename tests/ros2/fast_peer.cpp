@@ -53,11 +53,12 @@ dds::Topic* Peer::topic(dds::TypeSupport& type, const std::string& name) {
 }
 
 dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& name, bool reliable,
-                                   const std::string& user_data) {
+                                   const std::string& user_data, bool transient_local) {
   dds::DataWriterQos qos;
   qos.user_data().data_vec({user_data.begin(), user_data.end()});
   qos.reliability().kind = reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
-  qos.durability().kind = dds::VOLATILE_DURABILITY_QOS;
+  qos.durability().kind =
+      transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
   qos.history().depth = 10;
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;

@@ -162,14 +162,16 @@ struct BareSetBoolRequest {
   }
 };
 
-/// The announcement of a participant with one node, which has one writer and no reader.
+/// The announcement of a participant with one node, which has one writer and no reader. The identifiers have
+/// 24 bytes up to ROS 2 Humble, and 16 since.
+template <std::size_t identifier_size>
 struct OneWriter {
   static constexpr const char* name = "rmw_dds_common::msg::dds_::ParticipantEntitiesInfo_";
-  std::array<std::uint8_t, 16> participant{};
-  std::uint32_t nodes = 0;
-  std::string node_namespace, node_name;
-  std::uint32_t readers = 0, writers = 0;
-  std::array<std::uint8_t, 16> writer{};
+  std::array<std::uint8_t, identifier_size> participant{};
+  std::uint32_t nodes = 1;
+  std::string node_namespace = "/", node_name{};
+  std::uint32_t readers = 0, writers = 1;
+  std::array<std::uint8_t, identifier_size> writer{};
   template <class Archive>
   void fields(Archive& all) {
     all(participant, nodes, node_namespace, node_name, readers, writers, writer);
@@ -235,8 +237,10 @@ class Peer {
   /// topic: "rt/cmd_vel".
   template <class Message>
   eprosima::fastdds::dds::DataWriter* writer(const std::string& topic, bool reliable = true,
-                                             const std::string& user_data = "") {
-    return make_writer(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable, user_data);
+                                             const std::string& user_data = "",
+                                             bool transient_local = false) {
+    return make_writer(eprosima::fastdds::dds::TypeSupport(new Type<Message>), topic, reliable, user_data,
+                       transient_local);
   }
   template <class Message>
   eprosima::fastdds::dds::DataReader* reader(const std::string& topic, bool transient_local = false,
@@ -260,7 +264,7 @@ class Peer {
  private:
   eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::TypeSupport type,
                                                   const std::string& topic, bool reliable,
-                                                  const std::string& user_data);
+                                                  const std::string& user_data, bool transient_local);
   eprosima::fastdds::dds::DataReader* make_reader(eprosima::fastdds::dds::TypeSupport type,
                                                   const std::string& topic, bool transient_local,
                                                   const std::string& user_data);

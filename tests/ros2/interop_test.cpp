@@ -376,36 +376,6 @@ TEST_F(WithFastDds, MovesAnArmWhoseJointsHaveAnotherOrder) {
   EXPECT_EQ(command->data, (std::vector<double>{1, 2, 3}));
 }
 
-TEST_F(WithFastDds, IsANodeForToolsOfRos2) {
-  auto* const nodes = peer.reader<fast::OneWriter>("ros_discovery_info", /*transient_local=*/true);
-  auto effector =
-      opened_effector(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
-  std::optional<fast::OneWriter> node;
-  ASSERT_TRUE(eventually([&] { return (node = fast::Peer::take<fast::OneWriter>(*nodes)).has_value(); }));
-  EXPECT_EQ(node->nodes, 1U);
-  EXPECT_EQ(node->node_namespace, "/");
-  EXPECT_EQ(node->node_name, "robot");
-  EXPECT_EQ(node->readers, 0U);
-  EXPECT_EQ(node->writers, 1U);
-  // Endpoints begin like their participant and end in what they are.
-  EXPECT_TRUE(std::equal(node->participant.begin(), node->participant.begin() + 12, node->writer.begin()));
-  EXPECT_NE(node->participant, node->writer);
-  EXPECT_EQ(node->participant.back(), 0xc1);
-}
-
-TEST_F(WithFastDds, TellsOfAPublisherWithAnotherReliability) {
-  const StderrText told;
-  auto* const writer = peer.writer<fast::Text>("rt/words", /*reliable=*/false);
-  auto ear = opened_receptor(binding<BoundedString<16>>("/words", "std_msgs/msg/String"));
-  fast::Text text{"unheard"};
-  EXPECT_TRUE(eventually([&] {
-    writer->write(&text);
-    return told.has("a publisher offers another reliability of /words than ours");
-  })) << told.now();
-  BoundedString<16> heard;
-  EXPECT_FALSE(read(*ear, heard));
-}
-
 TEST_F(WithFastDds, PublishesTheTimeOfASimulatedRunAndStampsItsMessagesWithIt) {
   setenv("ROS_DOMAIN_ID", std::to_string(test_domain()).c_str(), 1);
   EXPECT_GT(stamp_now().sec, 1'600'000'000) << "the system clock";

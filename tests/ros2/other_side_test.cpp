@@ -5,6 +5,7 @@
 #include <sched.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <functional>
 #include <string>
@@ -26,18 +27,30 @@ TEST(OtherSideWatch, TellsOnceOfNobodyAndOfWhoComes) {
   setup.topic = "/scan";
   setup.network = {.domain = 7, .interface = "eth0"};
   OtherSideWatch::Clock::time_point now{};
-  OtherSideWatch watch(setup, /*writes=*/false, now);
-  EXPECT_FALSE(watch.look(false, now += milliseconds(2900)));
+  std::atomic<bool> advised{false};
+  const auto fits = [] { return false; };
+  OtherSideWatch watch(setup, /*writes=*/false, now, advised);
+  EXPECT_FALSE(watch.look(false, now += milliseconds(2900), fits));
   EXPECT_EQ(
-      watch.look(false, now += milliseconds(200)),
+      watch.look(false, now += milliseconds(200), fits),
       "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7: is ROS_DOMAIN_ID the same at "
       "the other side, and does the network carry multicast (else name `peers`)?");
-  EXPECT_FALSE(watch.look(false, now += milliseconds(9000)));
-  EXPECT_EQ(watch.look(true, now),
+  EXPECT_FALSE(watch.look(false, now += milliseconds(9000), fits));
+  EXPECT_EQ(watch.look(true, now, fits),
             "robot.laser.scan: somebody publishes /scan on interface eth0 in domain 7");
-  EXPECT_FALSE(watch.look(true, now));
-  EXPECT_FALSE(watch.look(false, now += milliseconds(9000))) << "it has gone just now";
-  EXPECT_TRUE(watch.look(false, now += milliseconds(3100)));
+  EXPECT_FALSE(watch.look(true, now, fits));
+  EXPECT_FALSE(watch.look(false, now += milliseconds(9000), fits)) << "it has gone just now";
+  EXPECT_EQ(watch.look(false, now += milliseconds(3100), fits),
+            "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7")
+      << "the advice was given already";
+}
+
+TEST(OtherSideWatch, SaysNothingOfTheNetworkIfAnEndpointDoesNotFit) {
+  OtherSideWatch::Clock::time_point now{};
+  std::atomic<bool> advised{false};
+  OtherSideWatch watch(EndpointSetup{}, /*writes=*/true, now, advised);
+  EXPECT_FALSE(watch.look(false, now += milliseconds(3100), [] { return true; }));
+  EXPECT_FALSE(advised) << "another topic may need it";
 }
 
 /// Runs it in a network of its own, with lo and one more interface (address 10.91.0.1). false: none can be made.

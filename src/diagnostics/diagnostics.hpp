@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 #include <tuple>
+#include <utility>
 #include <vector>
 
 #include "diagnostics/sources.hpp"
@@ -57,6 +58,7 @@ class Diagnostics {
   /// Adds the diagnostics of an included file, which count its own lines; `before` as include() returned it.
   void adopt(const Diagnostics& included, std::uint32_t before);
 
+  void report(Diagnostic one) { add(std::move(one)); }
   void error(std::string code, Span span, std::string message, Hint hint = {});
   void warning(std::string code, Span span, std::string message, Hint hint = {});
   void note(std::string code, Span span, std::string message, Hint hint = {});

@@ -6,6 +6,7 @@
 #include "spec/behaviours/complete_lists.hpp"
 #include "spec/behaviours/defaults.hpp"
 #include "spec/behaviours/group_templates.hpp"
+#include "spec/behaviours/unused_templates.hpp"
 #include "spec/channels/channels.hpp"
 #include "spec/channels/models.hpp"
 #include "spec/channels/waits.hpp"
@@ -62,7 +63,7 @@ Model read_model(const Node& root, Diagnostics& out) {
   const SystemScope scope{types, model.parameters, on_error ? &*on_error : nullptr, &fleets,
                           &group_templates};
   const AgentGroups groups = read_agents(file.find("templates"), agents, scope, model, out);
-  group_templates.complain_about_unused(out);
+  check_unused(group_templates, types, out);
   if (on_error) check_used(*on_error, out);
   CommunicationModels models;
   models.read(file.find("models"), model, out);

@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "spec/model/endings.hpp"
 #include "spec/model/successors.hpp"
 #include "spec_reading.hpp"
 
@@ -102,6 +103,72 @@ TEST_F(Groups, AskUntilInEachBehaviour) {
     EXPECT_EQ(until.until_of, id("charge")) << name;
   }
   EXPECT_EQ(control().behaviours[id("charge")].terminal.expressions.front().text, "");
+}
+
+/// A group two deep whose behaviours take all failures, by entries of their own or by `on_error` of their group.
+constexpr const char* caught = R"(tessera: 1
+system: groups
+agents:
+  robot:
+    control:
+      rate: 20 Hz
+      memory: { pause: bool, stuck: bool }
+      on_error: safe
+      behaviours:
+        charge:
+          until: memory.pause
+          behaviours:
+            fetch:
+              on_error: again
+              behaviours:
+                ask: { terminal: memory.stuck, next: end }
+                again: { error: memory.stuck, terminal: true, next: [{ to: again, when: error }, ask] }
+            dock: { terminal: true, next: [{ to: fetch, when: error }, end] }
+          next: [{ to: rest, when: until }, charge]
+        turn:
+          behaviours:
+            left: { next: { to: left, when: error } }
+        rest: { terminal: true, next: turn }
+        safe: {}
+)";
+
+class CaughtFailures : public Groups {
+ protected:
+  [[nodiscard]] static bool may_fail(const std::string& text, const std::string& name) {
+    const Reading reading(text);
+    if (!reading.model) return ADD_FAILURE() << reading.report(), true;
+    const Subsystem& control = reading.model->definitions.front().subsystems.front();
+    for (const Behaviour& one : control.behaviours)
+      if (one.name == name) return Endings(one).possible(Ending::failure);
+    return ADD_FAILURE() << name, true;
+  }
+  [[nodiscard]] static std::string with(const std::string& from, const std::string& to) {
+    std::string text = caught;
+    text.replace(text.find(from), from.size(), to);
+    return text;
+  }
+};
+
+TEST_F(CaughtFailures, LeaveNoGroup) {
+  EXPECT_FALSE(may_fail(caught, "charge.fetch"));
+  EXPECT_FALSE(may_fail(caught, "charge"));
+  EXPECT_FALSE(may_fail(caught, "turn"));  // it never ends at all
+  EXPECT_TRUE(may_fail(caught, "charge.dock"));
+}
+
+TEST_F(CaughtFailures, LeaveAGroupIfOneBehaviourLetsThemOut) {
+  const std::string inner = with("[{ to: again, when: error }, ask]", "ask");
+  EXPECT_TRUE(may_fail(inner, "charge.fetch"));
+  EXPECT_TRUE(may_fail(inner, "charge"));
+  const std::string outer = with("[{ to: fetch, when: error }, end]", "end");
+  EXPECT_FALSE(may_fail(outer, "charge.fetch"));
+  EXPECT_TRUE(may_fail(outer, "charge"));
+  EXPECT_TRUE(may_fail(with("on_error: again", "start: ask"), "charge.fetch"));
+  // A group around them may take those that leave the inner one.
+  std::string around = inner;
+  around.insert(around.find("on_error: again"), "next: [{ to: dock, when: error }, dock]\n              ");
+  EXPECT_TRUE(may_fail(around, "charge.fetch"));
+  EXPECT_FALSE(may_fail(around, "charge"));
 }
 
 }  // namespace

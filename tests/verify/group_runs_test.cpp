@@ -83,5 +83,40 @@ TEST(GroupRuns, ATerminalEndingLeavesAllGroupsBeforeOtherEntries) {
   EXPECT_TRUE(way.fits);
 }
 
+/// The groups of `work` take their failures themselves, unless `next` of the inner behaviour says otherwise.
+std::string caught(const std::string& next) {
+  return R"(tessera: 1
+system: s
+agents:
+  robot:
+    control:
+      rate: 10 Hz
+      inputs: { wish: bool }
+      memory: { pause: bool, done: bool }
+      behaviours:
+        charge:
+          until: memory.pause
+          on_error: wait
+          behaviours:
+            dock:
+              behaviours:
+                turn: { terminal: memory.done, next: )" +
+         next + R"( }
+            wait: { terminal: true, next: [{ to: wait, when: error }, dock] }
+          next: charge
+  desk: { control: { rate: 10 Hz, outputs: { wish: bool }, behaviours: { run: {} } } }
+channels:
+  - { from: desk.control.wish, to: robot.control.wish, send: blocking }
+)";
+}
+
+TEST(GroupRuns, FailuresThatAreTakenInAGroupDoNotLeaveIt) {
+  for (const char* next : {"end", "[{ to: turn, when: error }, end]"})
+    EXPECT_EQ(proved(caught(next))["survives_exceptions"].verdict, Verdict::holds) << next;
+  std::string lost = caught("end");
+  lost.replace(lost.find("[{ to: wait, when: error }, dock]"), 33, "dock");
+  EXPECT_EQ(proved(lost)["survives_exceptions"].verdict, Verdict::violated);
+}
+
 }  // namespace
 }  // namespace tessera::verify

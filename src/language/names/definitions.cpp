@@ -20,7 +20,9 @@ void IndexBuilder::build() {
   define_all(root_["models"], Kind::model, {}, {"models"}, "", index_.models_);
   NamesOf processes;
   define_all(root_["deploy"]["processes"], Kind::process, {}, {"deploy", "processes"}, "", processes);
+  link_all();
   use_types();
+  use_in_templates();
   for (DefinitionNames& definition : index_.definitions_)
     for (UnitNames& unit : definition.units) use_in_unit(unit);
   use_on_errors();
@@ -32,6 +34,7 @@ void IndexBuilder::build() {
   use_in_deployment();
   use_in_formulas();
   use_in_world(root_["simulation"]);
+  share_names();
   sort_uses();
 }
 
@@ -62,7 +65,10 @@ void IndexBuilder::define_all(const Node& map, Kind kind, SymbolId owner, const 
     Symbol& symbol = index_.symbols_[id];
     symbol.type = type_of(kind, *entry.value);
     symbol.fleet = fleet_of(kind, *entry.value, symbol.type);
-    symbol.is_group = kind == Kind::behaviour && entry.value->find("behaviours") != nullptr;
+    const Entry* use = kind == Kind::behaviour ? entry.value->find("use") : nullptr;
+    symbol.is_group =
+        use != nullptr || (kind == Kind::behaviour && entry.value->find("behaviours") != nullptr);
+    if (use != nullptr) used_templates_.emplace(id, use->value->text);
     names.emplace(entry.key, id);
   }
 }
@@ -82,6 +88,11 @@ void IndexBuilder::define_agents(const char* section, Kind kind, NamesOf& names)
     const Node& body = *agent.value;
     const SymbolId id = define(kind, agent, {}, {section}, "");
     names.emplace(agent.key, id);
+    if (kind == Kind::agent_template && body.find("behaviours") != nullptr &&
+        body.find("control") == nullptr) {
+      define_group_template(agent, id);
+      continue;
+    }
     if (body.find("count") != nullptr) index_.fleets_.emplace(agent.key, id);
     if (const Entry* use = body.find("use")) {
       index_.use_of_[std::string(section) + "." + agent.key] = use->value->text;
@@ -205,8 +216,8 @@ void IndexBuilder::define_conditions(UnitNames& unit, const Entry& behaviour, Sy
     };
     if (condition.is_scalar()) share(condition.text);
     for (const Entry& named : condition.entries) {
-      if (named.key.empty() || (is_nothing(*named.value) && share(named.key)) || names.contains(named.key))
-        continue;
+      const bool is_shared = is_nothing(*named.value) && (share(named.key) || in_template_);
+      if (named.key.empty() || is_shared || names.contains(named.key)) continue;
       names.emplace(named.key, define(Kind::condition, named, owner, way, symbol.path));
     }
   }

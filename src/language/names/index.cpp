@@ -10,7 +10,7 @@ namespace {
 struct Words {
   std::string_view words, prefix;
 };
-constexpr std::array<Words, 15> words_of_kinds{{{"structure", "type"},
+constexpr std::array<Words, 16> words_of_kinds{{{"structure", "type"},
                                                 {"field", "field"},
                                                 {"parameter", "parameter"},
                                                 {"memory cell", "memory"},
@@ -24,13 +24,15 @@ constexpr std::array<Words, 15> words_of_kinds{{{"structure", "type"},
                                                 {"agent", ""},
                                                 {"template", "template"},
                                                 {"communication model", "model"},
-                                                {"process", "process"}}};
+                                                {"process", "process"},
+                                                {"name that a template takes", "with"}}};
 
 }  // namespace
 
 std::string_view words_of(Kind kind) { return words_of_kinds[static_cast<std::size_t>(kind)].words; }
 std::string_view words_of(const Symbol& symbol) {
-  return symbol.is_group ? "group of behaviours" : words_of(symbol.kind);
+  if (!symbol.is_group) return words_of(symbol.kind);
+  return symbol.kind == Kind::behaviour ? "group of behaviours" : "template of a group";
 }
 std::string_view prefix_of(Kind kind) { return words_of_kinds[static_cast<std::size_t>(kind)].prefix; }
 
@@ -59,7 +61,15 @@ const UnitNames* Index::unit_at(const Way& way) const {
     for (const UnitNames& unit : definition.units)
       if (unit.way.size() <= way.size() && std::equal(unit.way.begin(), unit.way.end(), way.begin()))
         return &unit;
-  return nullptr;
+  if (way.size() < 2 || way[0] != "templates") return nullptr;
+  const GroupTemplateNames* found = group_template(way[1]);
+  return found == nullptr ? nullptr : &found->unit;
+}
+
+const GroupTemplateNames* Index::group_template(std::string_view name) const {
+  const auto found = std::find_if(group_templates_.begin(), group_templates_.end(),
+                                  [&](const GroupTemplateNames& one) { return one.unit.name == name; });
+  return found == group_templates_.end() ? nullptr : &*found;
 }
 
 const NamesOf& UnitNames::behaviours_in(SymbolId group) const {

@@ -33,7 +33,8 @@ enum class Kind : std::uint8_t {
   agent,
   agent_template,
   model,
-  process
+  process,
+  taken  ///< a name that a template of a group takes by `with`
 };
 /// In words: "input buffer".
 [[nodiscard]] std::string_view words_of(Kind kind);
@@ -46,7 +47,7 @@ struct Symbol {
   std::string path;       ///< for people: "robot.control.line"
   std::string type;       ///< of data: "float64 m/s"; empty: it has none
   std::string fleet;      ///< there is one for each member of that fleet; empty: it is one
-  bool is_group = false;  ///< a behaviour that has behaviours
+  bool is_group = false;  ///< a behaviour that has behaviours, or a template of one
   Extent definition;      ///< the name itself
   Extent whole;           ///< with everything that belongs to it
   SymbolId owner{};
@@ -102,6 +103,18 @@ struct DefinitionNames {
   std::vector<UnitNames> units;
 };
 
+/// A template of a group, with the names that its text may use: its own, and those that all subsystems that use it have.
+struct GroupTemplateNames {
+  UnitNames unit;  ///< without functions
+  NamesOf taken;   ///< by `with`
+};
+
+/// A word that means something else in each subsystem that uses the template it is in.
+struct SharedWord {
+  Extent extent;
+  std::vector<SymbolId> symbols;
+};
+
 class Index {
  public:
   /// text: of which `outline` is.
@@ -120,7 +133,11 @@ class Index {
 
   [[nodiscard]] const std::string& system() const { return system_; }
   [[nodiscard]] const std::vector<DefinitionNames>& definitions() const { return definitions_; }
-  /// The unit that contains the place `way`, or nullptr.
+  [[nodiscard]] const std::vector<GroupTemplateNames>& group_templates() const { return group_templates_; }
+  /// Or nullptr.
+  [[nodiscard]] const GroupTemplateNames* group_template(std::string_view name) const;
+  [[nodiscard]] const std::vector<SharedWord>& shared_words() const { return shared_words_; }
+  /// The unit, or template of a group, that contains the place `way`, or nullptr.
   [[nodiscard]] const UnitNames* unit_at(const Way& way) const;
   /// The agents that are fleets.
   [[nodiscard]] const NamesOf& fleets() const { return fleets_; }
@@ -151,6 +168,8 @@ class Index {
   std::vector<Use> uses_;
   std::vector<Extent> objects_;
   std::vector<DefinitionNames> definitions_;
+  std::vector<GroupTemplateNames> group_templates_;
+  std::vector<SharedWord> shared_words_;
   NamesOf types_, agents_, templates_, models_, parameters_, fleets_;
   std::map<SymbolId, NamesOf> fields_;
   std::map<SymbolId, std::string> enumerations_;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstddef>
+#include <functional>
 #include <map>
 #include <set>
 #include <string>
@@ -35,6 +36,26 @@ class IndexBuilder {
   void define_conditions(UnitNames& unit, const Entry& behaviour, SymbolId owner);
   /// Fleets whose members are values of memory cells.
   void define_member_values();
+
+  // group_templates.cpp
+  void define_group_template(const Entry& entry, SymbolId id);
+  /// Gives a unit the behaviours of the templates that its groups use. inside: the groups around `map`.
+  void link_templates(UnitNames& unit, const Node& map, const std::vector<SymbolId>& inside);
+  /// inside: the groups down to the one that uses `from`.
+  void link_template(UnitNames& unit, const GroupTemplateNames& from, const std::vector<SymbolId>& inside);
+  void link_group(UnitNames& unit, const UnitNames& from, SymbolId group,
+                  const std::vector<SymbolId>& inside);
+  void link_all();
+  void use_in_templates();
+  /// `use` of a group, its `with`, and what the text of the template means in this unit.
+  void use_template(const UnitNames& unit, const Entry& behaviour, SymbolId group);
+  /// The names that a template takes, in its text.
+  void use_taken(const Node& node, const NamesOf& taken, bool gives);
+  void use_taken(Extent extent, const NamesOf& taken);
+  /// What the units that use templates have in common.
+  void share_names();
+  /// The words of an expression at their places in the file, each name of a template replaced by what stands for it.
+  [[nodiscard]] std::vector<Token> words_of_expression(const Node& text) const;
 
   // uses.cpp
   void use(Extent extent, const NamesOf& names, std::string_view name);
@@ -79,6 +100,15 @@ class IndexBuilder {
   void use_in_world(const Node& simulation);
   void sort_uses();
 
+  /// What a `with` gives for a name.
+  struct Given {
+    std::string text;
+    std::size_t at = 0;
+    bool is_written = false;  ///< exactly so, from byte `at` on
+  };
+  using Givens = std::map<std::string, Given, std::less<>>;
+  [[nodiscard]] Givens givens_of(const Node& with) const;
+
   std::string_view text_;
   const Node& root_;
   Index& index_;
@@ -86,6 +116,12 @@ class IndexBuilder {
   std::set<const Node*> walked_;                ///< `behaviours` of groups
   std::vector<const Node*> nodes_;              ///< the bodies of the units, in their order
   std::size_t next_node_ = 0;
+  std::map<SymbolId, std::string> used_templates_;              ///< by group
+  std::map<std::string, std::vector<const UnitNames*>> users_;  ///< of templates
+  bool in_template_ = false;                                    ///< while a template is defined
+  const Givens* givens_ = nullptr;           ///< while the text of a template is read for a unit
+  std::vector<std::string> open_templates_;  ///< that are being read, so that circles end
+  std::size_t expansions_ = 0;               ///< of templates, so that many uses of each other end
 };
 
 }  // namespace tessera::language

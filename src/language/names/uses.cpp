@@ -1,6 +1,7 @@
 // The second walk of an index: uses inside of subsystems.
 
 #include <algorithm>
+#include <utility>
 
 #include "language/names/index_builder.hpp"
 #include "spec/behaviours/groups.hpp"
@@ -11,6 +12,14 @@ namespace tessera::language {
 void IndexBuilder::use(Extent extent, const NamesOf& names, std::string_view name) {
   // "lend[i]": the index is no part of the name.
   const std::string_view without = name.substr(0, name.find('['));
+  if (givens_ != nullptr)
+    if (const auto given = givens_->find(without); given != givens_->end()) {
+      const Givens* const all = std::exchange(givens_, nullptr);
+      if (const auto& [text, at, is_written] = given->second; is_written)
+        use({at, at + text.size()}, names, text);
+      givens_ = all;
+      return;
+    }
   if (const auto found = names.find(without); found != names.end())
     index_.uses_.push_back(
         {{extent.begin, extent.end - (name.size() - without.size())}, found->second, false});
@@ -138,8 +147,9 @@ void IndexBuilder::use_in_behaviours(const UnitNames& unit, const Node& map, Sym
     const auto found = names.find(behaviour.key);
     if (found == names.end() || !index_.symbols_[found->second].is_group || depth == spec::most_nested_groups)
       continue;
+    const Entry* inside = behaviour.value->find("behaviours");
     // An alias repeats what its anchor says.
-    if (!walked_.insert((*behaviour.value).find("behaviours")->value).second) continue;
+    if (inside == nullptr || !walked_.insert(inside->value).second) continue;
     use_in_behaviours(unit, (*behaviour.value)["behaviours"], found->second, depth + 1);
   }
 }
@@ -155,6 +165,7 @@ void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviou
     use(body["start"], unit.behaviours_in(own->second));
     use(body["on_error"], unit.behaviours_in(own->second));
     use_expression(unit, body["until"]);
+    if (body.find("use") != nullptr) use_template(unit, behaviour, own->second);
   }
   if (body["for"].verbatim) use_each(body["for"].extent.begin, body["for"].text);
   for (const char* key : {"terminal", "error"}) use_condition(unit, body[key]);
@@ -171,7 +182,8 @@ void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviou
     use(next, behaviours);
     use(next["to"], behaviours);
     const Node& when = next["when"];
-    use(when, conditions);
+    // A template names the shared conditions of the subsystem that uses it.
+    use(when, givens_ == nullptr || conditions.contains(when.text) ? conditions : unit.shared);
     use_expression(unit, when);
     use_sets(unit, next["sets"]);
   };
@@ -190,9 +202,9 @@ void IndexBuilder::use_sets(const UnitNames& unit, const Node& sets) {
 
 void IndexBuilder::use_expression(const UnitNames& unit, const Node& text) {
   if (!text.is_scalar()) return;
-  const std::vector<Token> tokens = tokens_of(written(text.extent));
+  const std::vector<Token> tokens = words_of_expression(text);
   const auto found = [&](Extent extent, SymbolId symbol) {
-    index_.uses_.push_back({moved(extent, text.extent.begin), symbol, false});
+    if (!extent.empty()) index_.uses_.push_back({extent, symbol, false});
   };
   resolve_members(index_, unit, tokens, found);
   resolve_values(unit, tokens, found);

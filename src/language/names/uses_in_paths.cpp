@@ -140,6 +140,14 @@ void IndexBuilder::sort_uses() {
   auto& uses = index_.uses_;
   std::stable_sort(uses.begin(), uses.end(), [](const Use& a, const Use& b) { return a.extent < b.extent; });
   const auto same = [](const Use& a, const Use& b) { return a.extent == b.extent; };
+  for (auto first = uses.begin(); first != uses.end();) {
+    const auto last = std::find_if(first, uses.end(), [&](const Use& one) { return !same(one, *first); });
+    SharedWord word{first->extent, {}};
+    for (auto one = first; one != last; ++one)
+      if (std::ranges::count(word.symbols, one->symbol) == 0) word.symbols.push_back(one->symbol);
+    if (word.symbols.size() > 1) index_.shared_words_.push_back(std::move(word));
+    first = last;
+  }
   uses.erase(std::unique(uses.begin(), uses.end(), same), uses.end());
 }
 

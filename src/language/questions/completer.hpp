@@ -53,6 +53,13 @@ class Completer {
   [[nodiscard]] bool fits(const std::string& key) const;
   /// Behind `start`, `on_error` and `until` of a group. false: the cursor is elsewhere.
   bool value_of_group();
+  /// Whether the cursor is in a template of a group.
+  [[nodiscard]] bool in_group_template() const;
+  void templates(bool of_groups);
+  /// The names that the template takes which the behaviour at the cursor uses.
+  void names_to_give();
+  /// Behind `use`, and in `with`. false: the cursor is elsewhere.
+  bool value_of_template();
   /// each robot
   void each_fleet();
   /// The index of the members for which the cursor's behaviour is; empty: it is for none.
@@ -94,6 +101,7 @@ class Completer {
   void fields_of_path(const UnitNames& unit, const std::vector<std::string>& names);
   [[nodiscard]] std::vector<std::string> chain_of_key() const;
   void whole_paths(PathEnd end, const std::string& fleet);
+  void paths_in_group(const UnitNames& unit, SymbolId group, const std::string& path, std::size_t depth);
   void add_path(const std::string& path, const std::string& detail);
 
   const Document& document_;

@@ -110,8 +110,10 @@ void Completer::key_names(const Way& way) {
   if (unit_ == nullptr) return;
   const Way& inside = inside_;
   if (inside == Way{"safe"} || inside == Way{"limits"}) return add_names(unit_->real);
-  if (inside.size() > 2 && inside[0] == "behaviours" && inside.back() == "sets")
+  if (!inside.empty() && inside.back() == "sets" &&
+      (inside.size() == 1 || (inside.size() > 2 && inside[0] == "behaviours")))
     return add_names(kept_cells(*unit_));
+  if (inside.size() == 3 && inside[0] == "behaviours" && inside[2] == "with") return names_to_give();
   if (inside.size() == 3 && inside[0] == "behaviours" && (inside[2] == "terminal" || inside[2] == "error"))
     return add_names(unit_->shared);
   if (inside.size() == 3 && inside[0] == "behaviours" && inside[2] == "send")
@@ -149,8 +151,9 @@ bool Completer::special_value() {
   const std::string last = size > 0 ? way.back() : "";
   if (is_type_place()) return types(), true;
   if (size == 3 && last == "use" && (way[0] == "agents" || way[0] == "templates"))
-    return add_names(index_.templates()), true;
-  if (last == "on_error" && (size == 1 || (size == 3 && (way[0] == "agents" || way[0] == "templates"))))
+    return templates(/*of_groups=*/false), true;
+  if (last == "on_error" && !in_group_template() &&
+      (size == 1 || (size == 3 && (way[0] == "agents" || way[0] == "templates"))))
     return on_error(), true;
   if (last == "for" && step(0) == "behaviours" && inside_.size() == 3) return each_fleet(), true;
   if (last.empty() && size > 1 && way[size - 2] == "values" && step(0) == "memory") return each_fleet(), true;
@@ -202,11 +205,16 @@ bool Completer::channel_value(const std::string& last) {
 
 bool Completer::value_in_unit() {
   if (inside_ == Way{"start"}) return add_names(unit_->behaviours, Form::member), true;
-  if (inside_ == Way{"on_error"}) return add_names(unit_->behaviours), stop(), true;
+  if (inside_ == Way{"on_error"}) {
+    add_names(unit_->behaviours);
+    return in_group_template() || (stop(), true);
+  }
+  if (inside_ == Way{"until"} && in_group_template()) return expression(), true;
+  if (value_of_change()) return true;
   if ((step(0) == "send" || step(0) == "receive") && inside_.back().empty()) return buffers(step(0)), true;
   if (step(0) == "conditions" && inside_.size() == 2) return expression(), true;
   if (step(0) != "behaviours" || inside_.size() < 3) return false;
-  if (value_of_change() || value_of_group()) return true;
+  if (value_of_group() || value_of_template()) return true;
   const std::string& key = inside_[2];
   const std::string& last = inside_.back();
   if (key == "send" && inside_.size() > 4) {

@@ -16,7 +16,13 @@ void Completer::leave_groups() {
     inside_.erase(inside_.begin(), inside_.begin() + 2);
 }
 
+bool Completer::in_group_template() const {
+  return unit_ != nullptr && index_[unit_->symbol].kind == Kind::agent_template;
+}
+
 bool Completer::fits(const std::string& key) const {
+  if (in_group_template() && inside_.empty())
+    return key == "with" || (key != "next" && std::ranges::count(spec::known_keys(true), key) > 0);
   if (unit_ == nullptr || inside_.size() != 2 || inside_[0] != "behaviours") return true;
   const auto belongs = [](bool to_groups, const std::string& one) {
     return std::ranges::count(spec::known_keys(to_groups), one) > 0;
@@ -24,6 +30,7 @@ bool Completer::fits(const std::string& key) const {
   const Node& body = node_at(document_.outline(), place_.way);
   bool is_behaviour = false;
   for (const Entry& entry : body.entries) {
+    if (entry.key == "use") return key == "with" || (belongs(true, key) && key != "behaviours");
     if (entry.key == "behaviours") return belongs(true, key);
     is_behaviour = is_behaviour || !belongs(true, entry.key);
   }
@@ -37,6 +44,32 @@ bool Completer::value_of_group() {
   const NamesOf& inside = unit_->behaviours_in(behaviour_);
   if (key == "start" || key == "on_error") return add_names(inside), true;
   return key == "until" && (expression(), true);
+}
+
+void Completer::templates(bool of_groups) {
+  NamesOf names = index_.templates();
+  std::erase_if(names, [&](const auto& one) { return index_[one.second].is_group != of_groups; });
+  add_names(names);
+}
+
+void Completer::names_to_give() {
+  const Node& behaviour = node_at(document_.outline(), Way(place_.way.begin(), place_.way.end() - 1));
+  if (const GroupTemplateNames* from = index_.group_template(behaviour["use"].text)) add_names(from->taken);
+}
+
+bool Completer::value_of_template() {
+  if (inside_.size() == 3 && inside_[2] == "use") return templates(/*of_groups=*/true), true;
+  if (inside_.size() != 4 || inside_[2] != "with") return false;
+  const std::vector<std::string> names = chain();
+  if (names.size() == 1) {
+    if (const std::optional<NamesOf> members = index_.members(*unit_, names[0])) add_names(*members);
+    return true;
+  }
+  if (!names.empty()) return true;
+  for (const NamesOf* buffers : {&unit_->inputs, &unit_->outputs, &unit_->memory}) add_names(*buffers);
+  if (!index_.members(*unit_, "parameters")->empty())
+    add(Proposal::Kind::word, "parameters", "", "parameters.");
+  return true;
 }
 
 void Completer::each_fleet() {

@@ -44,7 +44,7 @@ void Completer::values_of_cell(const UnitNames& unit, const std::string& cell) {
 }
 
 bool Completer::value_of_change() {
-  if (inside_.size() < 4 || inside_[inside_.size() - 2] != "sets") return false;
+  if (inside_.size() < 2 || inside_[inside_.size() - 2] != "sets") return false;
   const std::string& text = document_.text();
   const bool signed_already = begin_ > 0 && (text[begin_ - 1] == '+' || text[begin_ - 1] == '-');
   if (!unit_->values.contains(inside_.back()) && kept_cells(*unit_).contains(inside_.back())) {

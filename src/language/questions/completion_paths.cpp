@@ -1,6 +1,9 @@
 // Paths of agents, subsystems and buffers: in channels, drivers, properties.
 
+#include <algorithm>
+
 #include "language/questions/completer.hpp"
+#include "spec/behaviours/groups.hpp"
 
 namespace tessera::language {
 
@@ -110,11 +113,21 @@ void Completer::whole_paths(PathEnd end, const std::string& fleet) {
         const std::string index = index_[symbol].fleet.empty() ? "" : fleet;
         add_path(name + "." + unit.name + "." + part + index, index_[symbol].type);
         if (end == PathEnd::behaviour && index_[symbol].is_group)
-          for (const SymbolId inside : unit.all_behaviours())
-            if (const std::string& path = index_[inside].path;
-                path.starts_with(index_[symbol].path + ".") && proposals_.size() < most_proposals)
-              add_path(name + "." + unit.name + "." + part + path.substr(index_[symbol].path.size()), "");
+          paths_in_group(unit, symbol, name + "." + unit.name + "." + part, 0);
       }
+  }
+}
+
+void Completer::paths_in_group(const UnitNames& unit, SymbolId group, const std::string& path,
+                               std::size_t depth) {
+  if (depth == spec::most_nested_groups) return;
+  std::vector<SymbolId> all;
+  for (const auto& [name, id] : unit.behaviours_in(group)) all.push_back(id);
+  std::sort(all.begin(), all.end());  // as in the file
+  for (const SymbolId id : all) {
+    if (proposals_.size() >= most_proposals) return;
+    add_path(path + "." + index_[id].name, "");
+    if (index_[id].is_group) paths_in_group(unit, id, path + "." + index_[id].name, depth + 1);
   }
 }
 

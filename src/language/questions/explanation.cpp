@@ -135,10 +135,62 @@ std::string about_memory(const Document& document, SymbolId id) {
   return text + changes_of(document, id);
 }
 
+/// The functions of a behaviour that stands in a template of a group.
+std::string functions_of_users(const Document& document, SymbolId id) {
+  constexpr std::size_t most_shown = 8;
+  std::string all;
+  std::size_t count = 0;
+  for (const DefinitionNames& definition : document.index().definitions())
+    for (const UnitNames& unit : definition.units)
+      for (const auto& [function, path] : unit.functions) {
+        if (path.back() != id || ++count > most_shown) continue;
+        all +=
+            fmt::format("{}{} of {}.{}", all.empty() ? "" : ", ", code(function), definition.name, unit.name);
+      }
+  if (count == 0) return {};
+  return fmt::format("\n\nTransition function{}: {}{}", count == 1 ? "" : "s", all,
+                     count > most_shown ? " ..." : "");
+}
+
+/// A template of a group: what it takes, and where it is used.
+std::string about_template(const Document& document, SymbolId id) {
+  const Index& index = document.index();
+  const GroupTemplateNames* found = index.group_template(index[id].name);
+  if (found == nullptr) return {};
+  std::string taken, lines;
+  std::vector<SymbolId> names;
+  for (const auto& [name, one] : found->taken) names.push_back(one);
+  std::ranges::sort(names);
+  for (const SymbolId one : names) taken += (taken.empty() ? "" : ", ") + code(index[one].name);
+  std::string text = taken.empty() ? "" : "\n\nTakes " + taken + ".";
+  std::size_t count = 0;
+  for (const Use& use : index.uses())
+    if (use.symbol == id && !use.defines && ++count <= 8)
+      lines += fmt::format("{}{}", lines.empty() ? "" : ", ",
+                           document.lines().position(use.extent.begin).line + 1);
+  if (count == 0) return text + "\n\nNothing uses it.";
+  return text +
+         fmt::format("\n\nUsed on line{} {}{}.", count == 1 ? "" : "s", lines, count > 8 ? " ..." : "");
+}
+
+/// What the uses of a template give for a name that it takes.
+std::string about_taken(const Document& document, SymbolId id) {
+  std::string all;
+  std::size_t count = 0;
+  for (const Use& use : document.index().uses()) {
+    if (use.symbol != id || use.defines) continue;
+    const auto place = place_at(document.outline(), use.extent.begin);
+    const bool gives = place && place->key != nullptr && !place->way.empty() && place->way.back() == "with";
+    if (!gives || ++count > 8) continue;
+    all += fmt::format("\n\n{} on {}", code(place->key->value->text), line_of(document, *place->key));
+  }
+  return all.empty() ? "\n\nNothing gives it." : "\n\nStands for:" + all + (count > 8 ? "\n\n…" : "");
+}
+
 std::string about_function(const Document& document, SymbolId id, const UnitNames& unit) {
   const auto function =
       std::ranges::find_if(unit.functions, [&](const auto& one) { return one.second.back() == id; });
-  if (function == unit.functions.end()) return {};
+  if (function == unit.functions.end()) return functions_of_users(document, id);
   std::string text = fmt::format(
       "\n\nTransition function: `void {}(Context& context, const Inputs& in, Memory& memory, Outputs& out)`",
       function->first);
@@ -176,6 +228,8 @@ std::string about(const Document& document, SymbolId id) {
   if (const UnitNames* unit = index.unit_at(symbol.way); unit != nullptr && symbol.kind == Kind::behaviour)
     text += symbol.is_group ? about_group(document, id, *unit)
                             : about_function(document, id, *unit) + inherited(document, symbol, *unit);
+  if (symbol.kind == Kind::agent_template && symbol.is_group) text += about_template(document, id);
+  if (symbol.kind == Kind::taken) text += about_taken(document, id);
   if (symbol.kind == Kind::condition) {
     const Node& expression = node_at(document.outline(), symbol.way);
     if (expression.is_scalar()) text += "\n\n" + code(expression.text);
@@ -195,7 +249,10 @@ std::optional<Explanation> explain(const Document& document, Position position) 
     explanation.markdown = about(document, use->symbol);
     explanation.range = document.lines().range(use->extent);
     const Symbol& symbol = document.index()[use->symbol];
-    if (symbol.kind == Kind::behaviour || symbol.kind == Kind::subsystem || symbol.kind == Kind::agent)
+    const bool in_template =
+        symbol.way.size() > 1 && document.index().group_template(symbol.way[1]) != nullptr;
+    if (!in_template &&
+        (symbol.kind == Kind::behaviour || symbol.kind == Kind::subsystem || symbol.kind == Kind::agent))
       explanation.page = {symbol.path, document.lines().position(symbol.definition.begin).line + 1};
   }
   if (place && place->key != nullptr) {

@@ -75,6 +75,33 @@ std::optional<std::string> new_error(const Document& document, const std::vector
   return std::nullopt;
 }
 
+/// Why a word that means something else in each subsystem keeps a symbol from being renamed; nullopt: there is none.
+std::optional<std::string> shared_word(const Document& document, SymbolId symbol) {
+  for (const SharedWord& word : document.index().shared_words())
+    if (std::ranges::count(word.symbols, symbol) > 0)
+      return fmt::format(
+          "line {} names it, and in other subsystems something else of that name: rename it by hand, or give "
+          "it by "
+          "'with' if this is a template",
+          document.lines().position(word.extent.begin).line + 1);
+  return std::nullopt;
+}
+
+/// Where the text means something else after an edit of names; nullopt: nowhere.
+std::optional<std::string> new_meaning(const Document& before, const Document& after) {
+  const std::vector<Use>&old = before.index().uses(), &now = after.index().uses();
+  for (std::size_t at = 0; at < std::max(old.size(), now.size()); ++at) {
+    if (at < std::min(old.size(), now.size()) && old[at].symbol == now[at].symbol &&
+        old[at].defines == now[at].defines)
+      continue;
+    const std::size_t place = at < old.size()   ? before.lines().position(old[at].extent.begin).line
+                              : now.size() > at ? after.lines().position(now[at].extent.begin).line
+                                                : 0;
+    return fmt::format("then a word on line {} would mean something else", place + 1);
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::string edited(const Document& document, const std::vector<TextEdit>& edits) {
@@ -207,7 +234,10 @@ Renaming rename(const Document& document, const Source* in, Position position,
       renaming.edits.push_back({"", document.lines().range(use.extent), name, true});
   if (std::optional<std::string> problem = new_error(document, renaming.edits))
     return {{}, std::move(problem)};
+  if (std::optional<std::string> problem = shared_word(document, here->symbol))
+    return {{}, std::move(problem)};
   const Document after(edited(document, renaming.edits), document.grammar());
+  if (std::optional<std::string> problem = new_meaning(document, after)) return {{}, std::move(problem)};
   for (const Source& source : sources) {
     const Lines lines(source.text);
     for (const CodeUse& use : uses_in(index, source)) {

@@ -387,7 +387,12 @@ ReadBehaviours read_behaviours(const Entry& entry, const ConditionScope& scope, 
     out.error("E103", entry.span, "a subsystem needs at least one behaviour",
               "for example behaviours: { run: {} }");
   }
-  return BehaviourReader(entries, scope, defaults, fleets, out).read();
+  if (groups == nullptr || groups->replacements().empty())
+    return BehaviourReader(entries, scope, defaults, fleets, out).read();
+  Diagnostics found = out.of_same_source();
+  ReadBehaviours read = BehaviourReader(entries, scope, defaults, fleets, found).read();
+  place(groups->replacements(), found, out);
+  return read;
 }
 
 }  // namespace tessera::spec

@@ -1,6 +1,7 @@
 #include "spec/behaviours/defaults.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/families.hpp"
@@ -329,14 +330,16 @@ void drop_default_end(Numbered<NextId, Next>& next) {
 }
 
 bool lead_failures(Behaviour& behaviour, const Next& entry) {
+  Behaviour led = behaviour;
   if (!behaviour.next_given) {
     // Its default entry `end` is for a terminal ending alone.
     Behaviour alone = behaviour;
     alone.next.clear();
-    if (!Endings(alone).possible(Ending::terminal)) drop_default_end(behaviour.next);
+    if (!Endings(alone).possible(Ending::terminal)) drop_default_end(led.next);
   }
-  const Endings endings(behaviour);
+  const Endings endings(led);
   if (!endings.unrouted(Ending::error) && !endings.unrouted(Ending::failure)) return false;
+  behaviour.next = std::move(led.next);
   // In front, as most write it; but behind the entries that name an error themselves.
   std::size_t at = behaviour.next.size();
   while (at > 0 && !names_error(behaviour.next[NextId{static_cast<std::uint32_t>(at - 1)}])) --at;

@@ -7,12 +7,16 @@
 #include <utility>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/behaviours/groups.hpp"
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::spec {
 namespace {
+
+/// Uses of templates in a specification, each counted wherever the template that it is in is used.
+constexpr std::size_t most_expansions = 20'000;
 
 using diagnostics::in_quotes;
 
@@ -36,42 +40,6 @@ bool is_plain_text(std::string_view text) {
   return !text.empty() && std::ranges::all_of(text, [](char c) {
     return is_letter_of_word(c) || c == '.' || c == '[' || c == ']' || c == ' ' || c == '/';
   });
-}
-
-/// Whether the word that begins at `at` is a name of its own, or the first one behind in., out., memory. and
-/// parameters.
-bool stands_alone(std::string_view text, std::size_t at) {
-  if (at == 0 || text[at - 1] != '.') return true;
-  const std::string_view before = text.substr(0, at - 1);
-  for (const std::string_view root : {"in", "out", "memory", "parameters"})
-    if (before.ends_with(root)) {
-      const std::size_t begin = before.size() - root.size();
-      if (begin == 0 || (!is_letter_of_word(before[begin - 1]) && before[begin - 1] != '.')) return true;
-    }
-  return false;
-}
-
-/// A text with the names of a template replaced, but not within quotes.
-std::string with_texts(std::string_view text, const std::map<std::string, std::string>& texts,
-                       std::set<std::string>& found) {
-  std::string made;
-  bool quoted = false;
-  for (std::size_t at = 0; at < text.size();) {
-    if (text[at] == '"') quoted = !quoted;
-    if (quoted || !is_letter_of_word(text[at])) {
-      made += text[at++];
-      continue;
-    }
-    std::size_t end = at;
-    while (end < text.size() && is_letter_of_word(text[end])) ++end;
-    const std::string word(text.substr(at, end - at));
-    const auto stands = texts.find(word);
-    const bool replaced = stands != texts.end() && stands_alone(text, at);
-    if (replaced) found.insert(word);
-    made += replaced ? stands->second : word;
-    at = end;
-  }
-  return made;
 }
 
 /// All names of behaviours in a template, also in groups in it.
@@ -120,6 +88,15 @@ std::vector<const Node*> taken_by(const Entry& from, Diagnostics& out) {
   return names;
 }
 
+/// What stands beside the use of a template alone.
+void check_keys(const Entry& from, Diagnostics& out) {
+  for (const Entry& key : from.value->entries)
+    if (key.key == "next" || key.key == "use")
+      out.error("E352", key.span, in_quotes(key.key) + " does not belong in a template of a group",
+                key.key == "next" ? "it leads out of the group: write it beside 'use: " + from.key + "'"
+                                  : "use another template in one of its 'behaviours'");
+}
+
 }  // namespace
 
 GroupTemplates::GroupTemplates(const Entry* templates) {
@@ -135,6 +112,7 @@ bool GroupTemplates::is_group(const Entry& entry) {
 
 const std::vector<Entry>& GroupTemplates::expanded(const std::vector<Entry>& entries, Diagnostics& out) {
   std::vector<std::string> chain;
+  replacements_.clear();
   return lists_.emplace_back(expand(entries, chain, out));
 }
 
@@ -185,39 +163,48 @@ const Node* GroupTemplates::group_of(const Entry& behaviour, const Entry& use,
               "one of them must have behaviours of its own in this place");
     return nullptr;
   }
+  if (chain.size() >= most_nested_groups || ++expansions_ > most_expansions) {
+    if (expansions_ <= most_expansions + 1)
+      out.error("E341", name->span, "templates of groups use each other too deep, or too often",
+                "let the subsystem name the behaviours in a template of fewer levels");
+    return nullptr;
+  }
   for (const Entry& key : behaviour.value->entries)
     if (key.key == "behaviours")
       out.error("E352", key.span, in_quotes(behaviour.key) + " has 'use' and 'behaviours'",
                 "write the behaviours in template " + name->text + ", or leave out 'use'");
-  for (const Entry& key : from.entry->value->entries)
-    if (key.key == "next" || key.key == "use")
-      out.error("E352", key.span, in_quotes(key.key) + " does not belong in a template of a group",
-                key.key == "next" ? "it leads out of the group: write it beside 'use: " + name->text + "'"
-                                  : "use another template in one of its 'behaviours'");
+  check_keys(*from.entry, out);
   const std::size_t errors = out.error_count();
   const Texts texts = texts_for(behaviour, from, out);
   if (out.error_count() > errors) return nullptr;
-  std::set<std::string> found;
+  chain.push_back(name->text);
+  const Node* body = body_of(behaviour, from, texts, chain, out);
+  chain.pop_back();
+  return body;
+}
+
+const Node* GroupTemplates::body_of(const Entry& behaviour, const Template& from, const Texts& texts,
+                                    std::vector<std::string>& chain, Diagnostics& out) {
+  const std::string& name = from.entry->key;
+  Replacing replacing{name, texts};
   // The keys beside `use` replace those of the template.
   std::vector<Entry> keys;
   for (const Entry& key : behaviour.value->entries)
     if (key.key != "use" && key.key != "with" && key.key != "behaviours") keys.push_back(key);
   for (const Entry& key : from.entry->value->entries) {
     if (key.key == "with" || key.key == "next" || key.key == "use") continue;
-    const Node* value = replaced(*key.value, texts, found);
+    const Node* value = replaced(*key.value, replacing);
     if (std::ranges::find(keys, key.key, &Entry::key) != keys.end()) continue;
     keys.push_back({key.key, key.span, value});
   }
   for (const Node* taken : taken_by(*from.entry, out))
-    if (texts.contains(taken->text) && !found.contains(taken->text))
+    if (texts.contains(taken->text) && !replacing.found.contains(taken->text))
       out.error("E354", taken->span,
-                "nothing in template " + in_quotes(name->text) + " names " + in_quotes(taken->text),
+                "nothing in template " + in_quotes(name) + " names " + in_quotes(taken->text),
                 "leave it out, or name it: in." + taken->text + ", or send: [" + taken->text + "]");
-  chain.push_back(name->text);
   for (Entry& key : keys)
     if (key.key == "behaviours" && key.value->is_map())
       key.value = map_of(*key.value, expand(key.value->entries, chain, out));
-  chain.pop_back();
   return map_of(*behaviour.value, std::move(keys));
 }
 
@@ -238,8 +225,10 @@ GroupTemplates::Texts GroupTemplates::texts_for(const Entry& behaviour, const Te
         out.error("E355", one.value->is_scalar() ? one.value->span : one.span,
                   in_quotes(one.key) + " stands for a name or a number",
                   "for example " + one.key + ": request_left, parameters.lease or 20 s");
+      else if (const auto before = given_before_.find(one.value); before != given_before_.end())
+        texts.emplace(one.key, before->second);
       else
-        texts.emplace(one.key, one.value->text);
+        texts.emplace(one.key, Given{one.value->text, one.value->span, one.value->verbatim});
     }
   for (const std::string& name : names)
     if (with == nullptr || key_in(*with->value, name) == nullptr)
@@ -250,20 +239,33 @@ GroupTemplates::Texts GroupTemplates::texts_for(const Entry& behaviour, const Te
   return texts;
 }
 
-const Node* GroupTemplates::replaced(const Node& node, const Texts& texts, std::set<std::string>& found,
-                                     bool gives) {
-  if (texts.empty()) return &node;
+std::string GroupTemplates::replaced(const std::string& text, Span at, Replacing& with) {
+  return with_texts(text, [&](const std::string& word) -> const std::string* {
+    const auto given = with.texts.find(word);
+    if (given == with.texts.end()) return nullptr;
+    with.found.insert(word);
+    if (given->second.at.line > 0) replacements_.push_back({at, word, with.name, given->second});
+    return &given->second.text;
+  });
+}
+
+const Node* GroupTemplates::replaced(const Node& node, Replacing& with, bool gives) {
+  if (with.texts.empty()) return &node;
   Node made = node;
   if (node.is_scalar()) {
-    made.text = with_texts(node.text, texts, found);
-    if (made.text == node.text) return &node;
+    made.text = replaced(node.text, node.span, with);
+    const auto whole = with.texts.find(node.text);
+    if (made.text == node.text && whole == with.texts.end()) return &node;
     made.verbatim = false;
+    const Node& placed = nodes_.emplace_back(std::move(made));
+    if (whole != with.texts.end()) given_before_.emplace(&placed, whole->second);
+    return &placed;
   }
   for (Entry& entry : made.entries) {
-    if (!gives) entry.key = with_texts(entry.key, texts, found);
-    entry.value = replaced(*entry.value, texts, found, entry.key == "with");
+    if (!gives) entry.key = replaced(entry.key, entry.span, with);
+    entry.value = replaced(*entry.value, with, entry.key == "with");
   }
-  for (const Node*& item : made.items) item = replaced(*item, texts, found);
+  for (const Node*& item : made.items) item = replaced(*item, with);
   return &nodes_.emplace_back(std::move(made));
 }
 
@@ -275,13 +277,27 @@ const Node* GroupTemplates::map_of(const Node& at, std::vector<Entry> entries) {
   return &nodes_.emplace_back(std::move(made));
 }
 
-void GroupTemplates::complain_about_unused(Diagnostics& out) const {
-  if (one_is_unknown_) return;  // the unknown name may mean this template
-  // A file that several specifications include may have more than one of them needs.
+std::vector<Entry> GroupTemplates::unused(Diagnostics& out) {
+  std::vector<const Template*> all;
+  replacements_.clear();
   for (const auto& [name, one] : by_name_)
-    if (!one.used && out.sources().own_line(one.entry->span.line) > 0)
-      out.warning("W319", one.entry->span, "template " + in_quotes(name) + " is used by no behaviour",
-                  "write use: " + name + " in a behaviour, or leave the template out");
+    if (!one.used) all.push_back(&one);
+  std::vector<Entry> groups;
+  for (const Template* one : all) {
+    const Entry& entry = *one->entry;
+    // An unknown name may mean this template. A file that several specifications include may have more than one of
+    // them needs.
+    if (!one_is_unknown_ && out.sources().own_line(entry.span.line) > 0)
+      out.warning("W319", entry.span, "template " + in_quotes(entry.key) + " is used by no behaviour",
+                  "write use: " + entry.key + " in a behaviour, or leave the template out");
+    check_keys(entry, out);
+    Texts texts;
+    for (const Node* name : taken_by(entry, out)) texts.emplace(name->text, Given{name->text, name->span});
+    std::vector<std::string> chain{entry.key};
+    groups.push_back({entry.key, entry.span,
+                      body_of({entry.key, entry.span, map_of(*entry.value, {})}, *one, texts, chain, out)});
+  }
+  return groups;
 }
 
 }  // namespace tessera::spec

@@ -115,11 +115,12 @@ bool leaves_as_terminal(const Behaviour& behaviour) {
   return false;
 }
 
-bool leaves_as_error(const Behaviour& behaviour) {
+/// ending: an error or a failure.
+bool leaves_after(Ending ending, const Behaviour& behaviour) {
   const Endings endings(behaviour);
   for (const NextId id : behaviour.next.ids()) {
     const Next& entry = behaviour.next[id];
-    if (!entry.behaviour.valid() && names_error(entry) && endings.taken(id, Ending::error) != Truth::never)
+    if (!entry.behaviour.valid() && names_error(entry) && endings.taken(id, ending) != Truth::never)
       return true;
   }
   return false;
@@ -139,13 +140,15 @@ class Completion {
     if (on_error_[id.value]) lead(id, *on_error_[id.value], members);
     Behaviour& group = subsystem_.behaviours[id];
     const Next leaving = leaving_as_failure(group.span);
-    bool terminal = false, error = false;
+    bool terminal = false, error = false, failure = false;
     for (const BehaviourId one : members) {
       Behaviour& member = subsystem_.behaviours[one];
       lead_failures(member, leaving);
       terminal = terminal || leaves_as_terminal(member);
-      error = error || leaves_as_error(member);
+      error = error || leaves_after(Ending::error, member);
+      failure = failure || leaves_after(Ending::failure, member);
     }
+    group.group->may_fail = failure;
     using Kind = Condition::Kind;
     if (group.terminal.kind == Kind::expressions && terminal)
       group.terminal.expressions.push_back(placeholder(group.span));

@@ -109,7 +109,7 @@ bool Endings::possible(Ending ending) const {
     case Ending::error:
       return truth_of(behaviour_.error, known_) != Truth::never;
     case Ending::failure:
-      return true;
+      return !behaviour_.is_group() || behaviour_.group->may_fail;
   }
   return true;
 }

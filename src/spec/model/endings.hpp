@@ -51,7 +51,8 @@ class Endings {
   explicit Endings(const Behaviour& behaviour);
   Endings(const Behaviour& behaviour, TruthOf known, Allows allows = allows_some);
 
-  /// Whether the behaviour can end in that way. It can always end by a failure.
+  /// Whether the behaviour can end in that way. It can always end by a failure, but for a group in which something
+  /// takes every failure.
   [[nodiscard]] bool possible(Ending ending) const;
   /// Whether the entry is the one that is taken. `never` also for endings that are not possible.
   [[nodiscard]] Truth taken(NextId entry, Ending ending) const { return taken_[at(ending)][entry]; }

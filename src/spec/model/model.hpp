@@ -116,6 +116,7 @@ enum class Transfer : std::uint8_t { sequential, parallel };
 struct Group {
   BehaviourId start{};              ///< a behaviour or group in it
   std::optional<Expression> until;  ///< holds: the group is left after this iteration
+  bool may_fail = true;  ///< a failure of a behaviour in it may leave it; complete_groups finds it out
 };
 
 /// An output that an iteration of a behaviour may skip: then nothing is sent over its channels.

@@ -196,7 +196,8 @@ std::vector<std::map<int, int>> values_of(const FlatNet& net, int behaviour,
 Ways follow(const Behaviour& behaviour, const std::vector<Truth>& allowed, std::size_t end, bool exceptions) {
   Ways ways;
   const bool fails = can_hold(behaviour.error), always_fails = certain(behaviour.error);
-  ways.error = fails || exceptions;
+  const bool throws = exceptions && behaviour.may_fail;
+  ways.error = fails || throws;
   ways.terminal = !always_fails && can_hold(behaviour.terminal);
   ways.go_on = !always_fails && !certain(behaviour.terminal);
   ways.after_terminal.entries.resize(behaviour.next.size());
@@ -207,7 +208,7 @@ Ways follow(const Behaviour& behaviour, const std::vector<Truth>& allowed, std::
   if (fails)
     for (const Held& held : held_sets(behaviour.error))
       follow_error(behaviour.next, allowed, held, end, ways.after_error);
-  if (exceptions) follow_error(behaviour.next, allowed, {}, end, ways.after_error);
+  if (throws) follow_error(behaviour.next, allowed, {}, end, ways.after_error);
   return ways;
 }
 
@@ -293,6 +294,7 @@ std::string suffix(const FlatNet& net, const std::map<int, int>& values) {
 std::vector<Entry> next_of(const Subsystem& subsystem, const Behaviour& behaviour) {
   std::vector<Entry> next = behaviour.next;
   if (next.empty()) next = {{"end", Entry::When::always, "", Truth::open}};
+  if (!behaviour.may_fail && !can_hold(behaviour.error)) return next;
   for (const Entry& entry : next)
     if (entry.when == Entry::When::error && !may_be_blocked(subsystem, changes_of(subsystem, entry)))
       return next;
@@ -326,11 +328,11 @@ Ways ways_of(const FlatNet& net, int number, bool exceptions, const std::map<int
   return follow(behaviour, allowed, end, exceptions);
 }
 
-Ways ways_of(const Subsystem& subsystem, const Behaviour& written_out) {
+Ways ways_of(const Subsystem& subsystem, const Behaviour& written_out, bool exceptions) {
   std::vector<Truth> allowed;
   for (const Entry& entry : written_out.next)
     allowed.push_back(may_be_blocked(subsystem, changes_of(subsystem, entry)) ? Truth::open : Truth::yes);
-  return follow(written_out, allowed, first_unconditional(written_out.next), false);
+  return follow(written_out, allowed, first_unconditional(written_out.next), exceptions);
 }
 
 bool can_end(const FlatNet& net, int behaviour, bool exceptions) {

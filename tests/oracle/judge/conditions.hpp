@@ -18,7 +18,7 @@ struct Following {
 
 /// The entries as they are drawn: `end` is the default. One more leads an error or a failure to the end that no
 /// written entry could take: there is no `when: error` that is always possible, and the entry without a condition does
-/// not end, or changes memory.
+/// not end, or changes memory. A group in which all failures are taken needs none.
 std::vector<Entry> next_of(const Subsystem& subsystem, const Behaviour& behaviour);
 
 /// The ways that a behaviour may take at the end of an iteration, each decided alone.
@@ -32,8 +32,8 @@ struct Ways {
 /// fresh.
 Ways ways_of(const FlatNet& net, int behaviour, bool exceptions, const std::map<int, int>& values);
 
-/// The same of a behaviour that is written out, with nothing known and without exceptions.
-Ways ways_of(const Subsystem& subsystem, const Behaviour& written_out);
+/// The same of a behaviour that is written out, with nothing known.
+Ways ways_of(const Subsystem& subsystem, const Behaviour& written_out, bool exceptions);
 
 /// Whether some iteration of the behaviour can end it, whatever the facts are.
 bool can_end(const FlatNet& net, int behaviour, bool exceptions);

@@ -59,6 +59,11 @@ bool takes_all_errors(const Subsystem& subsystem, const std::vector<Entry>& next
   });
 }
 
+/// Of a group only if something in it can fail, and nothing in it takes that.
+bool has_failures(const Behaviour& written_out) {
+  return written_out.may_fail || written_out.error.form != Condition::Form::absent;
+}
+
 /// A failure takes the entry of its behaviour that names it, then `on_error` around it, else it leaves the group.
 /// These two stand behind the last entry that names an error.
 void add_failures(const Subsystem& subsystem, const Behaviour& behaviour, std::vector<Entry>& next) {
@@ -72,13 +77,14 @@ void add_failures(const Subsystem& subsystem, const Behaviour& behaviour, std::v
   };
   const std::string& on_error =
       behaviour.group.empty() ? subsystem.on_error : behaviour_named(subsystem, behaviour.group).on_error;
+  if (!has_failures(behaviour)) return;
   if (!on_error.empty() && on_error != behaviour.name && !takes_all_errors(subsystem, next)) insert(on_error);
   if (!behaviour.group.empty() && !takes_all_errors(subsystem, next)) insert("end");
 }
 
 /// How the behaviours of a group leave it, with all questions free.
 struct Exits {
-  bool by_end = false, by_error = false;
+  bool by_end = false, by_error = false, by_failure = false;
 };
 
 Exits exits_of(const Subsystem& subsystem, const Behaviour& group) {
@@ -86,15 +92,19 @@ Exits exits_of(const Subsystem& subsystem, const Behaviour& group) {
   for (const Behaviour& one : subsystem.behaviours) {
     if (one.group != group.name) continue;
     const Behaviour all = written_out(subsystem, one);
-    const Ways ways = ways_of(subsystem, all);
+    const Ways ways = ways_of(subsystem, all, false);
+    Behaviour without_errors = all;
+    without_errors.error = {};
+    const Ways failing = ways_of(subsystem, without_errors, true);
     for (std::size_t k = 0; k < all.next.size(); ++k) {
       const std::string& name = all.next[k].name;
       const bool until_around = name.starts_with("until ") && !name.ends_with(" here");
       if (all.next[k].to != "end" || until_around) continue;
       // `end` for an error leaves as a failure does.
-      if (names_error(all, all.next[k]))
+      if (names_error(all, all.next[k])) {
         exits.by_error = exits.by_error || ways.after_error.entries[k];
-      else
+        exits.by_failure = exits.by_failure || failing.after_error.entries[k];
+      } else
         exits.by_end = exits.by_end || ways.after_terminal.entries[k];
     }
   }
@@ -116,6 +126,7 @@ Behaviour written_out(const Subsystem& subsystem, const Behaviour& behaviour) {
     const Exits exits = exits_of(subsystem, behaviour);
     if (exits.by_end) add(made.terminal, left, std::nullopt);
     if (behaviour.has_until) add(made.terminal, until_of(behaviour) + " here", std::nullopt);
+    made.may_fail = exits.by_failure;
     if (exits.by_error) made.error = {Condition::Form::single, Truth::open, {}, {}};
   }
   for (std::size_t g = groups.size(); g-- > 0;) {
@@ -129,13 +140,14 @@ Behaviour written_out(const Subsystem& subsystem, const Behaviour& behaviour) {
   const bool never_given =
       behaviour.terminal.form == Condition::Form::absent ||
       (behaviour.terminal.form == Condition::Form::single && behaviour.terminal.single == Truth::no);
-  const bool ends_alone = ways_of(subsystem, without_next(made)).terminal &&
+  const bool ends_alone = ways_of(subsystem, without_next(made), false).terminal &&
                           (!has_until_around || behaviour.is_group || !never_given);
-  const bool has_failures =
-      !behaviour.group.empty() || (!subsystem.on_error.empty() && subsystem.on_error != behaviour.name);
-  if (behaviour.next.empty() && (ends_alone || !has_failures))
+  const bool led =
+      has_failures(made) &&
+      (!behaviour.group.empty() || (!subsystem.on_error.empty() && subsystem.on_error != behaviour.name));
+  if (behaviour.next.empty() && (ends_alone || !led))
     made.next.push_back({"end", Entry::When::always, "", Truth::open});
-  add_failures(subsystem, behaviour, made.next);
+  add_failures(subsystem, made, made.next);
   if (behaviour.group.empty()) made.next = next_of(subsystem, made);
   return made;
 }

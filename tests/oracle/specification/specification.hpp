@@ -81,7 +81,8 @@ struct Behaviour {
   bool is_group = false, has_until = false;
   std::optional<Asked> until{};  // what is absent asks nothing
   std::string on_error{}, start{};
-  std::string each{};  // the fleet, of "v[0]", which is written once for all members as `v`
+  std::string each{};    // the fleet, of "v[0]", which is written once for all members as `v`
+  bool may_fail = true;  // not written: of a group, whether a failure of something in it may leave it
 };
 
 struct Subsystem {

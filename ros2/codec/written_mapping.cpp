@@ -16,6 +16,13 @@ std::vector<std::string> parts_of_list(std::string_view list) {
   return parts;
 }
 
+std::vector<OwnField> own_fields_of_action(bool is_goal) {
+  const OwnField number{
+      "call", {Primitive::uint32, Primitive::uint64}, /*needed=*/true, "the number of the goal"};
+  if (is_goal) return {number, {"cancel", {Primitive::boolean}, /*needed=*/false, "the wish to cancel it"}};
+  return {number, {"state", {Primitive::uint8}, /*needed=*/true, "the state of the goal"}};
+}
+
 std::vector<OwnField> own_fields_of_service(bool has_outcome) {
   std::vector<OwnField> fields{
       {"call", {Primitive::uint32, Primitive::uint64}, /*needed=*/true, "the number of the call"}};

@@ -10,6 +10,7 @@
 #include <thread>
 #include <utility>
 
+#include "ros2/dds/action_drivers.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/dds/other_side.hpp"
 #include "ros2/dds/prepared.hpp"
@@ -183,11 +184,13 @@ std::unique_ptr<Driver> made(const Ros2Binding& binding, Direction direction, st
 }  // namespace
 
 std::unique_ptr<RealReceptor> make_receptor(const Ros2Binding& binding, std::string& error) {
+  if (is_action_type(binding.type)) return make_action_receptor(binding, error);
   if (!binding.role.empty()) return make_service_receptor(binding, error);
   return made<Subscriber>(binding, Direction::receive, error);
 }
 
 std::unique_ptr<RealEffector> make_effector(const Ros2Binding& binding, std::string& error) {
+  if (is_action_type(binding.type)) return make_action_effector(binding, error);
   if (!binding.role.empty()) return make_service_effector(binding, error);
   return made<Publisher>(binding, Direction::send, error);
 }

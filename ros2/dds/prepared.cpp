@@ -17,14 +17,20 @@ T given(std::optional<T> value, const std::string& error) {
   return *std::move(value);
 }
 
-/// The message of the buffer; for a service, one of its two.
-std::string message_type(const Ros2Binding& binding, Direction direction) {
-  if (binding.role.empty()) return binding.type;
-  const bool requests = (binding.role == "client") == (direction == Direction::send);
-  return requests ? request_type(binding.type) : response_type(binding.type);
+/// Whether the messages of a driver with a role go from client to server.
+bool asks(const Ros2Binding& binding, Direction direction) {
+  return (binding.role == "client") == (direction == Direction::send);
 }
 
-Translator translator_of(const Ros2Binding& binding, Direction direction) {
+/// The message of the buffer; for a service or action, one of its two.
+std::string message_type(const Ros2Binding& binding, Direction direction) {
+  if (binding.role.empty()) return binding.type;
+  if (is_action_type(binding.type))
+    return asks(binding, direction) ? goal_type(binding.type) : progress_type(binding.type);
+  return asks(binding, direction) ? request_type(binding.type) : response_type(binding.type);
+}
+
+std::shared_ptr<const Structure> message_of(const Ros2Binding& binding, Direction direction) {
   if (binding.encoding == nullptr)
     throw std::runtime_error("its real buffer has a type without a fixed form");
   const std::string type = message_type(binding, direction);
@@ -32,10 +38,17 @@ Translator translator_of(const Ros2Binding& binding, Direction direction) {
   const auto message = resolve(type, DefinitionBundle(type, binding.definition), mistakes);
   if (message == nullptr)
     throw std::runtime_error(mistakes.empty() ? "no definition of " + type : mistakes.front().shown());
+  return message;
+}
+
+Translator translator_of(const Ros2Binding& binding, Direction direction,
+                         const std::shared_ptr<const Structure>& message) {
   const auto value = parse_value_type(binding.encoding->type());
   if (!value) throw std::runtime_error("its real buffer has a type that no message has");
   Mapping mapping = written_mapping(binding.fields, binding.names, binding.frame_id);
-  if (!binding.role.empty())
+  if (is_action_type(binding.type))
+    mapping.own = own_fields_of_action(asks(binding, direction));
+  else if (!binding.role.empty())
     mapping.own = own_fields_of_service(binding.role == "client" && direction == Direction::receive);
   std::vector<MappingProblem> problems;
   auto translator = Translator::make(message, *value, mapping, direction, problems);
@@ -46,7 +59,8 @@ Translator translator_of(const Ros2Binding& binding, Direction direction) {
 
 Prepared prepare(const Ros2Binding& binding, Direction direction) {
   std::string error;
-  Prepared prepared{translator_of(binding, direction), {}, binding.encoding, binding.wait};
+  const auto message = message_of(binding, direction);
+  Prepared prepared{message, translator_of(binding, direction, message), {}, binding.encoding, binding.wait};
   EndpointSetup& endpoint = prepared.endpoint;
   endpoint.path = binding.path;
   endpoint.topic = full_topic_name(binding.topic, error);

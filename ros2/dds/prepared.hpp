@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 
 #include "ros2/codec/translator.hpp"
 #include "ros2/dds/endpoint.hpp"
@@ -8,10 +9,11 @@
 
 namespace tessera::ros2 {
 
-/// The parts of a driver of a topic or of one side of a service.
+/// The parts of a driver of a topic or of one side of a service or action.
 struct Prepared {
+  std::shared_ptr<const Structure> message;  ///< of the buffer
   Translator translator;
-  EndpointSetup endpoint;  ///< for a service: without the DDS names
+  EndpointSetup endpoint;  ///< for a service or action: without the DDS names
   const ValueEncoding* encoding;
   Duration wait;
 };

@@ -3,56 +3,26 @@
 #include <unistd.h>
 
 #include <array>
-#include <chrono>
 #include <cstdio>
 #include <stdexcept>
-#include <type_traits>
 #include <utility>
 
-#include "ros2/codec/written_mapping.hpp"
 #include "ros2/dds/client.hpp"
-#include "ros2/dds/clock.hpp"
 #include "ros2/dds/prepared.hpp"
 #include "ros2/dds/server.hpp"
+#include "ros2/dds/shared_driver.hpp"
 
 namespace tessera::ros2 {
 namespace {
 
-constexpr Duration guardian_calls_within = std::chrono::seconds(4);
-
-ServiceSetup setup_of(const Prepared& prepared, const Ros2Binding& binding) {
-  return {prepared.endpoint, binding.type, binding.role == "client", binding.timeout};
-}
-
-/// A driver of a client or server, which it may share with another driver.
-template <class Driver, class Service>
-class ServiceDriver : public Driver {
+class ReplyReceptor final : public SharedDriver<RealReceptor, ServiceClient> {
  public:
-  ServiceDriver(Prepared prepared, const Ros2Binding& binding)
-      : prepared_(std::move(prepared)), service_(shared_service<Service>(setup_of(prepared_, binding))) {}
-
-  [[nodiscard]] bool open() override {
-    service_->open();
-    if constexpr (std::is_same_v<Service, ServiceClient>)
-      if (prepared_.wait > Duration::zero() && !service_->await_server(prepared_.wait))
-        throw std::runtime_error("there is no server of " + prepared_.endpoint.topic);
-    return true;
-  }
-  void close() override { service_->close(); }
-
- protected:
-  Prepared prepared_;
-  std::shared_ptr<Service> service_;
-};
-
-class ReplyReceptor final : public ServiceDriver<RealReceptor, ServiceClient> {
- public:
-  ReplyReceptor(Prepared prepared, const Ros2Binding& binding) : ServiceDriver(std::move(prepared), binding) {
-    service_->keep_results();
+  ReplyReceptor(Prepared prepared, const Ros2Binding& binding) : SharedDriver(std::move(prepared), binding) {
+    side_->keep_results();
   }
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
-    while (auto result = service_->take_result()) {
+    while (auto result = side_->take_result()) {
       if (result->outcome == CallOutcome::answered && !is_read(*result)) {
         result->outcome = CallOutcome::unreadable;
         if (is_told(++unreadable_))
@@ -83,42 +53,21 @@ class ReplyReceptor final : public ServiceDriver<RealReceptor, ServiceClient> {
   std::uint64_t unreadable_ = 0;
 };
 
-/// The value of an effector, as bytes and as a message.
-class OutgoingMessage {
- public:
-  explicit OutgoingMessage(const Prepared& prepared) : sink_(prepared.encoding->most) {}
-
-  /// false: the value does not have its type.
-  [[nodiscard]] bool make(const Prepared& prepared, std::span<const std::byte> value) {
-    sink_.clear();
-    prepared.encoding->put(value.data(), sink_);
-    call_ = prepared.translator.own_number(sink_.bytes(), call_field);
-    return prepared.translator.encode(sink_.bytes(), stamp_now(), message_);
-  }
-  [[nodiscard]] std::uint64_t call() const { return call_; }
-  [[nodiscard]] const std::vector<std::byte>& message() const { return message_; }
-
- private:
-  ValueSink sink_;
-  std::uint64_t call_ = 0;
-  std::vector<std::byte> message_;
-};
-
-class RequestEffector final : public ServiceDriver<RealEffector, ServiceClient> {
+class RequestEffector final : public SharedDriver<RealEffector, ServiceClient> {
  public:
   RequestEffector(Prepared prepared, const Ros2Binding& binding)
-      : ServiceDriver(std::move(prepared), binding), outgoing_(prepared_), maker_(getpid()) {}
+      : SharedDriver(std::move(prepared), binding), outgoing_(prepared_), maker_(getpid()) {}
 
   [[nodiscard]] bool open() override {
-    return is_guardian() || ServiceDriver::open();  // most safe commands of a guardian make no call
+    return is_guardian() || SharedDriver::open();  // most safe commands of a guardian make no call
   }
 
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
     if (!outgoing_.make(prepared_, value)) return false;
-    if (!is_guardian()) return service_->call(outgoing_.call(), outgoing_.message());
+    if (!is_guardian()) return side_->call(outgoing_.call(), outgoing_.message());
     if (outgoing_.call() == 0) return true;
-    service_->open();
-    return service_->call_and_wait(outgoing_.call(), outgoing_.message(), guardian_calls_within);
+    side_->open();
+    return side_->call_and_wait(outgoing_.call(), outgoing_.message(), guardian_calls_within);
   }
 
  private:
@@ -130,16 +79,16 @@ class RequestEffector final : public ServiceDriver<RealEffector, ServiceClient> 
   pid_t maker_;
 };
 
-class RequestReceptor final : public ServiceDriver<RealReceptor, ServiceServer> {
+class RequestReceptor final : public SharedDriver<RealReceptor, ServiceServer> {
  public:
-  using ServiceDriver::ServiceDriver;
+  using SharedDriver::SharedDriver;
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
-    while (const auto request = service_->next_request()) {
+    while (const auto request = side_->next_request()) {
       const std::array own{request->number};
       if (prepared_.translator.decode(request->message, value_, own) == Translator::Outcome::good)
         return prepared_.encoding->take(value.data(), value_);
-      service_->drop(request->number);
+      side_->drop(request->number);
     }
     return false;
   }
@@ -148,13 +97,13 @@ class RequestReceptor final : public ServiceDriver<RealReceptor, ServiceServer> 
   std::vector<std::byte> value_;
 };
 
-class ReplyEffector final : public ServiceDriver<RealEffector, ServiceServer> {
+class ReplyEffector final : public SharedDriver<RealEffector, ServiceServer> {
  public:
   ReplyEffector(Prepared prepared, const Ros2Binding& binding)
-      : ServiceDriver(std::move(prepared), binding), outgoing_(prepared_) {}
+      : SharedDriver(std::move(prepared), binding), outgoing_(prepared_) {}
 
   [[nodiscard]] bool write(std::span<const std::byte> value) override {
-    return outgoing_.make(prepared_, value) && service_->reply(outgoing_.call(), outgoing_.message());
+    return outgoing_.make(prepared_, value) && side_->reply(outgoing_.call(), outgoing_.message());
   }
 
  private:

@@ -19,10 +19,10 @@ namespace tessera::ros2 {
 /// The longest time that the end of a run waits until the other side has received the last message.
 inline constexpr Duration longest_goodbye = std::chrono::milliseconds(500);
 
-/// A client or server of a service. The receptor and the effector of an agent that name the same service and
+/// A client or server of a service or action. The receptor and the effector of an agent that name the same service and
 /// the same role share one.
 struct ServiceSetup {
-  EndpointSetup endpoint;  ///< its topic is the name of the service
+  EndpointSetup endpoint;  ///< its topic is the name of the service or action
   std::string type;        ///< "std_srvs/srv/SetBool"
   bool is_client = false;
   Duration timeout{};
@@ -147,9 +147,9 @@ class Shared {
 };
 using SharedService = Shared<ServiceEnds>;
 
-/// The object that the drivers of that service and role share in an agent of this process.
+/// The object that the drivers of that service or action and role share in an agent of this process.
 template <class Service>
-[[nodiscard]] std::shared_ptr<Service> shared_service(const ServiceSetup& setup) {
+[[nodiscard]] std::shared_ptr<Service> shared_side(const ServiceSetup& setup) {
   static std::mutex mutex;
   static std::map<std::tuple<std::string, std::string, Network>, std::weak_ptr<Service>> known;
   const std::lock_guard lock(mutex);

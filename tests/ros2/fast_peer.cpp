@@ -60,7 +60,7 @@ dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& nam
   qos.durability().kind =
       transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;
   qos.history().kind = dds::KEEP_LAST_HISTORY_QOS;
-  qos.history().depth = 10;
+  qos.history().depth = transient_local ? 1 : 10;
   qos.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
   return publisher_->create_datawriter(topic(type, name), qos);
 }

@@ -15,6 +15,7 @@
 #include "ros2/codec/value_type.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
+#include "ros2/naming/names.hpp"
 #include "tessera/units.hpp"
 
 namespace tessera::project {
@@ -31,7 +32,8 @@ std::string text_option(const spec::Driver& driver, const char* name) {
   return text == nullptr ? std::string() : *text;
 }
 
-bool is_service(const spec::Driver& driver) { return !text_option(driver, "role").empty(); }
+bool has_role(const spec::Driver& driver) { return !text_option(driver, "role").empty(); }
+bool is_action(const spec::Driver& driver) { return ros2::is_action_type(text_option(driver, "type")); }
 
 bool is_effector(const spec::Model& model, const spec::Driver& driver) {
   return model.subsystem(driver.instance).kind == spec::SubsystemKind::effector;
@@ -95,15 +97,24 @@ class MessageFinder {
   }
 
  private:
-  /// For a service: the message of the buffer.
+  /// For a service or action: the message of the buffer.
   [[nodiscard]] std::shared_ptr<const ros2::Structure> message_of(
       const spec::Driver& driver, const std::string& name, std::vector<ros2::Mistake>& mistakes) const {
-    if (!is_service(driver)) return ros2::resolve(name, definitions_, mistakes);
+    if (!has_role(driver)) return ros2::resolve(name, definitions_, mistakes);
+    if (is_action(driver)) {
+      const auto action = ros2::resolve_action(name, definitions_, mistakes);
+      if (!action) return nullptr;
+      return asks(driver) ? action->goal : action->progress;
+    }
     const auto service = ros2::resolve_service(name, definitions_, mistakes);
     if (!service) return nullptr;
-    return is_client(driver) == is_effector(model_, driver) ? service->request : service->response;
+    return asks(driver) ? service->request : service->response;
   }
   static bool is_client(const spec::Driver& driver) { return text_option(driver, "role") == "client"; }
+  /// Whether its messages go from client to server.
+  [[nodiscard]] bool asks(const spec::Driver& driver) const {
+    return is_client(driver) == is_effector(model_, driver);
+  }
 
   void complain(const char* code, const diagnostics::Span& place, const std::string& text, const Hint& hint) {
     if (said_.insert({place, text}).second) out_.error(code, place, text, hint);
@@ -116,7 +127,10 @@ class MessageFinder {
     ros2::Mapping mapping = ros2::written_mapping(text_option(driver, "fields"), text_option(driver, "names"),
                                                   text_option(driver, "frame_id"));
     const bool sends = is_effector(model_, driver);
-    if (is_service(driver)) mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
+    if (is_action(driver))
+      mapping.own = ros2::own_fields_of_action(asks(driver));
+    else if (has_role(driver))
+      mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
     const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     std::vector<ros2::MappingProblem> problems;
     if (ros2::Translator::make(std::move(message), *value, mapping, direction, problems))

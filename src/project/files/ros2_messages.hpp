@@ -9,14 +9,14 @@
 
 namespace tessera::project {
 
-/// Looks up the messages of all drivers that are topics or services of ROS 2: in the folder `msg` of the
+/// Looks up the messages of all drivers that are topics, services or actions of ROS 2: in the folder `msg` of the
 /// project, then among those that come with Tessera. Their definitions become the option `definition` of the
 /// drivers, so that a controller needs no file of them.
 ///
 /// project: the folder of the specification.
 /// Errors: E218 a unit that the messages of the package do not have; E320 a message that does not exist, or whose
 ///         definition is wrong; E321 fields of message and buffer that do not correspond; E322 services
-///         (ros2_services.hpp). false after one of them.
+///         and actions, E371 a safe command that orders a goal (ros2_services.hpp). false after one of them.
 bool find_messages(spec::Model& model, const std::filesystem::path& project, diagnostics::Diagnostics& out);
 /// The same with these folders of definitions.
 bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::path>& folders,
@@ -27,8 +27,10 @@ bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::pat
 
 /// A text among the options of a driver; empty: there is none.
 [[nodiscard]] std::string text_option(const spec::Driver& driver, const char* name);
-/// Whether a driver of kind ros2 is one side of a service, and not a topic.
-[[nodiscard]] bool is_service(const spec::Driver& driver);
+/// Whether a driver of kind ros2 is one side of a service or action, and not a topic.
+[[nodiscard]] bool has_role(const spec::Driver& driver);
+/// Whether it is one side of an action.
+[[nodiscard]] bool is_action(const spec::Driver& driver);
 /// Whether it stands behind an effector, and not behind a receptor.
 [[nodiscard]] bool is_effector(const spec::Model& model, const spec::Driver& driver);
 

@@ -18,6 +18,9 @@ using diagnostics::in_quotes;
 constexpr const char* topic_hint = "for example { ros2: /cmd_vel, type: geometry_msgs/msg/Twist }";
 constexpr const char* service_hint =
     "role: client sends requests and gets replies; role: server gets requests and sends replies";
+constexpr const char* action_hint =
+    "role: client orders goals and gets what becomes of them; role: server gets goals and says what becomes "
+    "of them";
 constexpr int highest_domain = 232;
 
 /// Words and dots: "linear.x".
@@ -29,14 +32,18 @@ bool is_field_path(std::string_view text) {
 /// Without what separates the parts of lists and options.
 bool is_plain(std::string_view text) { return text.find_first_of(",=\n\r\t\"") == std::string_view::npos; }
 
+enum class Use : std::uint8_t { topic, service, action };
+
 class TopicReader {
  public:
-  TopicReader(const Section& section, bool service, Driver& driver, Diagnostics& out)
-      : section_(section), service_(service), driver_(driver), out_(out) {}
+  TopicReader(const Section& section, Use use, Driver& driver, Diagnostics& out)
+      : section_(section), use_(use), driver_(driver), out_(out) {}
 
   void read() {
     read_name();
-    service_ ? read_service() : read_message();
+    if (use_ == Use::topic) read_message();
+    if (use_ == Use::service) read_service();
+    if (use_ == Use::action) read_action();
     if (const Entry* fields = section_.find("fields")) read_fields(*fields);
     if (const Entry* names = section_.find("names")) put(*names, list_of(*names, "the names"));
     if (const Entry* qos = section_.find("qos")) read_qos(*qos);
@@ -59,7 +66,11 @@ class TopicReader {
         entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the topic", out_, topic_hint);
     if (text == nullptr) return;
     std::string error;
-    if (ros2::full_topic_name(with_agent_number(text->text, 0), error).empty())
+    const std::string name = with_agent_number(text->text, 0);
+    // The longest name of the topics and services of an action.
+    const std::string longest =
+        use_ == Use::action ? ros2::names_of_action(name, "").cancel_goal + "Request" : name;
+    if (ros2::full_topic_name(name, error).empty() || ros2::full_topic_name(longest, error).empty())
       out_.error("E105", text->span, error,
                  "for example /cmd_vel, or /robot{i}/cmd_vel for each agent of a fleet");
     driver_.targets.push_back({text->text, text->span});
@@ -71,37 +82,46 @@ class TopicReader {
         entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the type", out_, topic_hint);
     if (text == nullptr) return;
     const auto name = ros2::full_message_name(text->text);
-    if (ros2::is_action_type(text->text))
-      out_.error("E323", text->span, in_quotes(text->text) + " is an action, and Tessera has no actions",
-                 "use a topic or service that the node offers beside it, or a node of yours that turns a "
-                 "message into a goal; see \"Actions\" in docs/use/ros2.md");
-    else if (!name)
+    if (!name)
       out_.error("E105", text->span, in_quotes(text->text) + " is no name of a message",
                  "for example geometry_msgs/msg/Twist");
     put(*entry, name.value_or(""));
   }
 
   void read_service() {
-    const Entry* const type = section_.require("type", "for example type: std_srvs/srv/SetBool");
+    read_type("std_srvs/srv/SetBool", "service", ros2::full_service_name);
+    if (const Entry* const role = section_.require("role", service_hint)) read_role(*role, service_hint);
+  }
+
+  /// An action has clients more often than servers.
+  void read_action() {
+    read_type("nav2_msgs/action/NavigateToPose", "action", ros2::full_action_name);
+    if (const Entry* const role = section_.find("role"))
+      read_role(*role, action_hint);
+    else
+      driver_.options.emplace("role", DriverOption{std::string("client"), ""});
+  }
+
+  void read_type(const std::string& example, const std::string& what,
+                 std::optional<std::string> (*full_name)(std::string_view)) {
+    const Entry* const type = section_.require("type", "for example type: " + example);
     const Node* const name = type == nullptr ? nullptr : text_of(*type->value, type->span, "the type", out_);
-    if (name != nullptr) {
-      if (ros2::is_action_type(name->text))
-        out_.error("E323", name->span, in_quotes(name->text) + " is an action, and Tessera has no actions",
-                   "an action is more than a service; see \"Actions\" in docs/use/ros2.md");
-      else if (!ros2::full_service_name(name->text))
-        out_.error("E105", name->span, in_quotes(name->text) + " is no name of a service",
-                   "for example std_srvs/srv/SetBool");
-      put(*type, name->text);
-    }
-    const Entry* const role = section_.require("role", service_hint);
-    const Node* const text = role == nullptr ? nullptr : text_of(*role->value, role->span, "the role", out_);
+    if (name == nullptr) return;
+    if (!full_name(name->text))
+      out_.error("E105", name->span,
+                 in_quotes(name->text) + " is no name of " + (what == "action" ? "an " : "a ") + what,
+                 "for example " + example);
+    put(*type, name->text);
+  }
+
+  void read_role(const Entry& role, const char* hint) {
+    const Node* const text = text_of(*role.value, role.span, "the role", out_);
     if (text == nullptr) return;
     if (text->text != "client" && text->text != "server")
-      out_.error("E204", text->span, "the role must be client or server, not " + in_quotes(text->text),
-                 service_hint);
+      out_.error("E204", text->span, "the role must be client or server, not " + in_quotes(text->text), hint);
     if (const Entry* const wait = section_.find("wait"); wait != nullptr && text->text == "server")
       out_.error("E102", wait->span, "a server has no 'wait'", "it answers clients whenever they come");
-    put(*role, text->text);
+    put(role, text->text);
   }
 
   /// A field of the message for all of the buffer, or a map of fields.
@@ -223,34 +243,39 @@ class TopicReader {
   }
 
   const Section& section_;
-  bool service_;
+  Use use_;
   Driver& driver_;
   Diagnostics& out_;
 };
 
-/// A topic has no role, and a service has a type of its own kind.
-bool is_service(const Entry& entry) {
-  return std::ranges::any_of(entry.value->entries, [](const Entry& key) {
-    return key.key == "role" || (key.key == "type" && ros2::is_service_type(key.value->text));
-  });
+/// A topic has no role, and services and actions have types of their own kinds.
+Use use_of(const Entry& entry) {
+  Use use = Use::topic;
+  for (const Entry& key : entry.value->entries) {
+    if (key.key == "type" && ros2::is_action_type(key.value->text)) return Use::action;
+    if (key.key == "role" || (key.key == "type" && ros2::is_service_type(key.value->text)))
+      use = Use::service;
+  }
+  return use;
 }
 
 }  // namespace
 
 void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
   driver.kind = topic_kind;
-  if (is_service(entry)) {
+  const Use use = use_of(entry);
+  if (use != Use::topic) {
     const Section section(
-        *entry.value, entry.span, "a service of ROS 2",
+        *entry.value, entry.span, use == Use::service ? "a service of ROS 2" : "an action of ROS 2",
         {"ros2", "type", "role", "fields", "node", "domain", "interface", "peers", "wait", "timeout"}, out);
-    if (section.readable()) TopicReader(section, /*service=*/true, driver, out).read();
+    if (section.readable()) TopicReader(section, use, driver, out).read();
     return;
   }
   const Section section(
       *entry.value, entry.span, "a topic of ROS 2",
       {"ros2", "type", "fields", "names", "qos", "frame_id", "node", "domain", "interface", "peers", "wait"},
       out);
-  if (section.readable()) TopicReader(section, /*service=*/false, driver, out).read();
+  if (section.readable()) TopicReader(section, use, driver, out).read();
 }
 
 }  // namespace tessera::spec

@@ -44,14 +44,21 @@ class WriterCheck {
     const std::string both = model_.driver_path(*first) + " and " + model_.driver_path(driver);
     const std::string name = in_quotes(driver.target());
     if (!role.empty()) {
-      if (is_new(*first, driver))
-        out_.error("E319", place, "two servers of the service " + name + ": " + both,
-                   "both would execute every request; " + remedy(*first, driver, "service"));
+      if (is_new(*first, driver)) complain_of_servers(place, name + ": " + both, *first, driver);
       return;
     }
     if (is_new(*first, driver))
       out_.warning("W338", place, "two effectors publish " + name + ": " + both,
                    "whoever subscribes obeys both in turn; " + remedy(*first, driver, "topic"));
+  }
+
+  void complain_of_servers(const Span& place, const std::string& which, const Driver& first,
+                           const Driver& second) {
+    const bool action = ros2::is_action_type(text_of(second, "type"));
+    const char* const what = action ? "action" : "service";
+    out_.error("E319", place, std::string("two servers of the ") + what + " " + which,
+               std::string("both would execute every ") + (action ? "goal" : "request") + "; " +
+                   remedy(first, second, what));
   }
 
   void judge_port(const Driver& driver) {

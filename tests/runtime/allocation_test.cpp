@@ -84,18 +84,24 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   return {allocations_at_last_call - before.allocations, locks.load() - before.locks - commands.size()};
 }
 
-/// Runs of both lengths cost the same.
-void expect_length_costs_nothing(RunOptions::Clock clock, Duration shorter, Duration longer) {
+/// Runs of both lengths cost the same. A cost of each firing, or of each line of the log, shows in every try. On a
+/// loaded machine one of the runs may have a cost that the other has not, such as that of a subsystem that is late.
+void expect_length_costs_nothing(RunOptions::Clock clock, Duration shorter, Duration longer, int tries) {
   static_cast<void>(cost_of_a_run(clock, shorter));  // allocates everything that a process allocates once
-  EXPECT_EQ(cost_of_a_run(clock, shorter), cost_of_a_run(clock, longer));
+  Cost cheap{}, dear{1, 1};
+  for (int made = 0; made < tries && cheap != dear; ++made) {
+    cheap = cost_of_a_run(clock, shorter);
+    dear = cost_of_a_run(clock, longer);
+  }
+  EXPECT_EQ(cheap, dear);
 }
 
 TEST(FiringPath, NeitherAllocatesNorLocksUnderTheSimulatedClock) {
-  expect_length_costs_nothing(RunOptions::Clock::simulated, 10ms, 5s);
+  expect_length_costs_nothing(RunOptions::Clock::simulated, 10ms, 5s, 1);
 }
 
 TEST(FiringPath, NeitherAllocatesNorLocksUnderTheSteadyClock) {
-  expect_length_costs_nothing(RunOptions::Clock::steady, 50ms, 200ms);
+  expect_length_costs_nothing(RunOptions::Clock::steady, 50ms, 200ms, 5);
 }
 
 TEST(FiringPath, TheCountersCount) {

@@ -26,15 +26,15 @@ int command(int argc, char** argv) {
       "--state", "DIR", [](const std::string& folder) { setenv("TESSERA_STATE_DIR", folder.c_str(), 1); },
       "The folder for builds and recordings, instead of .tessera of the project "
       "(or TESSERA_STATE_DIR)");
-  for (auto* add : {cli::add_new,       cli::add_check,     cli::add_migrate,
-                    cli::add_rename,    cli::add_show,      cli::add_verify,
-                    cli::add_export,    cli::add_play,      cli::add_generate,
-                    cli::add_package,   cli::add_test,      cli::add_simulate,
-                    cli::add_schedules, cli::add_merge,     cli::add_run,
-                    cli::add_replay,    cli::add_rerun,     cli::add_top,
-                    cli::add_set,       cli::add_panel,     cli::add_emergency_stop,
-                    cli::add_reset,     cli::add_world,     cli::add_studio,
-                    cli::add_lsp,       cli::add_completion})
+  for (auto* add : {cli::add_new,       cli::add_check, cli::add_migrate,
+                    cli::add_rename,    cli::add_show,  cli::add_verify,
+                    cli::add_export,    cli::add_play,  cli::add_generate,
+                    cli::add_package,   cli::add_test,  cli::add_simulate,
+                    cli::add_schedules, cli::add_merge, cli::add_run,
+                    cli::add_replay,    cli::add_rerun, cli::add_top,
+                    cli::add_set,       cli::add_panel, cli::add_emergency_stop,
+                    cli::add_reset,     cli::add_world, cli::add_studio,
+                    cli::add_guard,     cli::add_lsp,   cli::add_completion})
     add(line);
   try {
     return line.read(argc, argv);

@@ -1,9 +1,18 @@
 #pragma once
 
+#include <filesystem>
+#include <string>
+#include <vector>
+
 #include "cli/arguments.hpp"
 
 /// The subcommands. Each declares its options on `app` and sets the function that runs it.
 namespace tessera::cli {
+
+/// Builds the controller of a project and runs it with real drivers, as `run` does. set: PATH=VALUE of parameters.
+/// duration: "60s"; empty: no limit. Returns the exit code.
+[[nodiscard]] int run_project(const std::filesystem::path& project, std::vector<std::string> set,
+                              const std::string& duration);
 
 void add_new(CommandLine& app);
 void add_check(CommandLine& app);
@@ -30,6 +39,7 @@ void add_emergency_stop(CommandLine& app);
 void add_reset(CommandLine& app);
 void add_world(CommandLine& app);
 void add_lsp(CommandLine& app);
+void add_guard(CommandLine& app);
 void add_completion(CommandLine& app);
 
 }  // namespace tessera::cli

@@ -128,6 +128,15 @@ int run_command(RunCommandOptions options) {
 
 }  // namespace
 
+int run_project(const std::filesystem::path& project, std::vector<std::string> set,
+                const std::string& duration) {
+  RunCommandOptions options;
+  options.spec = project.string();
+  options.set = std::move(set);
+  options.duration = duration;
+  return run_command(std::move(options));
+}
+
 void add_simulate(CommandLine& app) {
   Subcommand command = app.add("simulate", "Build the controller and run it in its simulated world");
   SimulateOptions& options = command.runs(simulate_command);

@@ -4,7 +4,9 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstddef>
 #include <cstdio>
+#include <map>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -20,6 +22,7 @@ namespace tessera::ros2 {
 namespace {
 
 constexpr Duration longest_receipt = std::chrono::milliseconds(500);
+constexpr Duration speaks_no_more_after = std::chrono::seconds(1);
 constexpr Duration guardian_finds_within = std::chrono::seconds(4);
 
 void await_other_side(const Endpoint& endpoint, const Prepared& prepared, const char* other) {
@@ -45,6 +48,21 @@ class WatchedEndpoint {
  private:
   Endpoint endpoint_;
   OtherSideWatch watch_;
+};
+
+/// The publishers that have sent a message within the last second. One that was killed is thus no longer counted
+/// long before DDS notices its end.
+class Speakers {
+ public:
+  using Clock = std::chrono::steady_clock;
+  void note(dds_instance_handle_t writer, Clock::time_point now) { heard_[writer] = now; }
+  [[nodiscard]] std::size_t count(Clock::time_point now) {
+    std::erase_if(heard_, [&](const auto& one) { return now - one.second > speaks_no_more_after; });
+    return heard_.size();
+  }
+
+ private:
+  std::map<dds_instance_handle_t, Clock::time_point> heard_;
 };
 
 /// "'ranges' has 360 elements, and the buffer takes 8"
@@ -73,15 +91,24 @@ class Subscriber final : public RealReceptor {
     fresh_ = false;
     endpoint_->watch();
     (*endpoint_)
-        ->take([](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob.message); },
-               this);
+        ->take([](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob); }, this);
+    if (prepared_.one_publisher) refuse_several();
     return fresh_ && prepared_.encoding->take(value.data(), newest_);
   }
 
  private:
-  void note(std::span<const std::byte> message) {
+  /// A message that was taken beside those of another publisher is gone, so that it cannot count later.
+  void refuse_several() {
+    const std::size_t speakers = speakers_.count(Speakers::Clock::now());
+    if (speakers > 1)
+      throw std::runtime_error(fmt::format("{} programs publish {}, and `publishers` allows one", speakers,
+                                           prepared_.endpoint.topic));
+  }
+
+  void note(const TakenBlob& blob) {
+    if (prepared_.one_publisher) speakers_.note(blob.writer, Speakers::Clock::now());
     Translator::Misfit misfit;
-    const Translator::Outcome outcome = prepared_.translator.decode(message, newest_, {}, &misfit);
+    const Translator::Outcome outcome = prepared_.translator.decode(blob.message, newest_, {}, &misfit);
     if (outcome == Translator::Outcome::good)
       fresh_ = true;
     else if (is_told(++dropped_))
@@ -98,6 +125,7 @@ class Subscriber final : public RealReceptor {
   Prepared prepared_;
   std::optional<WatchedEndpoint> endpoint_;
   std::vector<std::byte> newest_;
+  Speakers speakers_;
   bool fresh_ = false;
   std::uint64_t dropped_ = 0;
 };

@@ -9,12 +9,12 @@
 
 extern "C" {
 
-__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_2(
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_3(
     const tessera::Ros2Binding& binding, std::string& error) {
   return tessera::ros2::make_receptor(binding, error);
 }
 
-__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_2(
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_3(
     const tessera::Ros2Binding& binding, std::string& error) {
   return tessera::ros2::make_effector(binding, error);
 }

@@ -60,7 +60,9 @@ Translator translator_of(const Ros2Binding& binding, Direction direction,
 Prepared prepare(const Ros2Binding& binding, Direction direction) {
   std::string error;
   const auto message = message_of(binding, direction);
-  Prepared prepared{message, translator_of(binding, direction, message), {}, binding.encoding, binding.wait};
+  Prepared prepared{message,      translator_of(binding, direction, message),
+                    {},           binding.encoding,
+                    binding.wait, binding.one_publisher};
   EndpointSetup& endpoint = prepared.endpoint;
   endpoint.path = binding.path;
   endpoint.topic = full_topic_name(binding.topic, error);

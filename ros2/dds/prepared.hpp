@@ -16,6 +16,7 @@ struct Prepared {
   EndpointSetup endpoint;  ///< for a service or action: without the DDS names
   const ValueEncoding* encoding;
   Duration wait;
+  bool one_publisher = false;
 };
 
 /// Throws std::runtime_error: the binding is wrong.

@@ -90,6 +90,17 @@ drivers:
   return render(out);
 }
 
+TEST(Specification, WithPublishersOfAnEffectorIsRefused) {
+  EXPECT_EQ(
+      report_of("type: geometry_msgs/Twist, fields: { linear.x: v, angular.z: omega }, publishers: one"),
+      R"(spec.yaml:11:123: error E321: an effector has no 'publishers'
+   11 | ...r.x: v, angular.z: omega }, publishers: one }
+      |                                            ^~~
+hint: it publishes itself; the controller warns of others (docs/use/ros2.md)
+1 error
+)");
+}
+
 TEST(Specification, WithUnitsThatTheMessagesOfAPackageDoNotHaveIsRefused) {
   const std::string twist = "type: geometry_msgs/Twist, fields: { linear.x: v }";
   EXPECT_EQ(report_of_unit("m/s", twist), "");

@@ -52,6 +52,7 @@ Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) 
   binding.fields = setup.text_or("fields", "");
   binding.names = setup.text_or("names", "");
   binding.frame_id = setup.text_or("frame_id", "");
+  binding.one_publisher = setup.text_or("publishers", "") == "one";
   binding.qos = setup.text_or("qos", "");
   binding.node = setup.text_or("node", "");
   binding.interface = setup.text_or("interface", "lo");

@@ -127,6 +127,11 @@ class MessageFinder {
     ros2::Mapping mapping = ros2::written_mapping(text_option(driver, "fields"), text_option(driver, "names"),
                                                   text_option(driver, "frame_id"));
     const bool sends = is_effector(model_, driver);
+    if (sends && driver.options.contains("publishers")) {
+      complain("E321", place_in(driver, "publishers"), "an effector has no 'publishers'",
+               "it publishes itself; the controller warns of others (docs/use/ros2.md)");
+      return false;
+    }
     if (is_action(driver))
       mapping.own = ros2::own_fields_of_action(asks(driver));
     else if (has_role(driver))

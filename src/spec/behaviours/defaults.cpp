@@ -262,7 +262,13 @@ void check_used(const OnError& on_error, Diagnostics& out) {
   if (on_error.used) return;
   const std::string name = on_error.behaviour.empty() ? std::string(stop) : on_error.behaviour;
   out.warning("W361", on_error.span, "no failure leads to " + in_quotes(name) + " by this 'on_error'",
-              "every behaviour, or every subsystem, says itself where its failures lead; remove it");
+              on_error.behaviour.empty()
+                  ? "every behaviour, or every subsystem, says itself where its failures lead; remove it"
+                  : "failures of " + in_quotes(name) +
+                        " itself never lead to it by this, and all others are led elsewhere; remove it, or "
+                        "write next: "
+                        "{ to: " +
+                        name + ", when: error } in " + in_quotes(name));
 }
 
 std::vector<BufferId> read_buffer_list(const Node& value, const Entry& at, const ListScope& scope,

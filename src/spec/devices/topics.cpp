@@ -48,6 +48,7 @@ class TopicReader {
     if (const Entry* names = section_.find("names")) put(*names, list_of(*names, "the names"));
     if (const Entry* qos = section_.find("qos")) read_qos(*qos);
     for (const char* option : {"frame_id", "interface"}) read_text(option);
+    if (const Entry* publishers = section_.find("publishers")) read_publishers(*publishers);
     if (const Entry* peers = section_.find("peers")) put(*peers, list_of(*peers, "the peers"));
     read_node();
     if (const Entry* domain = section_.find("domain")) read_domain(*domain);
@@ -193,6 +194,15 @@ class TopicReader {
     put(entry, text->text);
   }
 
+  void read_publishers(const Entry& entry) {
+    const Node* const text = text_of(*entry.value, entry.span, "publishers", out_);
+    if (text == nullptr) return;
+    if (text->text != "one")
+      out_.error("E204", text->span, "'publishers' must be one, not " + in_quotes(text->text),
+                 "without it, messages of any number of publishers are taken");
+    put(entry, text->text);
+  }
+
   void read_policies(const Entry& entry) {
     const Section policies(*entry.value, entry.span, "qos", {"reliability", "durability", "depth"}, out_);
     std::string all;
@@ -271,10 +281,10 @@ void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
     if (section.readable()) TopicReader(section, use, driver, out).read();
     return;
   }
-  const Section section(
-      *entry.value, entry.span, "a topic of ROS 2",
-      {"ros2", "type", "fields", "names", "qos", "frame_id", "node", "domain", "interface", "peers", "wait"},
-      out);
+  const Section section(*entry.value, entry.span, "a topic of ROS 2",
+                        {"ros2", "type", "fields", "names", "qos", "publishers", "frame_id", "node", "domain",
+                         "interface", "peers", "wait"},
+                        out);
   if (section.readable()) TopicReader(section, use, driver, out).read();
 }
 

@@ -41,7 +41,7 @@ int rename_command(const RenameOptions& options) {
     return usage;
   }
   const language::Grammar grammar("{}");  // which keys are allowed is not asked
-  const language::Document document(found.text(), grammar);
+  const language::Document document(found.text(), grammar, found.folder());
   const language::Named named = language::find_name(document, options.name);
   if (!named.position) return complain(named.problem);
   std::vector<language::Source> sources;
@@ -92,7 +92,8 @@ void add_rename(CommandLine& app) {
   command.flag("--dry-run", options.dry_run, "Show the lines that would change and write nothing");
   command.footer(
       "All files are written or none. If several parts have the name, one of these words before it decides:\n"
-      "input:, output:, real:, memory:, parameter:, type:, template:, model:, process:, condition:, field:.\n"
+      "input:, output:, real:, memory:, parameter:, type:, template:, model:, process:, condition:, field:, "
+      "with:.\n"
       "The language server and the studio rename in the same way. The way back is the same command.\n"
       "Ends with 0 if it was renamed, 1 if it cannot be, 2 if the specification cannot be read.\n"
       "Example: tessera rename robot.control.follow pursue robot/spec.yaml");

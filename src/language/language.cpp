@@ -4,7 +4,12 @@
 
 namespace tessera::language {
 
-Document::Document(std::string text, const Grammar& grammar)
-    : text_(std::move(text)), grammar_(grammar), lines_(text_), outline_(text_), index_(text_, outline_) {}
+Document::Document(std::string text, const Grammar& grammar, std::filesystem::path folder)
+    : text_(std::move(text)),
+      folder_(std::move(folder)),
+      grammar_(grammar),
+      lines_(text_),
+      outline_(text_),
+      index_(text_, outline_) {}
 
 }  // namespace tessera::language

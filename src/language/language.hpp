@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <span>
@@ -84,12 +85,13 @@ struct Heading {
 /// Threads: immutable; any.
 class Document {
  public:
-  /// grammar: outlives the document. Linear in the text.
-  Document(std::string text, const Grammar& grammar);
+  /// grammar: outlives the document. folder: its included files are there; empty: it has none. Linear in the text.
+  Document(std::string text, const Grammar& grammar, std::filesystem::path folder = {});
   Document(const Document&) = delete;
   Document& operator=(const Document&) = delete;
 
   [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
   [[nodiscard]] const Lines& lines() const { return lines_; }
   [[nodiscard]] const Index& index() const { return index_; }
   [[nodiscard]] const Outline& outline() const { return outline_; }
@@ -97,6 +99,7 @@ class Document {
 
  private:
   std::string text_;
+  std::filesystem::path folder_;
   const Grammar& grammar_;
   Lines lines_;
   Outline outline_;
@@ -130,8 +133,8 @@ class Document {
 [[nodiscard]] std::optional<Range> renameable(const Document& document, const Source* in, Position position);
 
 /// Gives the name at the cursor another one, in the specification and all sources. Refuses names that are taken or
-/// not allowed, and whatever would bring the specification a new error. Refuses every name of a specification that
-/// includes files, which may have the name too.
+/// not allowed, and whatever would bring the specification a new error, or another meaning. Refuses names that an
+/// included file has too, and every name if these files cannot be read.
 [[nodiscard]] Renaming rename(const Document& document, const Source* in, Position position,
                               std::span<const Source> sources, const std::string& name);
 

@@ -100,7 +100,7 @@ std::string Workspace::text_of(const fs::path& file) const {
 std::shared_ptr<const language::Document> Workspace::analysed(const std::string& uri, std::string text) {
   auto& kept = analysed_[uri];
   if (kept == nullptr || kept->text() != text)
-    kept = std::make_shared<const language::Document>(std::move(text), grammar_);
+    kept = std::make_shared<const language::Document>(std::move(text), grammar_, path_of(uri).parent_path());
   return kept;
 }
 

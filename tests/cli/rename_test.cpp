@@ -75,6 +75,33 @@ TEST_F(Rename, OfTwoAtOnceOneWinsWholeAndTheOtherIsRefused) {
   }
 }
 
+TEST_F(Rename, ChangesWhatNoIncludedFileNames) {
+  const std::string text =
+      "tessera: 1\nsystem: s\ninclude: parts/turning.yaml\nagents:\n  a:\n    control:\n      rate: 1 Hz\n"
+      "      memory: { steps: { counts: 0..2 }, other: bool }\n"
+      "      behaviours: { go: { use: turning, next: rest }, rest: { terminal: true, next: go } }\n";
+  const std::string part =
+      "templates:\n  turning:\n    # other\n    behaviours: { turn: { terminal: memory.steps == 2, next: end "
+      "} }\n";
+  write(folder_ / "spec.yaml", text);
+  write(folder_ / "parts/turning.yaml", part);
+  ASSERT_EQ(tessera("check").code, 0) << tessera("check").text;
+  EXPECT_EQ(tessera("rename a.control.other another").code, 0);
+  EXPECT_NE(content_of(folder_ / "spec.yaml").find("another: bool"), std::string::npos);
+  EXPECT_EQ(tessera("check").code, 0);
+  EXPECT_EQ(tessera("rename a.control.another other").code, 0);
+  for (const auto& [rename, why] :
+       {std::pair{"a.control.steps count_of", "'steps' stands on line 4 of parts/turning.yaml"},
+        {"a.control.other turn", "'turn' stands on line 4 of parts/turning.yaml"},
+        {"a.control.go drive", "the behaviours of group 'go' stand in parts/turning.yaml"}}) {
+    const project::Exit refused = tessera(std::string("rename ") + rename);
+    EXPECT_EQ(refused.code, 1) << rename;
+    EXPECT_NE(refused.text.find(why), std::string::npos) << refused.text;
+  }
+  EXPECT_EQ(content_of(folder_ / "spec.yaml"), text);
+  EXPECT_EQ(content_of(folder_ / "parts/turning.yaml"), part);
+}
+
 TEST_F(Rename, IsRefusedWithAReasonAndThenWritesNothing) {
   const std::string text =
       "tessera: 1\nsystem: s\nagents:\n  a: { control: { rate: 1 Hz, behaviours: { go: {}, halt: {} } } }\n";

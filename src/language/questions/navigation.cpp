@@ -1,10 +1,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <set>
 
 #include "language/language.hpp"
 #include "language/names/sources.hpp"
+#include "language/questions/place.hpp"
 #include "spec/document/names.hpp"
 #include "spec/parser.hpp"
 
@@ -51,9 +53,9 @@ std::vector<SymbolId> neighbours(const Index& index, SymbolId symbol) {
   return all;
 }
 
-std::multiset<std::string> errors_of(const std::string& text,
+std::multiset<std::string> errors_of(const std::string& text, const std::filesystem::path& folder,
                                      std::vector<diagnostics::Diagnostic>* all = nullptr) {
-  diagnostics::Diagnostics out("spec.yaml", text);
+  diagnostics::Diagnostics out("spec.yaml", text, folder);
   (void)spec::parse(out);
   std::multiset<std::string> codes;
   for (const diagnostics::Diagnostic& one : out.sorted()) {
@@ -66,9 +68,9 @@ std::multiset<std::string> errors_of(const std::string& text,
 
 /// Why a specification with `edits` would be worse; nullopt: it is not.
 std::optional<std::string> new_error(const Document& document, const std::vector<TextEdit>& edits) {
-  const std::multiset<std::string> before = errors_of(document.text());
+  const std::multiset<std::string> before = errors_of(document.text(), document.folder());
   std::vector<diagnostics::Diagnostic> found;
-  const std::multiset<std::string> after = errors_of(edited(document, edits), &found);
+  const std::multiset<std::string> after = errors_of(edited(document, edits), document.folder(), &found);
   for (const diagnostics::Diagnostic& one : found)
     if (after.count(one.code) > before.count(one.code))
       return fmt::format("then line {} would be wrong: {} ({})", one.span.line, one.message, one.code);
@@ -84,6 +86,61 @@ std::optional<std::string> shared_word(const Document& document, SymbolId symbol
           "it by "
           "'with' if this is a template",
           document.lines().position(word.extent.begin).line + 1);
+  return std::nullopt;
+}
+
+bool is_of_name(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// The line on which a word stands, but for comments that fill their line; 0: it does not.
+std::size_t line_with(std::string_view text, std::string_view word) {
+  std::size_t line = 0;
+  for (std::size_t begin = 0; begin < text.size();) {
+    const std::size_t end = std::min(text.find('\n', begin), text.size());
+    const std::string_view one = text.substr(begin, end - begin);
+    ++line;
+    begin = end + 1;
+    if (const std::size_t first = one.find_first_not_of(" \t"); first != one.npos && one[first] == '#')
+      continue;
+    for (std::size_t at = one.find(word); at != one.npos; at = one.find(word, at + 1))
+      if ((at == 0 || !is_of_name(one[at - 1])) &&
+          (at + word.size() == one.size() || !is_of_name(one[at + word.size()])))
+        return line;
+  }
+  return 0;
+}
+
+/// Why a name of a specification that includes files cannot be changed; nullopt: they do not have it.
+std::optional<std::string> in_included_files(const Document& document, SymbolId id, const std::string& name) {
+  const std::string files = included_files(document);
+  if (files.empty()) return std::nullopt;
+  const Symbol& symbol = document.index()[id];
+  diagnostics::Diagnostics out("spec.yaml", document.text(), document.folder());
+  (void)spec::parse(out);
+  const std::vector<std::string> included = out.sources().included();
+  const std::vector<diagnostics::Diagnostic> all = out.sorted();
+  const bool unread = std::ranges::any_of(all, [](const diagnostics::Diagnostic& one) {
+    return one.code == "E356" || one.code == "E357" || one.code == "E358" || one.code == "E361";
+  });
+  if (unread || included.empty())
+    return fmt::format(
+        "the specification includes {}, where the name may stand too: rename it by hand, and run "
+        "`tessera check`",
+        files);
+  for (std::size_t file = 0; file < included.size(); ++file)
+    for (const std::string& word : {symbol.name, name})
+      if (const std::size_t line = line_with(out.included_text(file), word); line > 0)
+        return fmt::format(
+            "'{}' stands on line {} of {}, which the specification includes: rename it by hand, and "
+            "run `tessera check`",
+            word, line, included[file]);
+  // The functions of its behaviours begin with its name, and are not known here.
+  const std::string& use = node_at(document.outline(), symbol.way)["use"].text;
+  if (symbol.kind == Kind::behaviour && !use.empty() && document.index().group_template(use) == nullptr)
+    return fmt::format(
+        "the behaviours of group '{}' stand in {}: rename it by hand, and its functions in C++", symbol.name,
+        files);
   return std::nullopt;
 }
 
@@ -103,6 +160,17 @@ std::optional<std::string> new_meaning(const Document& before, const Document& a
 }
 
 }  // namespace
+
+std::string included_files(const Document& document) {
+  const Node& include = document.outline().root()["include"];
+  std::vector<std::string> files;
+  if (include.is_scalar()) files.push_back(include.text);
+  for (const Entry& item : include.items) files.push_back(item.value->text);
+  std::string text;
+  for (std::size_t at = 0; at < files.size(); ++at)
+    text += (at == 0 ? "" : at + 1 == files.size() ? " and " : ", ") + files[at];
+  return text;
+}
 
 std::string edited(const Document& document, const std::vector<TextEdit>& edits) {
   std::vector<std::pair<Extent, std::string_view>> parts;
@@ -189,25 +257,8 @@ std::optional<Range> renameable(const Document& document, const Source* in, Posi
   return here->range;
 }
 
-std::string included_files(const Document& document) {
-  const Node& include = document.outline().root()["include"];
-  std::vector<std::string> files;
-  if (include.is_scalar()) files.push_back(include.text);
-  for (const Entry& item : include.items) files.push_back(item.value->text);
-  std::string text;
-  for (std::size_t at = 0; at < files.size(); ++at)
-    text += (at == 0 ? "" : at + 1 == files.size() ? " and " : ", ") + files[at];
-  return text;
-}
-
 Renaming rename(const Document& document, const Source* in, Position position,
                 std::span<const Source> sources, const std::string& name) {
-  if (const std::string included = included_files(document); !included.empty())
-    return {
-        {},
-        fmt::format("the specification includes {}, where the name may stand too: rename it by hand, and run "
-                    "`tessera check`",
-                    included)};
   const std::optional<AtCursor> here = at_cursor(document, in, position);
   if (!here) return {{}, "there is no name of the specification here"};
   const Index& index = document.index();
@@ -218,6 +269,8 @@ Renaming rename(const Document& document, const Source* in, Position position,
   if (!renameable(document, in, position))
     return {{}, "'control' is the name that every control subsystem has"};
   if (name == symbol.name) return {};
+  if (std::optional<std::string> problem = in_included_files(document, here->symbol, name))
+    return {{}, std::move(problem)};
   diagnostics::Diagnostics judged("", name);
   if (!spec::check_name(name, {1, 1, 1}, words_of(symbol.kind), judged)) {
     const diagnostics::Diagnostic problem = judged.sorted().front();

@@ -47,6 +47,17 @@ std::string routing(const Subsystem& subsystem, const Behaviour& behaviour, cons
   return "write next: [" + entry + ", " + other + "]";
 }
 
+/// The `end` that nobody has written is never taken. A group may be left by `until` around it alone; then there is
+/// nothing to change.
+void check_default_end(const Behaviour& behaviour, Diagnostics& out) {
+  if (behaviour.is_group()) return;
+  out.warning(
+      "W314", behaviour.terminal.span,
+      "behaviour " + in_quotes(behaviour.name) +
+          " has no 'next', and never leads to end by itself: this condition cannot hold",
+      "'until' around it still leaves the group; write a condition that can hold, or leave 'terminal' out");
+}
+
 void check_entries(const Behaviour& behaviour, const Endings& endings, Diagnostics& out) {
   for (std::uint32_t number = 0; number < written_entries(behaviour); ++number) {
     const NextId entry{number};
@@ -54,6 +65,10 @@ void check_entries(const Behaviour& behaviour, const Endings& endings, Diagnosti
     // W313 and W315 are about these.
     const bool constant = behaviour.next[entry].when.kind == When::Kind::never;
     if (!constant && !names_error(behaviour.next[entry]) && !endings.possible(Ending::terminal)) continue;
+    if (!behaviour.next_given && !behaviour.next[entry].inherited) {
+      check_default_end(behaviour, out);
+      continue;
+    }
     const bool behind = is_behind(behaviour, entry);
     out.warning("W314", behaviour.next[entry].span,
                 behind ? "this entry is never reached: the one before it is always taken"

@@ -25,6 +25,10 @@ export interface Behaviour {
   /** The path of the group that it is in; empty: it is in the subsystem itself. */
   group: string;
   isGroup: boolean;
+  /** The template that a group uses; empty: its behaviours are its own. */
+  template: string;
+  /** The template in which it is written; empty: it is written here. */
+  inTemplate: string;
   /** The function in C++: "charge_ask". */
   function: string;
   /** "each robot": there is one for each member of a fleet; empty: it is one. */
@@ -204,12 +208,23 @@ function readSubsystem(yaml: YamlText, agent: string, kind: SubsystemKind, at: Y
 /** Groups are at most that deep in one another (src/spec/groups/groups.hpp). */
 const deepestGroup = 8;
 
-function readBehaviours(yaml: YamlText, subsystem: string, at: YamlPath, around = "", depth = 0): Behaviour[] {
+/** open: the templates around, so that those that use each other in a circle end. */
+function readBehaviours(
+  yaml: YamlText,
+  subsystem: string,
+  at: YamlPath,
+  around = "",
+  open: string[] = [],
+  depth = 0,
+): Behaviour[] {
   return yaml.keys(at).flatMap((own) => {
     const behaviour = readBehaviour(yaml, subsystem, [...at, own], around);
-    const inside = behaviour.isGroup && depth < deepestGroup;
+    const { template } = behaviour;
+    if (!behaviour.isGroup || depth >= deepestGroup || open.includes(template)) return [behaviour];
     const group = behaviour.path.slice(subsystem.length + 1);
-    return [behaviour, ...(inside ? readBehaviours(yaml, subsystem, [...at, own, "behaviours"], group, depth + 1) : [])];
+    const body = template ? ["templates", template] : [...at, own];
+    const within = template ? [...open, template] : open;
+    return [behaviour, ...readBehaviours(yaml, subsystem, [...body, "behaviours"], group, within, depth + 1)];
   });
 }
 
@@ -227,7 +242,9 @@ function readBehaviour(yaml: YamlText, subsystem: string, at: YamlPath, around: 
     name,
     path,
     group: around && `${subsystem}.${around}`,
-    isGroup: yaml.pair([...at, "behaviours"]) !== undefined,
+    isGroup: yaml.pair([...at, "behaviours"]) !== undefined || yaml.pair([...at, "use"]) !== undefined,
+    template: yaml.valueText([...at, "use"]) ?? "",
+    inTemplate: at[0] === "templates" && at[2] === "behaviours" ? String(at[1]) : "",
     function: path.slice(subsystem.length + 1).replaceAll(".", "_"),
     for: yaml.valueText([...at, "for"]) ?? "",
     yaml: at,

@@ -1,6 +1,7 @@
 import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
 import { exampleOf, keptCells } from "../../model/structure/kept_cells";
+import { groupTemplates, takenBy } from "../../model/structure/group_templates";
 import {
   leadsFailures,
   listAround,
@@ -46,9 +47,14 @@ function InGroup({ behaviour, subsystem }: Shown) {
   const edit = useEdit();
   const own = (path: string) => path.slice(subsystem.path.length + 1);
   const groups = subsystem.behaviours.filter(
-    (one) => one.isGroup && one.path !== behaviour.path && !one.path.startsWith(`${behaviour.path}.`),
+    (one) =>
+      one.isGroup &&
+      !one.template &&
+      !one.inTemplate &&
+      one.path !== behaviour.path &&
+      !one.path.startsWith(`${behaviour.path}.`),
   );
-  if (groups.length === 0) return null;
+  if (groups.length === 0 || behaviour.inTemplate) return null;
   return (
     <Choice
       label="In the group"
@@ -60,6 +66,41 @@ function InGroup({ behaviour, subsystem }: Shown) {
     />
   );
 }
+
+/** The template of a group, and what stands for the names that it takes. */
+function Template({ structure, behaviour }: Shown) {
+  const edit = useEdit();
+  const { yaml } = structure;
+  if (!behaviour.template) return null;
+  return (
+    <>
+      <Field
+        label="Template"
+        value={behaviour.template}
+        choices={groupTemplates(yaml)}
+        hint="Its behaviours stand under templates; what is set here comes instead of what it says"
+        onChange={(text) => text.trim() !== "" && edit(edits.set(behaviour.yaml, "use", text))}
+      />
+      {takenBy(yaml, behaviour.template).map((name) => (
+        <Field
+          key={name}
+          label={name}
+          mono
+          value={yaml.valueText([...behaviour.yaml, "with", name]) ?? ""}
+          placeholder="not given"
+          hint={`The name or number that stands for ${name} in ${behaviour.template}`}
+          onChange={(text) => edit(edits.set([...behaviour.yaml, "with"], name, text))}
+        />
+      ))}
+    </>
+  );
+}
+
+/** A behaviour that stands in a template is the same in each group that uses it. */
+const TemplateNote = ({ behaviour }: { behaviour: Behaviour }) =>
+  behaviour.inTemplate ? (
+    <p className="faint">written in template {behaviour.inTemplate}: a change is one for each group that uses it</p>
+  ) : null;
 
 /** A group has behaviours instead of conditions and communication. */
 function GroupForm(shown: Shown) {
@@ -75,8 +116,10 @@ function GroupForm(shown: Shown) {
   return (
     <>
       <p className="faint">group of behaviours: {inside.join(", ")}</p>
+      <TemplateNote behaviour={behaviour} />
       <NameField {...shown} />
       <InGroup {...shown} />
+      <Template {...shown} />
       <Field
         label="Starts with"
         value={field("start")}
@@ -103,8 +146,12 @@ function GroupForm(shown: Shown) {
       <Sets {...shown} what="group" />
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
       <div className="buttons">
-        <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
-        <button onClick={() => add("group", edits.addGroup)}>Add group</button>
+        {!behaviour.template && (
+          <>
+            <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
+            <button onClick={() => add("group", edits.addGroup)}>Add group</button>
+          </>
+        )}
         <Remove what="group" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
       </div>
     </>
@@ -141,6 +188,7 @@ function OneForm(shown: Shown) {
   };
   return (
     <>
+      <TemplateNote behaviour={behaviour} />
       <NameField {...shown} />
       <InGroup {...shown} />
       {(fleets.length > 0 || behaviour.for) && (

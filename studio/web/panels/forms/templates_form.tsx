@@ -1,4 +1,5 @@
 import { useStudio } from "../../hooks/use";
+import { isGroupTemplate } from "../../model/structure/group_templates";
 import {
   readTemplate,
   sharersOf,
@@ -27,6 +28,7 @@ export function TemplatesForm({ structure }: { structure: Structure }) {
       <legend>Templates</legend>
       <OwnProblem structure={structure} at={["templates"]} />
       {names.map((name) => {
+        if (isGroupTemplate(yaml, name)) return <GroupTemplate key={name} structure={structure} name={name} />;
         const template = readTemplate(structure, name);
         const users = template ? sharersOf(structure, template).map((one) => one.name) : [];
         return (
@@ -39,6 +41,18 @@ export function TemplatesForm({ structure }: { structure: Structure }) {
       <p className="faint">An agent that uses a template shares its subsystems</p>
       <button onClick={add}>Add template</button>
     </fieldset>
+  );
+}
+
+/** A template of a group: its behaviours have their forms in each group that uses it. */
+function GroupTemplate({ structure, name }: { structure: Structure; name: string }) {
+  const behaviours = structure.agents.flatMap((agent) => agent.subsystems.flatMap((one) => one.behaviours));
+  const users = behaviours.filter((one) => one.template === name).map(({ path }) => path);
+  return (
+    <div className="template">
+      <p>Template {name}, of a group</p>
+      <p className="faint">{users.length > 0 ? `Used by ${users.join(", ")}` : "Not used"}</p>
+    </div>
   );
 }
 

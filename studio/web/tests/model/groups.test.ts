@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import { exampleOf } from "../../model/structure/kept_cells";
+import { groupTemplates, takenBy } from "../../model/structure/group_templates";
 import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
 import { chipLines, chipText, chipWidth } from "../../model/structure/structure_layout";
 
@@ -70,5 +71,36 @@ describe("groups of behaviours", () => {
     expect(chipWidth(of("charge.an_extremely_long_name_of_a_behaviour"), control)).toBe(210);
     // work | charge ask | dock turn | the long name | lend[i]
     expect(chipLines(control)).toBe(5);
+  });
+});
+
+describe("templates of groups", () => {
+  const structure = readStructure(`tessera: 1
+system: s
+templates:
+  docking: { with: [grant], behaviours: { ask: { receive: [grant] }, again: { use: round } } }
+  round: { behaviours: { turn: {}, more: { use: round } } }
+  carrier: { control: { behaviours: { run: {} } } }
+agents:
+  robot: { control: { rate: 1 Hz, behaviours: { charge: { use: docking, with: { grant: left }, next: charge } } } }
+`);
+  const control = structure.agents[0]!.subsystems[0]!;
+
+  it("give a group its behaviours, and circles end", () => {
+    const prefix = "robot.control.".length;
+    const paths = control.behaviours.map(({ path }) => path.slice(prefix));
+    expect(paths).toEqual(["charge", "charge.ask", "charge.again", "charge.again.turn", "charge.again.more"]);
+    expect(control.behaviours[0]).toMatchObject({ isGroup: true, template: "docking", inTemplate: "" });
+    expect(control.behaviours[1]).toMatchObject({
+      function: "charge_ask",
+      inTemplate: "docking",
+      yaml: ["templates", "docking", "behaviours", "ask"],
+    });
+  });
+
+  it("are told from those of agents, with what they take", () => {
+    expect(groupTemplates(structure.yaml)).toEqual(["docking", "round"]);
+    expect(takenBy(structure.yaml, "docking")).toEqual(["grant"]);
+    expect(takenBy(structure.yaml, "round")).toEqual([]);
   });
 });

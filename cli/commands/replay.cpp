@@ -10,11 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "cli/bags.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/legality_check.hpp"
 #include "cli/commands/legality_text.hpp"
 #include "cli/coverage.hpp"
 #include "cli/film.hpp"
+#include "cli/recording_summary.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
@@ -35,7 +37,6 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::json;
-using replay::Distribution;
 
 constexpr const char* all_values = "*";
 constexpr const char* usual_recording = ".tessera/last/recording.tsr";
@@ -43,7 +44,7 @@ constexpr const char* usual_recording = ".tessera/last/recording.tsr";
 struct ReplayOptions {
   std::vector<std::string> recordings;
   fs::path project;  ///< whose last run is read; empty: of none
-  std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json, coverage;
+  std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json, mcap, coverage;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
   bool check = false, print = false;
@@ -79,118 +80,11 @@ void write_perfetto_file(const Recording& recording, const std::string& file) {
   write_output(file, text.str());
 }
 
-// ---------------------------------------------------------------------------------------------- summary
-
-std::string shown(double seconds) {
-  if (seconds < 1e-6) return fmt::format("{:.0f} ns", seconds * 1e9);
-  if (seconds < 1e-3) return fmt::format("{:.1f} us", seconds * 1e6);
-  if (seconds < 1) return fmt::format("{:.3f} ms", seconds * 1e3);
-  return fmt::format("{:.3f} s", seconds);
-}
-
-/// A row of block characters, one per step of the histogram. Every value above zero is visible.
-std::string bars(const Distribution& distribution) {
-  if (distribution.histogram.empty()) return {};
-  constexpr const char* blocks[] = {" ", "▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
-  const std::uint64_t most = std::ranges::max(distribution.histogram);
-  std::string row = "  |";
-  for (const std::uint64_t count : distribution.histogram)
-    row += blocks[count == 0 ? 0 : std::max<std::uint64_t>(1, count * 8 / most)];
-  return row + "|";
-}
-
-void print_distribution(const std::string& name, const Distribution& distribution) {
-  if (distribution.count == 0) return;
-  fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}{}\n", printable(name), shown(distribution.least),
-             shown(distribution.median), shown(distribution.p99), shown(distribution.most),
-             bars(distribution));
-}
-
-std::string count_of(std::uint64_t count, const char* what) {
-  return count == 0 ? std::string() : fmt::format(", {} {}", count, what);
-}
-
-void print_summary(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
-  const double end_s =
-      recording.entries.empty() ? 0 : static_cast<double>(recording.entries.back().event.time_ns) * 1e-9;
-  fmt::print("{}: {} clock, seed {}, {:.3f} s, {} events{}\n", printable(recording.system),
-             printable(recording.clock), recording.seed, end_s, recording.entries.size(),
-             recording.truncated ? ", cut off" : "");
-  if (lacks_beginning(recording)) fmt::print("{}\n", note_on_beginning(recording));
-  if (recording.truncated)
-    fmt::print(
-        "its end is missing: the controller was killed, the disk was full, or the run still goes on\n");
-  if (recording.lost > 0) fmt::print("{} events of the run are missing in it\n", recording.lost);
-  fmt::print("net {}\n", printable(recording.net_hash));
-  for (const replay::SubsystemStatistics& one : all) {
-    constexpr std::size_t shown_waits = 4;
-    fmt::print("\n{}: {} iterations, {} firings{}{}{}{}{}{}\n", printable(one.path), one.iterations,
-               one.firings, count_of(one.errors, "errors"), count_of(one.overruns, "overruns"),
-               count_of(one.faults, "faults"), count_of(one.timeouts, "timeouts"),
-               count_of(one.skips, "skips"), count_of(one.overwrites, "overwrites"));
-    if (one.iterations > 0)
-      fmt::print("  {:<28} {:>10} {:>10} {:>10} {:>10}\n", "", "least", "median", "p99", "most");
-    print_distribution("period", one.period);
-    print_distribution("transition function", one.call);
-    print_distribution("communication", one.iteration);
-    for (std::size_t wait = 0; wait < std::min(shown_waits, one.waits.size()); ++wait)
-      if (one.waits[wait].time.most > 0)
-        print_distribution("wait for " + one.waits[wait].channel, one.waits[wait].time);
-  }
-  for (const Recording::Entry& entry : recording.entries)
-    if (entry.event.kind() == Event::Kind::stop)
-      fmt::print("\n{}: {}\n", entry.event.version == 0 ? "ended" : "failed", printable(entry.text));
-}
-
-json to_json(const Distribution& distribution) {
-  return {{"count", distribution.count},        {"least_s", distribution.least},
-          {"mean_s", distribution.mean},        {"median_s", distribution.median},
-          {"p99_s", distribution.p99},          {"most_s", distribution.most},
-          {"histogram", distribution.histogram}};
-}
-
-/// The time at which a recording without its beginning begins; null: nothing is left in it.
-json recorded_from_s(const Recording& recording) {
-  if (recording.entries.empty()) return nullptr;
-  return static_cast<double>(recording.entries.front().event.time_ns) * 1e-9;
-}
-
-json to_json(const Recording& recording, const std::vector<replay::SubsystemStatistics>& all) {
-  json subsystems = json::array();
-  for (const replay::SubsystemStatistics& one : all) {
-    json waits = json::object();
-    for (const auto& wait : one.waits) waits[wait.channel] = to_json(wait.time);
-    subsystems.push_back({{"path", one.path},
-                          {"firings", one.firings},
-                          {"iterations", one.iterations},
-                          {"errors", one.errors},
-                          {"overruns", one.overruns},
-                          {"faults", one.faults},
-                          {"timeouts", one.timeouts},
-                          {"skips", one.skips},
-                          {"overwrites", one.overwrites},
-                          {"period", to_json(one.period)},
-                          {"transition_function", to_json(one.call)},
-                          {"communication", to_json(one.iteration)},
-                          {"waits", std::move(waits)}});
-  }
-  json written{{"system", recording.system},
-               {"net_hash", recording.net_hash},
-               {"verification_hash", recording.verification_hash},
-               {"clock", recording.clock},
-               {"seed", recording.seed},
-               {"events", std::ranges::count_if(recording.entries, replay::is_listed)},
-               {"truncated", recording.truncated},
-               {"lost", recording.lost},
-               {"subsystems", std::move(subsystems)}};
-  if (lacks_beginning(recording)) written["recorded_from_s"] = recorded_from_s(recording);
-  return written;
-}
-
 // ---------------------------------------------------------------------------------------------- check
 
-/// The specification of a recording: of the project that was named, else in its folder or in one above.
-std::string specification_of(const ReplayOptions& options) {
+/// The specification of a recording: of the project that was named, else in its folder or in one above. Empty:
+/// there is none.
+std::string specification_if_any(const ReplayOptions& options) {
   if (!options.spec.empty()) return options.spec;
   // The recordings of a project that cannot be written are elsewhere.
   if (fs::path file = options.project / file_names::specification;
@@ -198,8 +92,13 @@ std::string specification_of(const ReplayOptions& options) {
     return file.string();
   for (fs::path folder = fs::absolute(options.recording).parent_path();; folder = folder.parent_path()) {
     if (fs::path file = folder / file_names::specification; fs::exists(file)) return file.string();
-    if (folder == folder.parent_path()) break;
+    if (folder == folder.parent_path()) return {};
   }
+}
+
+std::string specification_of(const ReplayOptions& options) {
+  std::string found = specification_if_any(options);
+  if (!found.empty()) return found;
   throw std::runtime_error("no specification is beside '" + options.recording +
                            "' or above it; name the one that the controller was generated from with --spec");
 }
@@ -259,9 +158,10 @@ int check_command(const ReplayOptions& options) {
   std::vector<Recording> recordings;
   for (const std::string& file : options.recordings) {
     std::string error;
-    std::optional<Recording> one = read_recording(file, error);
+    std::optional<ReadRun> one = read_run(file, error);
     if (!one) return complain(error), usage;
-    recordings.push_back(std::move(*one));
+    if (!one->differences.empty()) return failed;
+    recordings.push_back(std::move(one->recording));
   }
   const std::optional<replay::Legality> legality = check_against(specification_of(options), recordings);
   if (!legality) return failed;
@@ -274,7 +174,7 @@ int check_command(const ReplayOptions& options) {
 /// Only --check accepts several recordings.
 bool only_checks(const ReplayOptions& options) {
   return options.check && !options.print && options.values.empty() && options.csv.empty() &&
-         options.perfetto.empty();
+         options.perfetto.empty() && options.mcap.empty();
 }
 
 std::vector<std::string> all_recordings(const std::vector<std::string>& given) {
@@ -304,30 +204,33 @@ int replay_command(ReplayOptions options) {
     return complain("several recordings are read together with --check alone, or with --coverage"), usage;
   if (!options.film.file.empty()) return film_command(options);
   std::string error;
-  const std::optional<Recording> recording = read_recording(options.recording, error);
-  if (!recording) return complain(error), options.check ? usage : failed;
+  const std::optional<ReadRun> run = read_run(options.recording, error);
+  if (!run) return complain(error), options.check ? usage : failed;
+  const Recording* const recording = &run->recording;
   if (!known_subsystem(*recording, options.subsystem)) return usage;
   json result;
   int exit_code = ok;
   const bool to_output = options.json == "-" || options.csv == "-" || options.perfetto == "-";
   const bool show =
       options.print || (!options.values.empty() && options.csv.empty() && options.perfetto.empty());
-  const bool other = options.check || show || !options.csv.empty() || !options.perfetto.empty();
+  const bool other =
+      options.check || show || !options.csv.empty() || !options.perfetto.empty() || !options.mcap.empty();
   if (!options.values.empty() && recording->buffers.empty())
     return complain("the recording holds no values of buffers; record with --record-values small or all");
   if (!known_values(*recording, options.values)) return usage;
   if (!options.csv.empty()) write_csv(*recording, options);
   if (!options.perfetto.empty()) write_perfetto_file(*recording, options.perfetto);
+  if (!options.mcap.empty()) write_bag(*recording, specification_if_any(options), options.mcap);
   if (show) replay::print_events(*recording, selection_of(options), std::cout);
   if (!other || !options.json.empty()) {
     const std::vector<replay::SubsystemStatistics> all = replay::statistics_of(*recording);
-    result = to_json(*recording, all);
+    result = summary_json(*recording, all);
     if (!other && !to_output) print_summary(*recording, all);
   }
   if (options.check) {
     const std::optional<replay::Legality> legality = check_against(specification_of(options), {*recording});
     if (!legality) return failed;
-    exit_code = exit_code_of(legality->verdict);
+    exit_code = run->differences.empty() ? exit_code_of(legality->verdict) : failed;
     result["check"] = json_of(*legality, {&*recording, 1});
     if (lacks_beginning(*recording)) result["recorded_from_s"] = recorded_from_s(*recording);
     if (!to_output) print_verdict(*legality, {&*recording, 1});
@@ -367,6 +270,7 @@ void add_replay(CommandLine& app) {
   command.option("--containing", options.transition, "Events whose text contains this: t6, .snd.motion");
   command.option("--csv", options.csv, "Write the events as CSV (- is standard output)");
   command.option("--to-perfetto", options.perfetto, "Write a trace for ui.perfetto.dev");
+  command.option("--mcap", options.mcap, "Write a bag for the tools of ROS 2 (docs/reference/recordings.md)");
   command.option("--json", options.json, "Write summary and check as JSON (- is standard output)");
   Option film =
       command.option("--film", options.film.file,
@@ -377,7 +281,7 @@ void add_replay(CommandLine& app) {
       .needs(film);
   command.option("--speed", options.film.speed, "Films: speed, as a multiple of that of the run").needs(film);
   command.option("--size", options.film.size, "Films: WIDTHxHEIGHT in pixels").shows_default().needs(film);
-  for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--json",
+  for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--mcap", "--json",
                             "--coverage", "--last", "--subsystem", "--containing"})
     film.excludes(command.declared(other));
   command.footer(
@@ -387,6 +291,7 @@ void add_replay(CommandLine& app) {
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
       "         tessera replay --values=control.motion --csv motion.csv\n"
       "         tessera replay --to-perfetto run.json\n"
+      "         tessera replay --mcap run.mcap && tessera replay --check run.mcap\n"
       "         tessera replay --film run.mp4 --speed 2\n"
       "         tessera replay --coverage monday.tsr tuesday.tsr all.json");
 }

@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
+#include "cli/bags.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
@@ -28,10 +29,11 @@ int rerun_command(RerunOptions options) {
   if (!controller) return exit_code_without_net();
   const RunFolder folder = folder_for(*controller, options, "again", /*is_recorded=*/false);
   const RunFiles files = run_files(options);
+  const std::string recording = unpacked(options.recording, options.folder).value_or(options.recording);
   Command command{controller->program.string(),
                   "simulate",
                   "--from",
-                  std::filesystem::absolute(options.recording).string(),
+                  std::filesystem::absolute(recording).string(),
                   "--summary",
                   files.summary.string()};
   for (const std::string& value : options.set) command.insert(command.end(), {"--set", value});

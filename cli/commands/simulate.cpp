@@ -1,8 +1,12 @@
 #include <fmt/core.h>
 
+#include <optional>
+#include <string>
 #include <utility>
 #include <variant>
 
+#include "bag/live_bag.hpp"
+#include "cli/bags.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/deploy.hpp"
 #include "cli/coverage.hpp"
@@ -12,6 +16,7 @@
 #include "cli/outputs.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
+#include "mcap/records.hpp"
 #include "project/files/run_folder.hpp"
 #include "project/process/death.hpp"
 
@@ -22,12 +27,12 @@ using namespace project;
 namespace {
 
 struct SimulateOptions : SimulatedRunOptions {
-  std::string report, ros2_clock;
+  std::string report, ros2_clock, from;
   bool realtime = false, interleave = false;
 };
 
 struct RunCommandOptions : LaunchOptions {
-  std::string json, report, process;
+  std::string json, report, process, mcap;
   bool world = false;
   DeployOptions deploy;
 };
@@ -48,11 +53,15 @@ bool is_printed_to_the_end(Print print) {
 // none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
            const Command& command, const std::string& json, const std::string& report_folder,
-           const std::string& coverage = {}) {
+           const std::string& coverage = {}, const std::string& mcap = {}) {
   if (options.debug) return print_debugger_line(command);
   const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
+  std::optional<bag::LiveBag> live;
+  if (!mcap.empty())
+    live.emplace(files.recording.string(), mcap, background_of(controller.specification), bag_library);
   const Exit exit = run(with_death_note(command, note));
+  if (const std::string problem = live ? live->finish() : ""; !problem.empty()) complain(problem);
   if (!std::filesystem::exists(files.summary)) {
     if (const std::string death = describe_death(exit, note); !death.empty())
       complain(death);
@@ -83,10 +92,28 @@ void check_outputs(const LaunchOptions& options, const std::string& json, const 
   check_report(report);
 }
 
+/// A simulated run whose real inputs get their values from a recording or a bag.
+int simulate_from(SimulateOptions options) {
+  if (const int code = check_run(options, /*with_world=*/false); code != ok) return code;
+  check_outputs(options, options.json, options.report);
+  std::optional<Controller> controller =
+      make_controller(options.spec, {options.debug, "controller", options.gate}, terminal());
+  if (!controller) return exit_code_without_net();
+  const RunFolder folder = folder_for(*controller, options, "simulate", /*is_recorded=*/true);
+  const RunInputs inputs = inputs_of_run(controller->specification, options.from, options.folder);
+  if (options.duration.empty()) options.duration = inputs.duration;
+  Command command = controller_command(*controller, options, "simulate", /*simulated=*/false);
+  command.insert(command.end(), {"--inputs", inputs.file});
+  if (options.interleave) command.emplace_back("--interleave");
+  if (options.realtime) command.emplace_back("--realtime");
+  return launch(*controller, folder, options, command, options.json, options.report, options.coverage);
+}
+
 int simulate_command(SimulateOptions options) {
   if (diagnostics::is_xml_file(options.spec))
     return complain(fmt::format("{0} is a net without a controller: `tessera play {0}`", options.spec)),
            usage;
+  if (!options.from.empty()) return simulate_from(std::move(options));
   check_report(options.report);
   auto prepared = prepare_simulated_run(options, "simulate", /*is_recorded=*/true, "60s");
   if (const int* const code = std::get_if<int>(&prepared)) return *code;
@@ -101,7 +128,7 @@ int simulate_command(SimulateOptions options) {
 int launch_process(const Controller& controller, const RunFolder& folder, const RunCommandOptions& options) {
   Command command = controller_command(controller, options, "run", /*simulated=*/false);
   add_process(command, options.process, options.deploy.network);
-  return launch(controller, folder, options, command, options.json, options.report);
+  return launch(controller, folder, options, command, options.json, options.report, {}, options.mcap);
 }
 
 int run_command(RunCommandOptions options) {
@@ -111,6 +138,7 @@ int run_command(RunCommandOptions options) {
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (const int code = check_run(options, options.world); code != ok) return code;
+  check_replaceable(options.mcap, mcap::magic);
   if (!check_deployment(options.spec, options.deploy, options.process)) return failed;
   if (!every_real_buffer_has_driver(options, options.world, terminal())) return failed;
   check_outputs(options, options.json, options.report);
@@ -123,7 +151,7 @@ int run_command(RunCommandOptions options) {
   if (options.deploy.asked) return run_deployed(*controller, folder, options, options.deploy);
   if (!options.process.empty()) return launch_process(*controller, folder, options);
   return launch(*controller, folder, options, controller_command(*controller, options, "run", options.world),
-                options.json, options.report);
+                options.json, options.report, {}, options.mcap);
 }
 
 }  // namespace
@@ -149,12 +177,23 @@ void add_simulate(CommandLine& app) {
       "--ros2-clock", options.ros2_clock,
       "Publish the simulated time as /clock of ROS 2 on this network interface, for example lo; it is "
       "then not faster than the wall clock (docs/use/ros2.md)");
+  Option from =
+      command
+          .option(
+              "--from", options.from,
+              "Without world and devices: real inputs get their values from this bag (MCAP) or recording, at "
+              "its times; topics go to the buffers that `drivers` names for them (docs/use/replay.md)")
+          .existing_file();
+  for (const char* other :
+       {"--hardware", "--scenario", "--track", "--start", "--metres-per-pixel", "--network", "--ros2-clock"})
+    from.excludes(command.declared(other));
   command.option("--report", options.report, "Folder for a page and a picture of the run");
   command.declared("--hardware").excludes(command.declared("--scenario"));
   command.footer(
       "Examples:\n"
       "  tessera simulate --for 60s --seed 1 --report report\n"
       "  tessera simulate robot --track mine.png --metres-per-pixel 0.002 --start 0.4,0.2,90 --set v=0.15\n"
+      "  tessera simulate --from monday.mcap              your code on the sensors of a bag\n"
       "Many runs: `tessera schedules`. On recorded inputs: `tessera rerun`. A net in PNML: `tessera play`.");
 }
 
@@ -185,7 +224,7 @@ void declare_deployment_options(Subcommand& command, RunCommandOptions& options)
   command.option("--domain", network.domain, "DDS domain (default: that of `deploy`)");
   command.option("--interface", network.interface, "Network interface (default: that of `deploy`)");
   command.option("--peers", network.peers, "Hosts of the other processes: A,B (default: those of `deploy`)");
-  for (const char* other : {"--record", "--json", "--report", "--debug"})
+  for (const char* other : {"--record", "--mcap", "--json", "--report", "--debug"})
     deploy.excludes(command.declared(other));
 }
 
@@ -202,6 +241,9 @@ void add_run(CommandLine& app) {
                "With the simulated drivers, in the simulated world if there is one, in real time");
   command.option("--json", options.json, "Write the outcome as JSON (- is standard output)");
   command.option("--report", options.report, "Folder for a page and a picture of the run");
+  command.option("--mcap", options.mcap,
+                 "Also write a bag for the tools of ROS 2 while it runs: a chunk a second, readable whatever "
+                 "happens (docs/use/replay.md)");
   command.flag("--no-monitor", options.no_monitor,
                "Without a control socket: `tessera emergency-stop`, `set` and `top` cannot reach this run");
   declare_deployment_options(command, options);

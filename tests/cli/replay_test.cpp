@@ -28,7 +28,7 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   unsetenv("TESSERA_STATE_DIR");
   fs::rename(state, project / ".tessera");
 
-  ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr").code, 0);
+  ASSERT_EQ(tessera("run 01_line_follower --world --for 2s --record threads.tsr --mcap live.mcap").code, 0);
   const project::Exit threads = tessera("replay threads.tsr --check --spec 01_line_follower");
   EXPECT_EQ(threads.code, 0) << threads.text;
   const project::Exit lost = tessera("replay threads.tsr --check");
@@ -39,6 +39,22 @@ TEST_F(Replay, ARunIsALegalFiringSequenceOfTheNetOfItsSpecification) {
   write(folder_ / "cut.tsr", bytes.substr(0, bytes.size() - 10));
   EXPECT_EQ(tessera("replay cut.tsr --check --spec 01_line_follower").code, 3);
   EXPECT_NE(tessera("replay cut.tsr").text.find("its end is missing"), std::string::npos);
+
+  // As bags: written live and afterwards, they hold the same run.
+  EXPECT_EQ(tessera("replay threads.tsr --spec 01_line_follower --mcap later.mcap").code, 0);
+  for (const char* bag : {"live.mcap", "later.mcap"}) {
+    const project::Exit legal = tessera(std::string("replay --check --spec 01_line_follower ") + bag);
+    EXPECT_EQ(legal.code, 0) << bag << legal.text;
+    EXPECT_EQ(tessera(std::string("replay --print ") + bag).text, tessera("replay --print threads.tsr").text);
+  }
+  bytes = content_of(folder_ / "live.mcap");
+  write(folder_ / "cut.mcap", bytes.substr(0, bytes.size() / 2));
+  EXPECT_EQ(tessera("replay cut.mcap --check --spec 01_line_follower").code, 3);
+  EXPECT_EQ(tessera("rerun later.mcap 01_line_follower").code, 0);
+  for (const char* file : {"a.tsr", "b.tsr"})
+    EXPECT_EQ(tessera(std::string("simulate 01_line_follower --from later.mcap --record ") + file).code, 0);
+  EXPECT_EQ(content_of(folder_ / "a.tsr"), content_of(folder_ / "b.tsr"));
+  bytes = content_of(folder_ / "threads.tsr");
 
   // An unreadable recording is not illegal, alone or among several.
   write(folder_ / "header.tsr", bytes.substr(0, 40));

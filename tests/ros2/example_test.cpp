@@ -9,10 +9,13 @@
 #include <fstream>
 #include <future>
 #include <iterator>
+#include <map>
 #include <memory>
 #include <string>
 
 #include "fast_peer.hpp"
+#include "mcap/reader.hpp"
+#include "mcap/writer.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -31,6 +34,33 @@ fs::path copy_of_example() {
   return folder;
 }
 
+std::string content_of(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+/// The topics of the sensors alone, at the times of a wall clock.
+void write_topics(const fs::path& bag, const fs::path& topics) {
+  mcap::Writer writer("ros2", "another program");
+  std::map<std::string, std::uint16_t> channels;
+  mcap::read(content_of(bag), {.message = [&](const mcap::ReadMessage& one) {
+               const std::string& topic = one.channel.topic;
+               if (topic != "/scan" && topic != "/odom") return;
+               if (!channels.contains(topic))
+                 channels[topic] = writer.add_channel(
+                     {0,
+                      writer.add_schema(one.schema->name, one.schema->encoding, one.schema->data),
+                      topic,
+                      "cdr",
+                      {}});
+               const std::uint64_t time = 1'700'000'000'000'000'000 + one.message.log_ns;
+               writer.write(channels[topic], time, time, one.message.data);
+             }});
+  EXPECT_EQ(channels.size(), 2U);
+  writer.finish();
+  std::ofstream(topics, std::ios::binary) << writer.take();
+}
+
 TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
   const fs::path project = copy_of_example();
   const std::string domain = std::to_string(10 + getpid() % 50);
@@ -38,7 +68,8 @@ TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
   const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(base.c_str(), "r"), pclose);
   ASSERT_NE(output, nullptr);
   const std::string run = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera run " +
-                          project.string() + " --for 3s > " + (project / "run.log").string() + " 2>&1";
+                          project.string() + " --for 3s --mcap " + (project / "base.mcap").string() + " > " +
+                          (project / "run.log").string() + " 2>&1";
   EXPECT_EQ(std::system(run.c_str()), 0);
   std::ifstream log(project / "run.log");
   int commands = 0;
@@ -50,6 +81,17 @@ TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
   EXPECT_GT(commands, 10);
   EXPECT_GT(driven_m, 0.05);
   EXPECT_EQ(last_v, 0) << "the safe command";
+
+  // The same code on the topics of a bag that another program might have written, twice the same.
+  write_topics(project / "base.mcap", project / "topics.mcap");
+  for (const char* file : {"a.tsr", "b.tsr"}) {
+    const std::string from = TESSERA_BINARY_DIR "/tessera simulate " + project.string() + " --from " +
+                             (project / "topics.mcap").string() + " --record " + (project / file).string() +
+                             " >> " + (project / "run.log").string() + " 2>&1";
+    EXPECT_EQ(std::system(from.c_str()), 0);
+  }
+  EXPECT_GT(content_of(project / "a.tsr").size(), 10'000U);
+  EXPECT_EQ(content_of(project / "a.tsr"), content_of(project / "b.tsr"));
 
   // Once more in a simulated run, whose clock others follow.
   fast::Peer follower(static_cast<std::uint32_t>(std::stoi(domain)));

@@ -93,7 +93,8 @@ struct RunOptions {
   bool also = false;
   int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
-  Substitutes* substitutes = nullptr;  ///< of a test (tessera/testing.hpp), simulated clock; nullptr: none
+  /// Simulated clock: in place of the devices, of a test (tessera/testing.hpp) or of recorded inputs; nullptr: none.
+  Substitutes* substitutes = nullptr;
 };
 
 /// The result of a run.

@@ -15,6 +15,7 @@
 #include "assembly/network_assembly.hpp"
 #include "assembly/planted_faults.hpp"
 #include "assembly/recording_setup.hpp"
+#include "drivers/recorded_inputs.hpp"
 #include "drivers/substitutes.hpp"
 #include "subsystem/parameters.hpp"
 #include "tessera/subsystem.hpp"
@@ -233,6 +234,10 @@ class Assembler {
       if (auto* const panel = dynamic_cast<PanelReceptor*>(driver.device)) {
         panel->follow(clock_);
         assembly_.panels.add(panel->panel());
+      } else if (auto* const recorded = dynamic_cast<RecordedReceptor*>(driver.device)) {
+        if (const auto wrong =
+                recorded->follow(clock_, driver.path, parts.bindings.real_inputs[driver.first].encoding))
+          finder.complain(*wrong);
       }
     parts.receptors = std::move(devices.receptors);
     parts.effectors = std::move(devices.effectors);

@@ -56,6 +56,8 @@ class DeviceFinder {
   [[nodiscard]] SubsystemDevices find(const std::string& subsystem, const Bindings& bindings);
   /// One sentence per buffer without a device, and per unknown name.
   [[nodiscard]] std::optional<Problem> complaints() const;
+  /// Adds one: a driver that was made does not fit.
+  void complain(const Problem& problem) { complaints_.push_back(problem.text); }
 
  private:
   [[nodiscard]] bool is_hardware(const std::string& path);

@@ -283,6 +283,8 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
                      "Schedules: the summary says how often each transition fired");
   simulate->add_option("--from", line.from,
                        "Run user code again on the inputs of this recording, and compare the results");
+  simulate->add_option("--inputs", line.inputs,
+                       "Take the values of real inputs from this recording; no device is used");
   simulate->add_flag("--realtime", line.options.realtime, "Not faster than the wall clock");
   simulate->add_option("--ros2-clock", line.options.ros2_clock,
                        "Publish the simulated time as /clock of ROS 2 on this network interface, for example "

@@ -14,6 +14,7 @@ struct CommandLine {
   RunOptions options;
   std::string summary;                     ///< file; "-": standard output; empty: none
   std::string from;                        ///< recording to run user code again from; empty: none
+  std::string inputs;                      ///< recording whose real inputs replace the devices; empty: none
   std::optional<std::uint64_t> schedules;  ///< number of schedules to try; nullopt: one run
   unsigned jobs = 0;                       ///< of schedules: processes at a time; 0: one per core
   bool coverage = false;                   ///< of schedules: counts the firings of each transition

@@ -6,7 +6,9 @@
 #include <exception>
 #include <fstream>
 #include <iostream>
+#include <memory>
 
+#include "drivers/recorded_inputs.hpp"
 #include "rerun/rerun.hpp"
 #include "run/command_line.hpp"
 #include "run/execute.hpp"
@@ -101,8 +103,15 @@ int controller_main(const System& system, int argc, char** argv) try {
   if (line.schedules) return run_schedules(system, line);
   if (!line.from.empty()) return run_again(system, line);
   std::string error;
+  std::unique_ptr<RecordedInputs> inputs;
+  RunOptions options = line.options;
+  if (!line.inputs.empty()) {
+    inputs = RecordedInputs::read(line.inputs, error);
+    if (inputs == nullptr) return complain(error), exit_failed;
+    options.substitutes = inputs.get();
+  }
   const GiveUp give_up{.end_process = [&](const RunSummary& summary) { end_process(summary, line); }};
-  const std::optional<RunSummary> summary = execute(system, line.options, nullptr, give_up, error);
+  const std::optional<RunSummary> summary = execute(system, options, nullptr, give_up, error);
   if (!summary) {
     complain(error);
     const int signal = StopSignals::pending();  // one may have come while devices were opened

@@ -1,0 +1,241 @@
+#include "cli/bags.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <stdexcept>
+#include <utility>
+
+#include "bag/bag_inputs.hpp"
+#include "bag/bag_reader.hpp"
+#include "bag/bag_writer.hpp"
+#include "bag/raw_channel.hpp"
+#include "cli/outputs.hpp"
+#include "cli/terminal.hpp"
+#include "mcap/records.hpp"
+#include "net/pnml.hpp"
+#include "project/files/file_names.hpp"
+#include "project/files/ros2_messages.hpp"
+#include "verify/hashes.hpp"
+
+namespace tessera::cli {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+/// nullopt: the driver is none of a topic.
+std::optional<bag::RosBuffer> topic_of(const spec::Model& model, const spec::Driver& driver) {
+  if (driver.kind != "ros2" || !driver.real.valid() || project::is_service(driver)) return std::nullopt;
+  const auto text = [&](const char* option) { return project::text_option(driver, option); };
+  const std::string& topic = driver.target();
+  return bag::RosBuffer{model.driver_path(driver),
+                        topic.starts_with('/') ? topic : "/" + topic,
+                        text("type"),
+                        text("definition"),
+                        text("fields"),
+                        text("names"),
+                        text("frame_id")};
+}
+
+/// Real inputs with a topic, and the paths of the others.
+std::vector<bag::WantedInput> wanted_inputs(const spec::Model& model, std::vector<std::string>& without) {
+  std::vector<bag::WantedInput> wanted;
+  for (const spec::InstanceId instance : model.instances.ids()) {
+    const spec::Subsystem& subsystem = model.subsystem(instance);
+    if (subsystem.kind != spec::SubsystemKind::receptor) continue;
+    for (const spec::RealId real : subsystem.real.ids()) {
+      std::optional<bag::RosBuffer> topic;
+      for (const spec::Driver& driver : model.drivers)
+        if (driver.instance == instance && driver.real == real) topic = topic_of(model, driver);
+      if (topic)
+        wanted.push_back({*std::move(topic), model.layout_of(subsystem.real[real].type)});
+      else
+        without.push_back(model.instance_path(instance) + "." + subsystem.real[real].name);
+    }
+  }
+  return wanted;
+}
+
+std::string duration_up_to(std::int64_t time_ns) {
+  return fmt::format("{:.9f}s", static_cast<double>(time_ns + 1) * 1e-9);
+}
+
+void note_units(const spec::Model& model, const spec::Type& type, const std::string& path,
+                std::map<std::string, std::string>& units) {
+  if (type.kind != spec::Type::Kind::structure) {
+    if (!type.unit.empty()) units[path] = type.unit;
+    return;
+  }
+  for (const spec::Field& field : model.structures[type.structure].fields)
+    note_units(model, field.type, path.empty() ? field.name : path + "." + field.name, units);
+}
+
+std::map<std::string, std::map<std::string, std::string>> units_of(const spec::Model& model) {
+  std::map<std::string, std::map<std::string, std::string>> units;
+  for (const spec::InstanceId instance : model.instances.ids()) {
+    const spec::Subsystem& subsystem = model.subsystem(instance);
+    const std::string path = model.instance_path(instance) + ".";
+    const auto note = [&](const auto& fields, const std::string& prefix) {
+      for (const spec::Field& field : fields)
+        note_units(model, field.type, "", units[path + prefix + field.name]);
+    };
+    note(subsystem.inputs, "");
+    note(subsystem.outputs, "");
+    note(subsystem.real, "");
+    note(subsystem.memory, "memory.");
+  }
+  return units;
+}
+
+/// Bytes go to the file as soon as they are complete.
+class BagFile {
+ public:
+  explicit BagFile(const std::string& file) : name_(file) {
+    check_replaceable(file, mcap::magic);
+    stream_.open(file, std::ios::binary | std::ios::trunc);
+    write({});
+  }
+  void write(const std::string& bytes) {
+    if (!(stream_ << bytes)) fail();
+  }
+  void close() {
+    stream_.close();
+    if (!stream_) fail();
+  }
+
+ private:
+  [[noreturn]] void fail() const {
+    throw std::runtime_error(fmt::format("cannot write {}: {}", name_, std::strerror(errno)));
+  }
+  std::string name_;
+  std::ofstream stream_;
+};
+
+}  // namespace
+
+bag::Background background_of(const project::Specification& specification, const net::Net& net) {
+  bag::Background background{{}, units_of(specification.model), {}};
+  for (const spec::Driver& driver : specification.model.drivers)
+    if (auto topic = topic_of(specification.model, driver)) background.ros.push_back(*std::move(topic));
+  const diagnostics::Diagnostics& source = specification.diagnostics;
+  const auto add = [&](std::string name, const std::string& text) {
+    background.files.push_back({std::move(name), "application/yaml", text});
+  };
+  add(project::file_names::specification, source.text());
+  const std::vector<std::string> included = source.sources().included();
+  for (std::size_t number = 0; number < included.size(); ++number)
+    add(included[number], source.included_text(number));
+  background.files.push_back(
+      {"net.pnml", "application/xml", net::to_pnml(net, {specification.model.system})});
+  return background;
+}
+
+bag::Background background_of(const project::Specification& specification) {
+  const std::optional<project::Nets> nets = project::build(specification, terminal());
+  if (!nets) throw std::runtime_error("the net of the specification cannot be built");
+  return background_of(specification, nets->flat);
+}
+
+void write_bag(const Recording& recording, const std::string& specification, const std::string& file) {
+  bag::Background background;
+  std::string missing = "no specification is beside the recording";
+  if (!specification.empty()) {
+    missing = specification + " is not the specification of this recording";
+    const std::optional<project::Specification> read = project::read(specification, terminal());
+    const std::optional<project::Nets> nets = read ? project::build(*read, terminal()) : std::nullopt;
+    if (nets && verify::hash_of(nets->flat) == recording.net_hash) {
+      background = background_of(*read, nets->flat);
+      missing.clear();
+    }
+  }
+  if (!missing.empty())
+    fmt::print(stderr,
+               "note: {}: the bag has no messages of ROS 2, no units and no net; name it with --spec\n",
+               missing);
+  BagFile bytes(file);
+  bag::BagWriter writer(recording, background, bag_library);
+  for (const Recording::Entry& entry : recording.entries) {
+    writer.add(entry);
+    bytes.write(writer.take());
+  }
+  if (!recording.truncated) writer.end(recording.lost);
+  writer.finish();
+  bytes.write(writer.take());
+  bytes.close();
+}
+
+std::optional<ReadRun> read_run(const std::string& file, std::string& error) {
+  if (!bag::is_bag(file)) {
+    std::optional<Recording> recording = read_recording(file, error);
+    if (!recording) return std::nullopt;
+    return ReadRun{*std::move(recording), {}};
+  }
+  std::optional<bag::Bag> bag = bag::read_bag(file, error);
+  if (!bag) return std::nullopt;
+  if (const std::string told = bag->condition.told(); !told.empty())
+    fmt::print(stderr, "note: {}: {}\n", file, told);
+  for (const std::string& difference : bag->differences) complain(file + ": " + difference);
+  return ReadRun{std::move(bag->recording), std::move(bag->differences)};
+}
+
+std::optional<std::string> unpacked(const std::string& file, const std::string& folder) {
+  if (!bag::is_bag(file)) return std::nullopt;
+  std::string error;
+  const std::optional<ReadRun> run = read_run(file, error);
+  if (!run) throw std::runtime_error(error);
+  if (!run->differences.empty())
+    throw std::runtime_error(file + " shows another run than the recording in it");
+  const Recording& recording = run->recording;
+  const std::string name = (fs::path(folder) / "unpacked.tsr").string();
+  std::ofstream stream(name, std::ios::binary);
+  stream << bag::file_start(recording.header);
+  for (const Recording::Entry& entry : recording.entries) stream << bag::file_bytes(bag::raw_of(entry));
+  if (!recording.truncated)
+    stream << bag::raw_end(recording.entries.empty() ? 0 : recording.entries.back().event.time_ns,
+                           recording.lost);
+  if (!stream.flush()) throw std::runtime_error("cannot write " + name);
+  return name;
+}
+
+RunInputs inputs_of_run(const project::Specification& specification, const std::string& file,
+                        const std::string& folder) {
+  std::string error;
+  const auto end_of = [](const Recording& recording) {
+    std::int64_t end_ns = 0;
+    for (const Recording::Entry& entry : recording.entries) end_ns = std::max(end_ns, entry.event.time_ns);
+    return duration_up_to(end_ns);
+  };
+  if (!bag::is_bag(file)) {
+    const std::optional<Recording> recording = read_recording(file, error);
+    if (!recording) throw std::runtime_error(error);
+    return {fs::absolute(file).string(), end_of(*recording)};
+  }
+  const std::optional<std::string> bytes = bag::bytes_of_file(file, error);
+  if (!bytes) throw std::runtime_error(error);
+  if (bag::read_bag_bytes(*bytes, error)) {
+    const std::string recording = *unpacked(file, folder);
+    const std::optional<Recording> read = read_recording(recording, error);
+    if (!read) throw std::runtime_error(error);
+    return {recording, end_of(*read)};
+  }
+  std::vector<std::string> without;
+  const std::vector<bag::WantedInput> wanted = wanted_inputs(specification.model, without);
+  const std::optional<bag::BagInputs> inputs =
+      bag::inputs_of(*bytes, specification.model.system, wanted, error);
+  if (!inputs) throw std::runtime_error(file + " " + error);
+  for (const std::string& note : inputs->notes) fmt::print(stderr, "note: {}: {}\n", file, note);
+  for (const std::string& path : without)
+    fmt::print(stderr, "note: {} has no topic in `drivers`, so it gets no value\n", path);
+  const std::string name = (fs::path(folder) / "inputs.tsr").string();
+  std::ofstream stream(name, std::ios::binary);
+  if (!(stream << inputs->recording << std::flush)) throw std::runtime_error("cannot write " + name);
+  return {name, duration_up_to(inputs->end_ns)};
+}
+
+}  // namespace tessera::cli

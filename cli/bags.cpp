@@ -31,7 +31,7 @@ namespace {
 
 /// nullopt: the driver is none of a topic.
 std::optional<bag::RosBuffer> topic_of(const spec::Model& model, const spec::Driver& driver) {
-  if (driver.kind != "ros2" || !driver.real.valid() || project::is_service(driver)) return std::nullopt;
+  if (driver.kind != "ros2" || !driver.real.valid() || project::has_role(driver)) return std::nullopt;
   const auto text = [&](const char* option) { return project::text_option(driver, option); };
   const std::string& topic = driver.target();
   return bag::RosBuffer{model.driver_path(driver),

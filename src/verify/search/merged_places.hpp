@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "net/net.hpp"
+#include "verify/search/merging.hpp"
 #include "verify/search/surroundings.hpp"
 
 namespace tessera::verify {
@@ -17,7 +18,7 @@ namespace tessera::verify {
 /// one if no behaviour gives them that matters. The outcome of the last use of a channel to others is left out.
 ///
 /// Places that count as one never hold two tokens together.
-class MergedPlaces {
+class MergedPlaces final : public Merging {
  public:
   /// asked: places that count for themselves. few: so many behaviours never count as one. Linear in the net.
   MergedPlaces(const net::Net& net, const Surroundings& surroundings,
@@ -26,9 +27,11 @@ class MergedPlaces {
 
   /// The place that stands for this one, mostly itself; an invalid one if it is left out.
   /// Precondition: surroundings.stays() is true for the place.
-  [[nodiscard]] net::PlaceId operator[](net::PlaceId place) const { return stands_for_[place.value]; }
+  [[nodiscard]] net::PlaceId operator[](net::PlaceId place) const override {
+    return stands_for_[place.value];
+  }
   /// Whether it counts as one with others, or is left out.
-  [[nodiscard]] bool is_merged(net::PlaceId place) const { return merged_[place.value]; }
+  [[nodiscard]] bool is_merged(net::PlaceId place) const override { return merged_[place.value]; }
 
  private:
   class Finder;

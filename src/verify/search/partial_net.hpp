@@ -8,10 +8,10 @@
 #include <utility>
 #include <vector>
 
-#include "explore/budget.hpp"
 #include "explore/formula.hpp"
 #include "net/net.hpp"
-#include "verify/search/merged_places.hpp"
+#include "verify/search/merging.hpp"
+#include "verify/search/numbered_part.hpp"
 #include "verify/search/surroundings.hpp"
 #include "verify/search/token_sets.hpp"
 
@@ -30,7 +30,7 @@ namespace tessera::verify {
 /// subsystems can then go to the goal. So from every marking of the net that is such a marking
 /// in these subsystems, the goal is reached by some run.
 ///
-/// Places that count as one (merged_places.hpp) make more runs possible; no step that takes one of them is certain.
+/// Places that count as one (merging.hpp) make more runs possible; no step that takes one of them is certain.
 ///
 /// Precondition: no place of the net ever holds two tokens. Steps that lead to two are no steps of the net.
 /// Threads: const members from any thread.
@@ -42,57 +42,53 @@ class PartialNet {
     explore::Formula formula = explore::Formula::never();
     std::set<net::TransitionId> fired{};
   };
-  struct Result {
-    bool holds = false;
-    /// Subsystems that might help if they were part of it.
-    Subsystems peers{};
-    std::uint64_t markings = 0;
-  };
 
-  /// surroundings, sets: of the net; have to outlive this. merged: of the subsystems; nullptr: each place counts for
+  /// surroundings, sets: of the net; have to outlive this. merging: of the subsystems; nullptr: each place counts for
   /// itself.
   PartialNet(const net::Net& net, const Surroundings& surroundings, const TokenSets& sets,
-             const Subsystems& subsystems, const MergedPlaces* merged);
+             const Subsystems& subsystems, const Merging* merging);
 
   /// Are all places of the formula in this part?
   [[nodiscard]] bool knows(const explore::Formula& formula) const;
-  /// No marking that is reached makes it true. Throws explore::CutOff.
-  [[nodiscard]] Result never(const explore::Formula& bad, const explore::Budget& budget) const;
-  /// From all markings in which `from` holds, and from all that follow before the goal is reached, the goal is reached
-  /// for certain. Throws explore::CutOff.
-  [[nodiscard]] Result reaches(const explore::Formula& from, const Goal& goal,
-                               const explore::Budget& budget) const;
+  /// Does no marking that is reached make it true?
+  [[nodiscard]] NumberedPart never(const explore::Formula& bad) const;
+  /// From all markings in which `from` holds, and from all that follow before the goal is reached, is the goal reached
+  /// for certain?
+  [[nodiscard]] NumberedPart reaches(const explore::Formula& from, const Goal& goal) const;
+  /// Subsystems that are not in the part and use these of the places that are outside of it.
+  [[nodiscard]] Subsystems users(const NumberedPart::Numbers& outside) const;
 
  private:
-  friend class PartialGraph;
-  struct Step {
-    net::TransitionId id{};
-    std::vector<std::uint32_t> in, out;  ///< places of the part, sorted
-    std::vector<net::PlaceId> needs{};   ///< places that are left out
-    bool is_certain = true;              ///< it takes no place that counts as one with others
-    bool is_alone =
-        false;  ///< needs nothing, and nothing else takes its tokens: whatever comes first, it can be fired
-  };
-  /// The places of these in the part. step: if given, notes what else it needs.
-  [[nodiscard]] std::vector<std::uint32_t> inside(std::span<const net::Arc> arcs, Step* step);
+  using Numbers = NumberedPart::Numbers;
+  using Step = NumberedPart::Step;
+
+  /// The places of these in the part. step: if given, notes that it is not certain.
+  [[nodiscard]] Numbers inside(std::span<const net::Arc> arcs, Step* step);
+  [[nodiscard]] std::uint32_t number(net::PlaceId place);
   [[nodiscard]] std::optional<std::uint32_t> place_of(std::uint32_t place) const;
+  [[nodiscard]] std::uint32_t number_outside(net::PlaceId place);
+  [[nodiscard]] explore::Formula numbered(const explore::Formula& formula) const;
 
   void add_steps();
+  void add(net::TransitionId id);
+  void add_step(net::TransitionId id, Step step);
   void add_starts();
+  void add_sets();
   void find_lonely_steps();
 
   const net::Net& net_;
   const Surroundings& surroundings_;
   const TokenSets& sets_;
   const Subsystems subsystems_;
-  const MergedPlaces* merged_;
+  const Merging* merging_;
   std::map<std::uint32_t, std::uint32_t> places_;  // of the net -> of the part
   std::set<std::pair<std::uint32_t, std::uint32_t>>
-      filled_;                      // places of the net that hold a token first, and theirs
-  std::uint32_t places_count_ = 0;  // with those before the start
-  std::vector<Step> steps_;
-  std::vector<std::vector<std::uint32_t>> takers_;  // per place of the part: steps
-  std::vector<std::uint32_t> initial_;
+      filled_;  // places of the net that hold a token first, and theirs
+  std::set<std::pair<Numbers, Numbers>> uncertain_{};  // steps that take places that count as one
+  std::vector<net::TransitionId> ids_{};  // per step; invalid: of several transitions, or a start
+  std::map<net::PlaceId, std::uint32_t> outside_{};
+  std::vector<net::PlaceId> places_outside_{};  // by number
+  NumberedPart part_{};                         // without a question
 };
 
 }  // namespace tessera::verify

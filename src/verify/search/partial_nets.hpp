@@ -1,12 +1,18 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
+#include <optional>
 #include <set>
+#include <string>
+#include <unordered_map>
 #include <vector>
 
 #include "explore/budget.hpp"
 #include "explore/formula.hpp"
 #include "net/net.hpp"
+#include "verify/search/numbered_part.hpp"
+#include "verify/search/part_lists.hpp"
 #include "verify/search/partial_net.hpp"
 #include "verify/search/surroundings.hpp"
 #include "verify/search/token_sets.hpp"
@@ -16,9 +22,10 @@ namespace tessera::verify {
 /// Questions to a net that some subsystems settle, whatever the others do (partial_net.hpp).
 ///
 /// It begins with the subsystems that the question is about. If they do not settle it, those who might help are added.
-/// First, places count as one where they may (merged_places.hpp); then each counts for itself.
+/// First, places count as one where they may (folded_part.hpp, merged_places.hpp); then each counts for itself. Parts
+/// that are equal but for the names of their places and subsystems are searched once.
 ///
-/// Precondition: no place of the net ever holds two tokens. Threads: const members from any thread.
+/// Precondition: no place of the net ever holds two tokens. Threads: one.
 class PartialNets {
  public:
   using Subsystems = PartialNet::Subsystems;
@@ -43,20 +50,29 @@ class PartialNets {
   [[nodiscard]] Subsystems users(net::PlaceId place) const;
 
  private:
+  enum class Counting : std::uint8_t { folded, merged, each };  ///< of places that may count as one
+  /// A question to a part; nullopt: the part does not know what it is about.
+  using Ask = std::function<std::optional<NumberedPart>(const PartialNet&)>;
+
   [[nodiscard]] bool knows(const PartialNet& part, const explore::Formula& formula) const;
   [[nodiscard]] Subsystems owners(const explore::Formula& formula) const;
-  template <class Judge>
-  Answer settled(const Subsystems& subsystems, const std::set<net::PlaceId>& asked, Judge judge,
-                 const Subsystems& first = {}) const;
-  template <class Judge>
-  Answer settled_by(Subsystems subsystems, const std::set<net::PlaceId>* asked, Judge judge,
-                    const Subsystems& first) const;
+  [[nodiscard]] Answer settled(const Subsystems& subsystems, const std::set<net::PlaceId>& asked,
+                               const Ask& ask, const explore::Budget& budget,
+                               const Subsystems& first = {}) const;
+  [[nodiscard]] Answer settled_by(Counting counting, Subsystems subsystems,
+                                  const std::set<net::PlaceId>& asked, const Ask& ask,
+                                  const explore::Budget& budget, const Subsystems& first) const;
+  [[nodiscard]] const NumberedPart::Result& searched(const NumberedPart& part, const explore::Budget& budget,
+                                                     Answer& answer) const;
 
   const net::Net& net_;
   const Surroundings surroundings_;
   const TokenSets sets_;
   const std::set<net::PlaceId> emptied_;
   const std::size_t few_;
+  const PartLists lists_;
+  mutable std::unordered_map<std::u32string, NumberedPart::Result> known_{};  // of parts, as they are written
+  mutable NumberedPart::Result last_{};                                       // of one that is not kept
 };
 
 }  // namespace tessera::verify

@@ -57,6 +57,12 @@ bool Surroundings::stays(PlaceId place, const std::set<net::SubsystemId>& subsys
   return std::ranges::includes(subsystems, users_[place.value]);
 }
 
+const std::set<net::SubsystemId>& Surroundings::members(net::ChannelId channel) const {
+  static const std::set<net::SubsystemId> none;
+  const auto found = members_.find(channel);
+  return found == members_.end() ? none : found->second;
+}
+
 bool Surroundings::is_between(net::ChannelId channel, const std::set<net::SubsystemId>& subsystems) const {
   const auto members = members_.find(channel);
   return members != members_.end() && std::ranges::includes(subsystems, members->second);

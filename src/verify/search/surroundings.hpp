@@ -37,6 +37,8 @@ class Surroundings {
   [[nodiscard]] const std::set<net::SubsystemId>& users(net::PlaceId place) const {
     return users_[place.value];
   }
+  /// The subsystems that use a channel.
+  [[nodiscard]] const std::set<net::SubsystemId>& members(net::ChannelId channel) const;
   /// Whether all that use the channel are among these.
   [[nodiscard]] bool is_between(net::ChannelId channel, const std::set<net::SubsystemId>& subsystems) const;
   /// Whether the place is one of these subsystems, or of a channel that no other uses.

@@ -19,7 +19,7 @@
 namespace tessera::verify {
 
 /// Part of every verification hash: verdicts of another version do not count.
-inline constexpr std::string_view checker_version = "4";
+inline constexpr std::string_view checker_version = "5";
 
 enum class Verdict : std::uint8_t { holds, violated, unknown };
 

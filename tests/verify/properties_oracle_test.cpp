@@ -6,7 +6,10 @@
 #include <array>
 #include <chrono>
 #include <map>
+#include <set>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "../environment.hpp"
 #include "explore/budget.hpp"
@@ -200,6 +203,19 @@ void expect_no_more(const test::Built& built, const std::vector<net::Invariant>&
       ++holding;
       EXPECT_TRUE(claim_holds(graph, property.kind, claim)) << property.text;
     }
+  for (std::uint32_t subsystem = 0; subsystem < abstract.parts().subsystems.size(); ++subsystem) {
+    std::set<net::TransitionId> all;
+    std::vector<Formula> enabled;
+    for (std::uint32_t index = 0; index < abstract.transitions().size(); ++index) {
+      const net::TransitionId id{index};
+      if (abstract[id].subsystem != net::SubsystemId{subsystem} || !possible(abstract, id)) continue;
+      all.insert(id);
+      enabled.push_back(Formula::enabled(id));
+    }
+    if (!parts.goes_on({subsystem}, {Formula::never(), all}, budget).holds) continue;
+    ++holding;
+    EXPECT_TRUE(always_reachable(graph, Formula::any(std::move(enabled)))) << subsystem;
+  }
 }
 
 TEST(PropertiesOfTheAuthor, AgreeWithExhaustiveSearchOnRandomSystems) {

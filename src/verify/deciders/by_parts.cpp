@@ -3,6 +3,7 @@
 #include <optional>
 #include <set>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 #include "explore/budget.hpp"
@@ -41,6 +42,7 @@ PartialNets::Subsystems owners(const net::Net& net, const std::vector<net::Trans
   return all;
 }
 
+/// Is a subsystem able to act again, or a channel to be received from, or has the subsystem ended?
 template <class Id>
 PartialNets::Answer goes_on(const PartialNets& parts, const net::Net& net,
                             const std::vector<ProbedNet::Set<Id>>& all, std::uint32_t subject,
@@ -62,7 +64,10 @@ PartialNets::Answer goes_on(const PartialNets& parts, const net::Net& net,
   PartialNets::Subsystems ends;
   for (const net::TransitionId id : set->any_of)
     for (const net::Arc& arc : net.preset(id)) ends.merge(parts.users(arc.place));
-  return parts.reaches(Formula::always(), goal, budget, owners(net, set->any_of), ends);
+  const PartialNets::Subsystems mine = owners(net, set->any_of);
+  if constexpr (std::is_same_v<Id, net::SubsystemId>)
+    if (mine == PartialNets::Subsystems{set->id}) return parts.goes_on(set->id, goal, budget, ends);
+  return parts.reaches(Formula::always(), goal, budget, mine, ends);
 }
 
 /// The subsystems that a question is about, while all others do whatever they can. It only proves.

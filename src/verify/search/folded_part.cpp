@@ -46,6 +46,7 @@ FoldedPart::FoldedPart(const net::Net& net, const Surroundings& surroundings, co
   find_joined();
   find_what_matters();
   find_folded();
+  is_smaller_ = !folded_.empty();
   for (const net::SubsystemId one : subsystems_) {
     find_transitions(one);
     find_values(one);
@@ -170,6 +171,7 @@ void FoldedPart::find_values(net::SubsystemId subsystem) {
     const bool is_known = one.is_memory || found.is_joined || !made.apart.empty();
     if (is_known) made.apart.insert(found.given.begin(), found.given.end());
     made.is_merged = one.may_merge() && one.values.size() > made.apart.size() + 1;
+    is_smaller_ = is_smaller_ || (made.is_merged && made.apart.empty());
     if (!folded_.contains(subsystem) || !is_known || one.is_memory) continue;
     std::vector<TransitionId>& some = transitions_[subsystem];
     for (const PlaceId place : one.values)
@@ -269,7 +271,7 @@ void FoldedPart::add_steps(const SubsystemLists::Alike& alike, const std::map<Pl
         all.back()[at] = value;
       }
     if (all.size() > most_combinations) {
-      folded_.clear();
+      has_all_steps_ = false;
       return;
     }
   }

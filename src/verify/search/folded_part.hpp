@@ -32,8 +32,9 @@ class FoldedPart final : public Merging {
              const std::set<net::SubsystemId>& subsystems, const std::set<net::PlaceId>& asked,
              std::size_t few);
 
-  /// Whether behaviours of a subsystem count as one place. Otherwise it is no help that others do not have.
-  [[nodiscard]] bool is_folded() const { return !folded_.empty(); }
+  /// Whether it is of use: behaviours of a subsystem count as one place, or a fact is left out, and the steps are not
+  /// too many. Precondition of all that follows.
+  [[nodiscard]] bool is_made() const { return is_smaller_ && has_all_steps_; }
   [[nodiscard]] net::PlaceId operator[](net::PlaceId place) const override;
   [[nodiscard]] bool is_merged(net::PlaceId place) const override;
   [[nodiscard]] const std::vector<net::TransitionId>* transitions(net::SubsystemId one) const override;
@@ -74,6 +75,7 @@ class FoldedPart final : public Merging {
   std::set<net::SubsystemId> folded_{};
   std::map<net::SubsystemId, std::vector<net::TransitionId>> transitions_{};
   std::unordered_map<std::uint32_t, Fact> facts_{};  // of those that are not simply left out
+  bool is_smaller_ = false, has_all_steps_ = true;
   std::vector<Step> steps_{};
   std::vector<net::PlaceId> filled_{};
 };

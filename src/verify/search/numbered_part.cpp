@@ -48,6 +48,12 @@ class PartGraph {
   PartGraph(const NumberedPart& part, const explore::Budget& budget)
       : part_(part), budget_(budget), seen_(part.places, false), takers_(part.places) {
     for (const Formula* formula : {&part.from, &part.goal}) see(*formula);
+    for (const NumberedPart::Set& set : part.sets)
+      for (const NumberedPart::Member& member : set) {
+        if (!member.is_outside) continue;
+        if (member.place >= sets_with_.size()) sets_with_.resize(member.place + 1, 0);
+        ++sets_with_[member.place];
+      }
     for (std::uint32_t step = 0; step < part.steps.size(); ++step)
       for (const std::uint32_t place : part.steps[step].in) takers_[place].push_back(step);
     explore();
@@ -198,47 +204,77 @@ class PartGraph {
     return step.is_certain && (goal[edge.to] || step.is_goal);
   }
 
-  /// Whether there is a step towards the goal wherever the token of the set is.
-  [[nodiscard]] bool is_covered(std::uint32_t node, const NumberedPart::Set& set,
-                                const std::vector<bool>& goal) const {
-    return std::ranges::all_of(set, [&](const NumberedPart::Member& member) {
-      return member.is_outside ? is_covered_at(node, set, member, goal, 0)
-                               : !marks(*nodes_[node], member.place);
-    });
-  }
-  [[nodiscard]] bool is_covered_at(std::uint32_t node, const NumberedPart::Set& set,
-                                   const NumberedPart::Member& member, const std::vector<bool>& goal,
-                                   int moves) const {
+  /// A step towards the goal, with those of its needs that are open.
+  struct Way {
+    Numbers needs{};
+    bool needs_one = false;  ///< it has no others
+  };
+
+  /// Whether the token of a member of a set is or can be passed to a place. is_only: it is the only one that is needed;
+  /// otherwise passing it on must change no other set.
+  [[nodiscard]] bool passes(const NumberedPart::Set& set, const NumberedPart::Member& member,
+                            std::uint32_t to, bool is_only, int moves = 0) const {
     constexpr int most_moves = 4;
-    const auto goes = [&](const Edge& edge) {
-      const Numbers& needs = part_.steps[edge.step].needs;
-      return needs.size() == 1 && needs.front() == member.place && leads(edge, goal);
-    };
-    if (std::ranges::any_of(edges_[node], goes)) return true;
-    return moves < most_moves && std::ranges::any_of(member.next, [&](std::uint32_t next) {
-             return is_covered_at(node, set, set[next], goal, moves + 1);
+    if (member.place == to) return true;
+    return moves < most_moves && (is_only || sets_with_[member.place] == 1) &&
+           std::ranges::any_of(member.next, [&](std::uint32_t next) {
+             return passes(set, set[next], to, is_only, moves + 1);
            });
+  }
+
+  /// The ways that are left if the token of the set is in this member; inside of the part: none outside holds it.
+  [[nodiscard]] std::vector<Way> ways_from(const NumberedPart::Set& set, const NumberedPart::Member& member,
+                                           const std::vector<Way>& ways) const {
+    std::vector<Way> left;
+    for (const Way& way : ways) {
+      Way open{.needs_one = way.needs_one};
+      bool goes = true;
+      for (const std::uint32_t need : way.needs) {
+        const bool is_of_set = std::ranges::any_of(
+            set, [&](const NumberedPart::Member& one) { return one.is_outside && one.place == need; });
+        if (!is_of_set) open.needs.push_back(need);
+        goes = goes && (!is_of_set || (member.is_outside && passes(set, member, need, way.needs_one)));
+      }
+      if (goes) left.push_back(std::move(open));
+    }
+    return left;
+  }
+
+  /// Whether one of the ways is open, wherever the tokens of the sets are.
+  [[nodiscard]] bool is_covered(std::uint32_t node, const std::vector<Way>& ways, int sets = 0) const {
+    constexpr int most_sets = 4;
+    if (std::ranges::any_of(ways, [](const Way& way) { return way.needs.empty(); })) return true;
+    if (ways.empty() || sets == most_sets) return false;
+    const auto covers = [&](std::uint32_t number) {
+      const NumberedPart::Set& set = part_.sets[number];
+      return std::ranges::all_of(set, [&](const NumberedPart::Member& member) {
+        return (!member.is_outside && !marks(*nodes_[node], member.place)) ||
+               is_covered(node, ways_from(set, member, ways), sets + 1);
+      });
+    };
+    return std::ranges::any_of(part_.sets_of[ways.front().needs.front()], covers);
   }
 
   /// Whether there is a step towards the goal, whatever the places hold that are left out.
   [[nodiscard]] bool can_go(std::uint32_t node, const std::vector<bool>& goal) const {
+    constexpr std::size_t most_ways = 200;
+    std::vector<Way> ways;
     for (const Edge& edge : edges_[node]) {
       if (!leads(edge, goal)) continue;
       const Numbers& needs = part_.steps[edge.step].needs;
       if (needs.empty()) return true;
-      if (needs.size() > 1) continue;
-      const auto covers = [&](std::uint32_t set) { return is_covered(node, part_.sets[set], goal); };
-      if (std::ranges::any_of(part_.sets_of[needs.front()], covers)) return true;
+      ways.push_back({needs, needs.size() == 1});
     }
-    return false;
+    return ways.size() <= most_ways && is_covered(node, ways);
   }
 
   const NumberedPart& part_;
   const explore::Budget& budget_;
   std::size_t tokens_ = 0;
   bool is_too_large_ = false;
-  std::vector<bool> seen_;       // per place: the formulas ask about it
-  std::vector<Numbers> takers_;  // per place: steps
+  std::vector<bool> seen_;                // per place: the formulas ask about it
+  std::vector<std::uint32_t> sets_with_;  // per place outside: how many sets have it
+  std::vector<Numbers> takers_;           // per place: steps
   std::unordered_map<Marking, std::uint32_t> numbers_;
   std::vector<const Marking*> nodes_;
   std::vector<std::vector<Edge>> edges_;
@@ -308,7 +344,7 @@ NumberedPart::Result NumberedPart::searched(const explore::Budget& budget) const
     if (!result.holds) result.helpful = graph.needs_of(std::vector<bool>(graph.size(), true));
     return result;
   }
-  const std::vector<bool> asked = graph.followers(begin, there);
+  const std::vector<bool> asked = question == Question::reaches ? graph.followers(begin, there) : begin;
   const std::vector<bool> certain = graph.certain(there);
   std::vector<bool> lost(graph.size());
   for (std::size_t node = 0; node < graph.size(); ++node) {

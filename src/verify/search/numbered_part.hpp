@@ -31,8 +31,9 @@ struct NumberedPart {
   using Set = std::vector<Member>;
 
   enum class Question : std::uint8_t {
-    never,   ///< no marking that is reached makes `from` true
-    reaches  ///< from markings in which `from` is true, and those that follow, the goal is reached for certain
+    never,      ///< no marking that is reached makes `from` true
+    can_reach,  ///< from markings in which `from` is true the goal is reached for certain
+    reaches     ///< from these and from all that follow before the goal
   } question = Question::never;
   explore::Formula from, goal;  ///< over places of the part; constants for places that never change
   std::uint32_t places = 0;

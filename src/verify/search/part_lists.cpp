@@ -86,8 +86,11 @@ class PartLists::Maker {
       if (net_[place].tokens > 0 || surroundings_.is_started(place)) made_.filled.push_back(place);
       if (!net_[place].fused() && all_.may_merge(place, subsystem_))
         made_.behaviours[net_[place].behaviour].push_back(place);
+      else
+        made_.others.push_back(place);
     }
     made_.is_one_token = !grows_ && tokens_ <= 1;
+    made_.keeps_token = !grows_ && !shrinks_ && tokens_ == 1;
     for (auto& [fact, one] : made_.facts) {
       one.is_memory = net_.parts()[fact].kind == net::Parts::Fact::Kind::memory;
       for (const PlaceId place : one.values) one.filled.insert(one.filled.end(), net_[place].tokens, place);
@@ -120,6 +123,7 @@ class PartLists::Maker {
     for (const Arc& arc : net_.preset(id)) look(arc, control_in, -1);
     for (const Arc& arc : net_.postset(id)) look(arc, control_out, 1);
     grows_ = grows_ || control_out > control_in;
+    shrinks_ = shrinks_ || control_out < control_in;
     for (const auto& [fact, sum] : gained)
       if (sum > 0) made_.facts[fact].is_one_token = false;
     if (!is_first) return;
@@ -189,7 +193,7 @@ class PartLists::Maker {
   SubsystemLists made_{};
   std::set<PlaceId> control_{};
   std::size_t tokens_ = 0;
-  bool grows_ = false;
+  bool grows_ = false, shrinks_ = false;
   std::map<Key, std::uint32_t> numbers_{};
 };
 

@@ -44,10 +44,13 @@ struct SubsystemLists {
     std::vector<net::PlaceId> values{};
   };
 
-  /// What it does is always one token, so that behaviours can count as one place.
+  /// What it does is at most one token, so that behaviours can count as one place.
   bool is_one_token = false;
+  /// And from its start on it is always one.
+  bool keeps_token = false;
   net::PlaceId rest{};                                                 ///< that place
   std::map<net::BehaviourId, std::vector<net::PlaceId>> behaviours{};  ///< places that may count as one
+  std::vector<net::PlaceId> others{};                                  ///< more places of what it does
   std::vector<net::PlaceId> filled{};                                  ///< at the start
   std::map<net::FactId, Fact> facts{};
   std::vector<net::FactId> special{};  ///< those that may not merge, or that have values in given_first

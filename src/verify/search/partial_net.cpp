@@ -30,15 +30,17 @@ std::optional<std::uint32_t> PartialNet::place_of(std::uint32_t place) const {
   return found == places_.end() ? std::nullopt : std::optional(found->second);
 }
 
+bool PartialNet::is_merged(PlaceId place) const { return merging_ != nullptr && merging_->is_merged(place); }
+
 PartialNet::Numbers PartialNet::inside(std::span<const Arc> arcs, Step* step) {
   Numbers there;
   for (const Arc& arc : arcs) {
     if (!surroundings_.stays(arc.place, subsystems_)) continue;
     PlaceId place = arc.place;
-    if (merging_ != nullptr && merging_->is_merged(place)) {
+    if (is_merged(place)) {
       place = (*merging_)[place];
-      if (step != nullptr) step->is_certain = false;
       if (!place.valid()) continue;
+      if (step != nullptr) step->is_certain = false;
     }
     there.push_back(number(place));
     if (net_[arc.place].tokens > 0 || surroundings_.is_started(arc.place))
@@ -75,7 +77,9 @@ void PartialNet::add(net::TransitionId id) {
   if (step.in.empty() && step.out.empty()) return;
   if (step.is_certain)
     for (const Arc& arc : net_.preset(id))
-      if (!surroundings_.stays(arc.place, subsystems_)) step.needs.push_back(number_outside(arc.place));
+      if (!surroundings_.stays(arc.place, subsystems_) ||
+          (is_merged(arc.place) && !(*merging_)[arc.place].valid()))
+        step.needs.push_back(number_outside(arc.place));
   add_step(id, std::move(step));
 }
 
@@ -173,9 +177,10 @@ NumberedPart PartialNet::never(const Formula& bad) const {
   return part;
 }
 
-NumberedPart PartialNet::reaches(const Formula& from, const Goal& goal) const {
+NumberedPart PartialNet::reaches(NumberedPart::Question question, const Formula& from,
+                                 const Goal& goal) const {
   NumberedPart part = part_;
-  part.question = NumberedPart::Question::reaches;
+  part.question = question;
   part.from = numbered(from);
   part.goal = numbered(goal.formula);
   for (std::size_t step = 0; step < part.steps.size(); ++step)

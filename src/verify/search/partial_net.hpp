@@ -25,12 +25,14 @@ namespace tessera::verify {
 ///
 /// Ways: a marking reaches a goal *for certain* if the subsystems have a way to it that needs nothing from the others.
 /// A transition that takes no token from a place that is left out is such a step. If exactly one of several such
-/// places holds a token, as of a memory that is full or empty, there has to be a step for each of them, or another
-/// subsystem can pass this token on alone, as it can after each use of a memory. Whatever the others have done, the
-/// subsystems can then go to the goal. So from every marking of the net that is such a marking
-/// in these subsystems, the goal is reached by some run.
+/// places holds a token, as of a memory that is full or empty, or of values of a fact that is left out, there has to be
+/// a step for each of them, or another subsystem can pass this token on alone, as it can after each use of a memory.
+/// For steps that need tokens of several such sets there has to be one for each combination. Whatever the others have
+/// done, the subsystems can then go to the goal. So from every marking of the net that is such a marking in these
+/// subsystems, the goal is reached by some run.
 ///
-/// Places that count as one (merging.hpp) make more runs possible; no step that takes one of them is certain.
+/// Places that count as one (merging.hpp) make more runs possible; no step that takes one of them is certain. Those
+/// that are left out altogether are as places of others.
 ///
 /// Precondition: no place of the net ever holds two tokens. Steps that lead to two are no steps of the net.
 /// Threads: const members from any thread.
@@ -52,9 +54,9 @@ class PartialNet {
   [[nodiscard]] bool knows(const explore::Formula& formula) const;
   /// Does no marking that is reached make it true?
   [[nodiscard]] NumberedPart never(const explore::Formula& bad) const;
-  /// From all markings in which `from` holds, and from all that follow before the goal is reached, is the goal reached
-  /// for certain?
-  [[nodiscard]] NumberedPart reaches(const explore::Formula& from, const Goal& goal) const;
+  /// question: one of those about a goal.
+  [[nodiscard]] NumberedPart reaches(NumberedPart::Question question, const explore::Formula& from,
+                                     const Goal& goal) const;
   /// Subsystems that are not in the part and use these of the places that are outside of it.
   [[nodiscard]] Subsystems users(const NumberedPart::Numbers& outside) const;
 
@@ -64,6 +66,8 @@ class PartialNet {
 
   /// The places of these in the part. step: if given, notes that it is not certain.
   [[nodiscard]] Numbers inside(std::span<const net::Arc> arcs, Step* step);
+  /// Precondition: the place stays in the part.
+  [[nodiscard]] bool is_merged(net::PlaceId place) const;
   [[nodiscard]] std::uint32_t number(net::PlaceId place);
   [[nodiscard]] std::optional<std::uint32_t> place_of(std::uint32_t place) const;
   [[nodiscard]] std::uint32_t number_outside(net::PlaceId place);

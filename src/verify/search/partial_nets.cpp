@@ -43,30 +43,78 @@ PartialNets::PartialNets(const net::Net& net, const std::vector<net::Invariant>&
       lists_(net, surroundings_) {}
 
 PartialNets::Answer PartialNets::never(const Formula& bad, const explore::Budget& budget) const {
-  return settled(
-      owners(bad), all_places_of({&bad}),
-      [&](const PartialNet& part) -> std::optional<NumberedPart> {
-        if (!knows(part, bad)) return std::nullopt;
-        return part.never(bad);
-      },
-      budget);
+  const Ask ask = [&](const PartialNet& part) -> std::optional<NumberedPart> {
+    if (!knows(part, bad)) return std::nullopt;
+    return part.never(bad);
+  };
+  return settled({.subsystems = owners(bad), .asked = all_places_of({&bad})}, ask, budget);
 }
 
 PartialNets::Answer PartialNets::reaches(const Formula& from, const PartialNet::Goal& goal,
                                          const explore::Budget& budget, Subsystems begin,
                                          const Subsystems& first) const {
-  for (const Formula* formula : {&from, &goal.formula}) begin.merge(owners(*formula));
-  std::set<PlaceId> asked = all_places_of({&from, &goal.formula});
+  return reaches(NumberedPart::Question::reaches, from, goal,
+                 {.subsystems = std::move(begin), .first = first}, budget);
+}
+
+PartialNets::Answer PartialNets::reaches(NumberedPart::Question question, const Formula& from,
+                                         const PartialNet::Goal& goal, About about,
+                                         const explore::Budget& budget) const {
+  for (const Formula* formula : {&from, &goal.formula}) about.subsystems.merge(owners(*formula));
+  about.asked = all_places_of({&from, &goal.formula});
   for (const net::TransitionId id : goal.fired)
     for (const net::Arc& arc : net_.preset(id))
-      if (!net_[arc.place].fact.valid()) asked.insert(arc.place);
-  return settled(
-      begin, asked,
-      [&](const PartialNet& part) -> std::optional<NumberedPart> {
-        if (!knows(part, from) || !knows(part, goal.formula)) return std::nullopt;
-        return part.reaches(from, goal);
-      },
-      budget, first);
+      if (!net_[arc.place].fact.valid()) about.asked.insert(arc.place);
+  const Ask ask = [&](const PartialNet& part) -> std::optional<NumberedPart> {
+    if (!knows(part, from) || !knows(part, goal.formula)) return std::nullopt;
+    return part.reaches(question, from, goal);
+  };
+  return settled(about, ask, budget);
+}
+
+PartialNets::Answer PartialNets::goes_on(net::SubsystemId subsystem, const PartialNet::Goal& goal,
+                                         const explore::Budget& budget, const Subsystems& first) const {
+  const auto at_once = [&](std::vector<Counting> countings) {
+    return reaches(
+        NumberedPart::Question::can_reach, Formula::always(), goal,
+        {.subsystems = {subsystem}, .first = first, .asked = {}, .countings = std::move(countings)}, budget);
+  };
+  Answer answer = at_once({Counting::folded});
+  const auto then = [&](const Answer& next) {
+    answer.holds = next.holds;
+    answer.markings += next.markings;
+  };
+  if (!answer.holds) then(from_each_place(subsystem, goal.fired, budget));
+  if (!answer.holds) then(at_once({Counting::merged, Counting::each}));
+  return answer;
+}
+
+PartialNets::Answer PartialNets::from_each_place(net::SubsystemId subsystem,
+                                                 const std::set<net::TransitionId>& fired,
+                                                 const explore::Budget& budget) const {
+  const SubsystemLists& lists = lists_[subsystem];
+  std::vector<std::vector<PlaceId>> all;
+  for (const auto& [behaviour, places] : lists.behaviours) all.push_back(places);
+  for (const PlaceId place : lists.others) all.push_back({place});
+  Answer answer;
+  if (!lists.keeps_token) return answer;
+  for (const std::vector<PlaceId>& places : all) {
+    std::vector<Formula> from;
+    PartialNet::Goal goal;
+    for (const PlaceId place : places) {
+      if (emptied_.contains(place)) return answer;
+      from.push_back(Formula::marked(place));
+      for (const net::TransitionId id : lists_.touching(place))
+        if (fired.contains(id)) goal.fired.insert(id);
+    }
+    const Answer one = reaches(
+        NumberedPart::Question::can_reach, Formula::any(std::move(from)), goal,
+        {.subsystems = {subsystem}, .first = {}, .asked = {}, .countings = {Counting::folded}}, budget);
+    answer.markings += one.markings;
+    if (!one.holds) return answer;
+  }
+  answer.holds = true;
+  return answer;
 }
 
 PartialNets::Subsystems PartialNets::users(PlaceId place) const {
@@ -95,17 +143,15 @@ PartialNets::Subsystems PartialNets::owners(const Formula& formula) const {
   return all;
 }
 
-/// asked: places that count for themselves.
-PartialNets::Answer PartialNets::settled(const Subsystems& subsystems, const std::set<PlaceId>& asked,
-                                         const Ask& ask, const explore::Budget& budget,
-                                         const Subsystems& first) const {
+PartialNets::Answer PartialNets::settled(const About& about, const Ask& ask,
+                                         const explore::Budget& budget) const {
   const bool known = std::ranges::all_of(
-      subsystems, [&](net::SubsystemId one) { return one.value < net_.parts().subsystems.size(); });
+      about.subsystems, [&](net::SubsystemId one) { return one.value < net_.parts().subsystems.size(); });
   Answer answer;
   if (!known) return answer;
-  for (const Counting counting : {Counting::folded, Counting::merged, Counting::each}) {
+  for (const Counting counting : about.countings) {
     budget.check();
-    const Answer one = settled_by(counting, subsystems, asked, ask, budget, first);
+    const Answer one = settled_by(counting, about, ask, budget);
     answer.markings += one.markings;
     answer.holds = one.holds;
     if (answer.holds) break;
@@ -113,17 +159,17 @@ PartialNets::Answer PartialNets::settled(const Subsystems& subsystems, const std
   return answer;
 }
 
-PartialNets::Answer PartialNets::settled_by(Counting counting, Subsystems subsystems,
-                                            const std::set<PlaceId>& asked, const Ask& ask,
-                                            const explore::Budget& budget, const Subsystems& first) const {
+PartialNets::Answer PartialNets::settled_by(Counting counting, const About& about, const Ask& ask,
+                                            const explore::Budget& budget) const {
   Answer answer;
+  Subsystems subsystems = about.subsystems;
   while (!subsystems.empty() && subsystems.size() <= most_subsystems) {
     std::unique_ptr<const Merging> merging;
     if (counting == Counting::merged)
-      merging = std::make_unique<MergedPlaces>(net_, surroundings_, subsystems, asked, few_);
+      merging = std::make_unique<MergedPlaces>(net_, surroundings_, subsystems, about.asked, few_);
     if (counting == Counting::folded) {
-      auto folded = std::make_unique<FoldedPart>(net_, surroundings_, lists_, subsystems, asked, few_);
-      if (!folded->is_folded()) break;
+      auto folded = std::make_unique<FoldedPart>(net_, surroundings_, lists_, subsystems, about.asked, few_);
+      if (!folded->is_made()) break;
       merging = std::move(folded);
     }
     const PartialNet part(net_, surroundings_, sets_, subsystems, merging.get());
@@ -133,8 +179,8 @@ PartialNets::Answer PartialNets::settled_by(Counting counting, Subsystems subsys
     answer.holds = result.holds;
     if (answer.holds) break;
     Subsystems peers = part.users(result.helpful);
-    if (std::ranges::any_of(first, [&](net::SubsystemId one) { return peers.contains(one); }))
-      std::erase_if(peers, [&](net::SubsystemId one) { return !first.contains(one); });
+    if (std::ranges::any_of(about.first, [&](net::SubsystemId one) { return peers.contains(one); }))
+      std::erase_if(peers, [&](net::SubsystemId one) { return !about.first.contains(one); });
     if (peers.empty() || subsystems.size() + peers.size() > most_subsystems) break;
     subsystems.insert(peers.begin(), peers.end());
   }

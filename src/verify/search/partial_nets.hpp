@@ -46,6 +46,11 @@ class PartialNets {
   [[nodiscard]] Answer reaches(const explore::Formula& from, const PartialNet::Goal& goal,
                                const explore::Budget& budget, Subsystems begin = {},
                                const Subsystems& first = {}) const;
+  /// From all markings of the net, a run reaches a goal that is about one subsystem: it goes on. If this is not
+  /// settled at once, each place is asked about where the token of what it does can be, those of a behaviour together,
+  /// if the subsystem always has one. first: as above. Throws explore::CutOff.
+  [[nodiscard]] Answer goes_on(net::SubsystemId subsystem, const PartialNet::Goal& goal,
+                               const explore::Budget& budget, const Subsystems& first = {}) const;
   /// The subsystems that use a place of a channel.
   [[nodiscard]] Subsystems users(net::PlaceId place) const;
 
@@ -56,12 +61,20 @@ class PartialNets {
 
   [[nodiscard]] bool knows(const PartialNet& part, const explore::Formula& formula) const;
   [[nodiscard]] Subsystems owners(const explore::Formula& formula) const;
-  [[nodiscard]] Answer settled(const Subsystems& subsystems, const std::set<net::PlaceId>& asked,
-                               const Ask& ask, const explore::Budget& budget,
-                               const Subsystems& first = {}) const;
-  [[nodiscard]] Answer settled_by(Counting counting, Subsystems subsystems,
-                                  const std::set<net::PlaceId>& asked, const Ask& ask,
-                                  const explore::Budget& budget, const Subsystems& first) const;
+  /// About what is asked, and how.
+  struct About {
+    Subsystems subsystems{}, first{};
+    std::set<net::PlaceId> asked{};  ///< places that count for themselves
+    std::vector<Counting> countings{Counting::folded, Counting::merged, Counting::each};
+  };
+  [[nodiscard]] Answer reaches(NumberedPart::Question question, const explore::Formula& from,
+                               const PartialNet::Goal& goal, About about,
+                               const explore::Budget& budget) const;
+  [[nodiscard]] Answer from_each_place(net::SubsystemId subsystem, const std::set<net::TransitionId>& fired,
+                                       const explore::Budget& budget) const;
+  [[nodiscard]] Answer settled(const About& about, const Ask& ask, const explore::Budget& budget) const;
+  [[nodiscard]] Answer settled_by(Counting counting, const About& about, const Ask& ask,
+                                  const explore::Budget& budget) const;
   [[nodiscard]] const NumberedPart::Result& searched(const NumberedPart& part, const explore::Budget& budget,
                                                      Answer& answer) const;
 

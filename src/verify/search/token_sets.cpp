@@ -61,9 +61,11 @@ class Moves {
 TokenSets::TokenSets(const net::Net& net, const std::vector<net::Invariant>& invariants) {
   for (const net::Invariant& invariant : invariants) {
     const auto fits = [](const net::Invariant::Term& term) { return term.weight == 1; };
-    const auto fused = [&](const net::Invariant::Term& term) { return net[term.place].fused(); };
+    const auto is_shared = [&](const net::Invariant::Term& term) {
+      return net[term.place].fused() || net[term.place].fact.valid();
+    };
     if (invariant.total != 1 || !std::ranges::all_of(invariant.terms, fits) ||
-        std::ranges::none_of(invariant.terms, fused))
+        std::ranges::none_of(invariant.terms, is_shared))
       continue;
     std::vector<PlaceId> places;
     std::uint32_t tokens = 0;

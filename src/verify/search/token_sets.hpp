@@ -8,12 +8,13 @@
 
 namespace tessera::verify {
 
-/// Sets of places of a net, one of which always holds the only token: a memory is full, or empty, or in use.
+/// Sets of places of a net, one of which always holds the only token: a memory is full, or empty, or in use; or
+/// something that a subsystem knows has one of its values.
 ///
 /// Threads: const members from any thread.
 class TokenSets {
  public:
-  /// Those of the invariants that the net has, and that are about channels.
+  /// Those of the invariants that the net has, and that are about channels or facts.
   TokenSets(const net::Net& net, const std::vector<net::Invariant>& invariants);
 
   /// The sets with this place.

@@ -49,7 +49,7 @@ constexpr tessera::VerifiedProperty verdicts[] = {
 
 constexpr tessera::System whole{
     .tables_version = 5, .name = "line_follower",
-    .net_hash = "07554c57a82a68d180835d7120dfa0b4", .verification_hash = "f046e4f0eda063bafdc3aa3e2747663d",
+    .net_hash = "07554c57a82a68d180835d7120dfa0b4", .verification_hash = "42ad129d3e77b0abe2303d897ae4a012",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .system_page = &system_page, .agent_page = &agent_page,
     .real_drivers = {}, .simulated_drivers = {}};

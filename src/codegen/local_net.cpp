@@ -203,7 +203,7 @@ class Extraction {
     const net::Condition& condition = net_[id].condition;
     switch (condition.kind) {
       case net::Condition::Kind::none:
-        return {};
+        return told(id, sends);
       case net::Condition::Kind::go_on:
         return "tessera::if_go_on";
       case net::Condition::Kind::terminal:
@@ -219,6 +219,21 @@ class Extraction {
         return "tessera::if_sends";
       case net::Condition::Kind::skip:
         return "tessera::if_skips";
+    }
+    return {};
+  }
+
+  /// A receive that tells of a goal: the value that came decides which state the memory of the goal has after it.
+  [[nodiscard]] std::string told(TransitionId id, bool sends) const {
+    if (sends || !net_[id].block.valid()) return {};
+    const spec::BufferId input = model_.channels[net_.parts()[net_[id].block].channel].to.buffer;
+    for (const net::Arc& arc : net_.postset(id)) {
+      const net::Place& place = net_[arc.place];
+      if (!place.fact.valid()) continue;
+      const net::Parts::Fact& fact = net_.parts()[place.fact];
+      if (fact.kind != net::Parts::Fact::Kind::memory) continue;
+      const std::optional<spec::GoalBuffers>& goal = subsystem_.memory[fact.subject].few->goal;
+      if (goal && goal->progress == input) return fmt::format("tessera::if_told({})", place.value);
     }
     return {};
   }

@@ -91,6 +91,18 @@ void bind_buffers(const Numbered<spec::BufferId, spec::Field>& buffers, std::str
                                   field.member ? "each_" : ""));
 }
 
+/// The output and the input of a goal, and the behaviours that order it, by number.
+std::string bind_goal(const spec::Subsystem& subsystem, std::uint32_t cell) {
+  const spec::GoalBuffers& goal = *subsystem.memory[cell].few->goal;
+  std::vector<std::string> orders;
+  for (const spec::BehaviourId id : subsystem.behaviours.ids())
+    if (const auto& order = subsystem.behaviours[id].orders; order && order->cell == cell)
+      orders.push_back(fmt::format("{{{}, {}}}", id.value, order->cancel_on_leave));
+  return fmt::format("bindings.goals.push_back(tessera::bound_goal(\"{}\", out.{}, in.{}, {{{}}}));",
+                     subsystem.memory[cell].name, subsystem.outputs[goal.goal].name,
+                     subsystem.inputs[goal.progress].name, fmt::join(orders, ", "));
+}
+
 std::string bind(const Project& project, const Unit& unit) {
   const spec::Subsystem& subsystem = *unit.subsystem;
   std::vector<std::string> lines;
@@ -109,6 +121,9 @@ std::string bind(const Project& project, const Unit& unit) {
   for (const spec::Field& field : subsystem.memory)
     lines.push_back(
         fmt::format("bindings.{1}(\"{0}\", memory.{0});", field.name, field.few ? "keep" : "remember"));
+  for (std::uint32_t cell = 0; cell < subsystem.memory.size(); ++cell)
+    if (const auto& few = subsystem.memory[cell].few; few && few->goal)
+      lines.push_back(bind_goal(subsystem, cell));
   for (const spec::Parameter* parameter : parameters) lines.push_back(bind_parameter(*parameter));
   return member_function(lines.empty() ? "void bind(tessera::Bindings&) override"
                                        : "void bind(tessera::Bindings& bindings) override",

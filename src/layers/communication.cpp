@@ -3,6 +3,7 @@
 #include "layers/built_in.hpp"
 #include "layers/condition_truth.hpp"
 #include "layers/sheet.hpp"
+#include "tessera/goal_life.hpp"
 #include "tessera/net_words.hpp"
 
 namespace tessera::layers {
@@ -67,6 +68,27 @@ struct Choice {
   net::Condition sends, skips;
 };
 
+/// A state of a goal, and one that a receive may tell of then.
+struct Told {
+  KnownFacts::Values before, after;
+  std::string name;  ///< of the state after it, if it is another one
+};
+
+/// The states of a goal in which it may be told to be, for each state before. fact: invalid: no goal is told of.
+std::vector<Told> told_of(net::FactId fact) {
+  if (!fact.valid()) return {{}};
+  std::vector<Told> all;
+  for (std::uint32_t before = 0; before < goal_state_count; ++before)
+    for (std::uint32_t after = 0; after < goal_state_count; ++after) {
+      if (!can_follow(GoalState{static_cast<std::uint8_t>(before)},
+                      GoalState{static_cast<std::uint8_t>(after)}))
+        continue;
+      all.push_back({{{fact, before}}, {{fact, after}}, {}});
+      if (after != before) all.back().name = '.' + std::string(goal_state_names.at(after));
+    }
+  return all;
+}
+
 /// Draws the blocks of one page.
 class BlockPen {
  public:
@@ -100,13 +122,16 @@ class BlockPen {
       std::vector<std::uint32_t> from{nodes[transition.from]}, to{nodes[transition.to]};
       for (const std::uint32_t place : transition.takes) from.push_back(shared[place]);
       for (const std::uint32_t place : transition.gives) to.push_back(shared[place]);
+      const std::vector<Told> told = told_of(goal_told_by(side, transition, block));
       const auto draw = [&](const KnownFacts::Values& reads, const net::Condition& condition) {
-        FactPen(sheet_, facts_)
-            .draw(local(transition.name), reads, outcome(side, transition, block),
-                  [&](const std::string& name, const Nodes& inputs, const Nodes& outputs) {
-                    sheet_.transition(name, joined(from, inputs), joined(to, outputs), condition).role =
-                        role_of(transition);
-                  });
+        for (const Told& one : told)
+          FactPen(sheet_, facts_)
+              .draw(local(transition.name), both(reads, one.before),
+                    both(outcome(side, transition, block), one.after),
+                    [&](const std::string& name, const Nodes& inputs, const Nodes& outputs) {
+                      sheet_.transition(name + one.name, joined(from, inputs), joined(to, outputs), condition)
+                          .role = role_of(transition);
+                    });
       };
       if (choices.empty() || transition.from != ModelSide::in) {
         draw({}, transition.elapsed ? elapsed(channel, block) : net::Condition{});
@@ -180,6 +205,18 @@ class BlockPen {
     const bool success =
         direction_ == Direction::send ? !transition.elapsed : side.places[transition.from].slot.has_value();
     return {{fact, success ? KnownFacts::succeeded : KnownFacts::failed}};
+  }
+
+  static KnownFacts::Values both(KnownFacts::Values values, const KnownFacts::Values& more) {
+    values.insert(values.end(), more.begin(), more.end());
+    return values;
+  }
+
+  /// The memory of the goal that a transition behind a read value changes as the value tells; invalid: of none.
+  [[nodiscard]] net::FactId goal_told_by(const ModelSide& side, const ModelSide::Transition& transition,
+                                         const Block& block) const {
+    if (direction_ == Direction::send || transition.elapsed || !side.places[transition.from].slot) return {};
+    return facts_.goal_told_by(block.channel);
   }
 
   [[nodiscard]] net::Operation operation(const ModelSide::Place& place, const Block& block) const {

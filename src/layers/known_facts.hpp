@@ -86,6 +86,9 @@ class KnownFacts {
   /// The values that a side's transitions set, by whether they end it well.
   static constexpr std::uint32_t succeeded = 0, failed = 1;
 
+  /// The memory cell of the goal of which a receive over that channel tells; invalid: of none.
+  [[nodiscard]] net::FactId goal_told_by(net::ChannelId channel) const;
+
   /// The place of a value.
   [[nodiscard]] net::FusionId place_of(net::FactId fact, std::uint32_t value) const {
     return {of(fact).first.value + value};

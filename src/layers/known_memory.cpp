@@ -218,6 +218,16 @@ KnownFacts::Changed KnownFacts::changed_at_start(const std::vector<spec::Change>
   return changed(changes, first, subsystem_.start).front();
 }
 
+net::FactId KnownFacts::goal_told_by(net::ChannelId channel) const {
+  const spec::ChannelEnd& end = model_.channels[channel].to;
+  if (end.instance != id_) return {};
+  for (std::uint32_t cell = 0; cell < subsystem_.memory.size(); ++cell) {
+    const std::optional<spec::FewValues>& few = subsystem_.memory[cell].few;
+    if (few && few->goal && few->goal->progress == end.buffer) return fact_of(FactKind::memory, cell);
+  }
+  return {};
+}
+
 std::vector<net::FactId> KnownFacts::memory() const {
   std::vector<net::FactId> all;
   for (std::uint32_t number = 0; number < facts_.size(); ++number)

@@ -17,6 +17,7 @@
 #include <utility>
 #include <vector>
 
+#include "tessera/bound_goal.hpp"
 #include "tessera/buffer.hpp"
 #include "tessera/context.hpp"
 #include "tessera/kept.hpp"
@@ -204,6 +205,7 @@ struct Bindings {
   std::vector<RealLimit> limits;
   std::vector<Remembered> memory;
   std::vector<KeptCell> kept;
+  std::vector<BoundGoal> goals;
   std::vector<Parameter> parameters;
   Real real;
 
@@ -252,8 +254,7 @@ struct Bindings {
   void only_finite(const Output<T>& /*output*/, Check /*check*/) {
     real_outputs.back().finite = [](const void* at) { return Check{}(*static_cast<const T*>(at)); };
   }
-  /// number: a member of the real output that was bound last. It is an arithmetic type, or a std::array of
-  /// one.
+  /// number: a member of the real output that was bound last: an arithmetic type, or a std::array of one.
   template <class T>
   void limit(std::string_view name, T& number, const Limits& its) {
     const auto offset = static_cast<std::size_t>(reinterpret_cast<const std::byte*>(&number) -
@@ -357,8 +358,7 @@ class Subsystem {
  public:
   virtual ~Subsystem() = default;
   virtual void bind(Bindings& bindings) = 0;
-  /// Calls the transition function of a behaviour, eq. (1) of the paper. Throws whatever the user's code
-  /// throws.
+  /// Calls the transition function of a behaviour, eq. (1) of the paper. Throws what the user's code throws.
   virtual void call(std::uint16_t behaviour) = 0;
   /// Evaluates the error condition, then the terminal condition. failed: the transition function has thrown.
   [[nodiscard]] virtual Outcome decide(std::uint16_t behaviour, bool failed) = 0;

@@ -78,9 +78,10 @@ struct Guard {
     next,
     elapsed,
     send,  ///< the iteration sends what it may skip
-    skip   ///< it does not
+    skip,  ///< it does not
+    told   ///< the value that was read tells that the goal is in that state
   } kind = Kind::none;
-  std::uint16_t entry = 0;  ///< index into `next`, from 0
+  std::uint16_t entry = 0;  ///< index into `next`, from 0; the state of the goal (told)
   /// elapsed: the port with the timeout; nobody: that of the channel that the transition touches
   std::uint16_t port = nobody;
 };
@@ -88,6 +89,7 @@ inline constexpr Guard if_go_on{Guard::Kind::go_on}, if_terminal{Guard::Kind::te
     if_error{Guard::Kind::error}, if_elapsed{Guard::Kind::elapsed}, if_sends{Guard::Kind::send},
     if_skips{Guard::Kind::skip};
 [[nodiscard]] constexpr Guard if_next(std::uint16_t entry) { return {Guard::Kind::next, entry}; }
+[[nodiscard]] constexpr Guard if_told(std::uint16_t state) { return {Guard::Kind::told, state}; }
 [[nodiscard]] constexpr Guard if_elapsed_at(std::uint16_t port) { return {Guard::Kind::elapsed, 0, port}; }
 
 /// A place of a subsystem. Its name lacks the path of the subsystem ("follow.snd.motion.2").

@@ -16,6 +16,7 @@ namespace {
 [[nodiscard]] std::string guard_text(Guard guard) {
   switch (guard.kind) {
     case Guard::Kind::none:
+    case Guard::Kind::told:  // the net leaves open what comes
       return "";
     case Guard::Kind::go_on:
       return "go_on";

@@ -147,6 +147,7 @@ class Compilation {
 
   void find_latch(const Transition& transition, Plan::TransitionEntry& entry) {
     const bool routed = entry.guard.kind == Guard::Kind::next;
+    const bool told = entry.guard.kind == Guard::Kind::told;
     const bool asked = entry.guard.kind == Guard::Kind::send || entry.guard.kind == Guard::Kind::skip;
     if (entry.guard.kind == Guard::Kind::none || entry.guard.kind == Guard::Kind::elapsed) {
       if (entry.guard.kind == Guard::Kind::elapsed && !entry.port.valid())
@@ -155,12 +156,16 @@ class Compilation {
     }
     for (std::uint32_t arc = entry.inputs; arc < entry.outputs; ++arc) {
       const Does::Kind does = plan_.places[plan_.arcs[arc]].does;
-      if (does == (routed ? Does::Kind::route : asked ? Does::Kind::ask : Does::Kind::decide))
+      if (does == (routed  ? Does::Kind::route
+                   : told  ? Does::Kind::read
+                   : asked ? Does::Kind::ask
+                           : Does::Kind::decide))
         entry.latch = {plan_.arcs[arc]};
     }
-    entry.decided = routed  ? entry.guard.entry
-                    : asked ? static_cast<std::int32_t>(entry.guard.kind == Guard::Kind::send)
-                            : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
+    if (told && entry.latch.valid()) plan_.places[entry.latch.value].tells = true;
+    entry.decided = routed || told ? entry.guard.entry
+                    : asked        ? static_cast<std::int32_t>(entry.guard.kind == Guard::Kind::send)
+                                   : static_cast<std::int32_t>(outcome_of(entry.guard.kind));
     const bool asks_facts = std::any_of(plan_.arcs.begin() + entry.inputs, plan_.arcs.begin() + entry.outputs,
                                         [&](std::uint32_t place) { return plan_.places[place].fact; });
     if (entry.latch.valid() && entry.decided < 64 && !asks_facts)

@@ -27,7 +27,8 @@ struct Plan {
     std::uint64_t ways = 0;
     bool timed = false;  ///< a timeout counts from the arrival of its token
     bool fact = false;  ///< stands for a value of a fact: its token is only read, and leaves with another one
-    bool idle = false;  ///< an arriving token does nothing, and the place is not `out`
+    bool tells = false;  ///< what is read there decides which state of a goal is the next
+    bool idle = false;   ///< an arriving token does nothing, and the place is not `out`
   };
   struct Condition {
     Guard::Kind kind = Guard::Kind::none;

@@ -228,13 +228,14 @@ void RerunSubsystem::start_operation(std::uint32_t place, const RecordedMoment& 
       operations_.count();
       break;
     case Does::Kind::begin:
-      operations_.begin_iteration();
+      operations_.begin_iteration(entry.subject);
       break;
     case Does::Kind::write:
       operations_.write(entry.subject, entry.slot, at_);
       break;
     case Does::Kind::read:
       read(entry.subject, entry.slot, moment);
+      if (entry.tells) decided_[place] = operations_.told(entry.subject);
       break;
     case Does::Kind::decide:
       decided_[place] = static_cast<int>(operations_.decide(entry.subject, at_));

@@ -23,6 +23,8 @@ class ChannelValues {
   void write(std::uint32_t port, std::uint16_t slot, Time now, bool valid);
   /// An invalid value does not change the buffer, only its status.
   void read(std::uint32_t port, std::uint16_t slot, Time now);
+  /// Whether the last read over that port has taken a new and valid value.
+  [[nodiscard]] bool took(std::uint32_t port) const { return inputs_[parts_.ports[port].buffer].taken_fresh; }
   /// A timeout transition of that port has fired.
   void note_timeout(std::uint32_t port);
   /// A blocking send of that port was acknowledged in time.

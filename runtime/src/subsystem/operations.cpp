@@ -37,7 +37,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
       reports_(parts_, control, clock, lane),
       channels_(parts_, control),
       devices_(parts_, channels_, reports_, control, clock, lane),
-      written_(parts_) {
+      written_(parts_),
+      goals_(parts_, reports_) {
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
@@ -84,6 +85,7 @@ void Operations::fail(Fault fault, std::uint16_t behaviour, std::string_view wha
   devices_.note_fault(what);
   failed_ = true;
   parts_.subsystem->restore_outputs();
+  goals_.write();
   written_.undo();
 }
 
@@ -106,9 +108,16 @@ void Operations::take_changes(Time now) {
   });
 }
 
+/// A goal is ordered before anything of the behaviour runs: what comes then is told of the new one.
+void Operations::begin_behaviour(std::uint16_t behaviour) {
+  if (goals_.empty() || !has_ended_ || std::exchange(begun_, true)) return;
+  goals_.begin(behaviour);
+}
+
 /// The conditions of the last iteration saw which values were fresh in it.
-void Operations::begin_iteration() {
+void Operations::begin_iteration(std::uint16_t behaviour) {
   receives_first_ = true;
+  begin_behaviour(behaviour);
   if (calls_ > 0) count();  // the first iteration has number 0
   channels_.mark_seen();
 }
@@ -121,6 +130,8 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   ++calls_;
   channels_.await_inputs(behaviour);
   parts_.subsystem->keep_outputs();
+  begin_behaviour(behaviour);
+  goals_.write();
   for (const Bindings::Outgoing* output : skippable_) *output->skipped = false;
   written_.keep();
   context_.now = now;
@@ -137,8 +148,10 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   }
   refresh_ages(now);
   written_.before_call();
-  if (survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); }))
+  if (survives(Fault::exception, behaviour, "", [&] { parts_.subsystem->call(behaviour); })) {
+    goals_.write();
     written_.after_call();
+  }
   check_skips(behaviour);
 }
 
@@ -278,6 +291,7 @@ void Operations::refresh_ages(Time now) {
 
 void Operations::learn(std::uint16_t fact, std::uint16_t value, Time now) {
   channels_.learn(fact, value);
+  goals_.learn(fact, value);
   KeptCell& kept = kept_[fact];
   if (kept.cell == nullptr || std::exchange(kept.value, value) == value) return;
   kept.cell->set(kept.cell->value, value);
@@ -299,6 +313,7 @@ Outcome Operations::decide(std::uint16_t behaviour, Time now) {
 void Operations::accept_outcome(Outcome outcome) {
   erroneous_ = outcome == Outcome::error;
   has_ended_ = outcome != Outcome::go_on;
+  begun_ = begun_ && !has_ended_;
   if (erroneous_) ++errors_;
 }
 

@@ -11,6 +11,7 @@
 #include "recorder/recorder.hpp"
 #include "subsystem/channel_values.hpp"
 #include "subsystem/device_commands.hpp"
+#include "subsystem/goals.hpp"
 #include "subsystem/reports.hpp"
 #include "subsystem/subsystem_parts.hpp"
 #include "subsystem/written_outputs.hpp"
@@ -41,7 +42,7 @@ class Operations final : public ContextServices {
 
   // Operations of places.
   /// An iteration of a subsystem that receives first. (In the other order it begins with start_call.)
-  void begin_iteration();
+  void begin_iteration(std::uint16_t behaviour);
   /// missed: the number of missed instants of the rate. If it is not zero, this is a fault: the function is
   /// not called, and the iteration fails.
   void start_call(std::uint16_t behaviour, Time now, std::uint64_t missed = 0);
@@ -49,6 +50,8 @@ class Operations final : public ContextServices {
   void count() { ++iteration_; }
   void write(std::uint32_t port, std::uint16_t slot, Time now);
   void read(std::uint32_t port, std::uint16_t slot, Time now) { channels_.read(port, slot, now); }
+  /// The state that the memory of a goal has after the last read over that port, which tells of it.
+  [[nodiscard]] std::uint16_t told(std::uint32_t port) { return goals_.told(port, channels_.took(port)); }
   /// A timeout transition of that port has fired.
   void note_timeout(std::uint32_t port) { channels_.note_timeout(port); }
   /// A blocking send of that port was acknowledged in time.
@@ -99,6 +102,7 @@ class Operations final : public ContextServices {
   [[nodiscard]] std::uint64_t errors() const { return errors_; }
 
  private:
+  void begin_behaviour(std::uint16_t behaviour);
   void take_changes(Time now);
   void read_receptors(Time now);
   [[nodiscard]] bool read_receptor(std::size_t index, Time now);
@@ -122,6 +126,7 @@ class Operations final : public ContextServices {
   ChannelValues channels_;
   DeviceCommands devices_;
   WrittenOutputs written_;
+  Goals goals_;
   struct KeptCell {
     const Bindings::KeptCell* cell = nullptr;  // nullptr: the fact is no memory
     std::uint16_t value = 0;
@@ -132,6 +137,7 @@ class Operations final : public ContextServices {
   Time called_at_{};
   Time began_at_{};              // the behaviour: its first call
   bool has_ended_ = true;        // the last behaviour; the next call is the first of another
+  bool begun_ = false;           // the behaviour after one that has ended
   std::uint64_t iteration_ = 0;  // i of the paper
   std::uint64_t calls_ = 0, errors_ = 0;
   std::uint16_t behaviour_ = 0;            // the behaviour called last

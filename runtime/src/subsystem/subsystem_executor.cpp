@@ -274,7 +274,7 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
       token.due = plan_->receive_first ? Time::min() : release();
       break;
     case Does::Kind::begin:
-      operations_.begin_iteration();
+      operations_.begin_iteration(entry.subject);
       token.phase = Phase::released_later;
       token.due = release();
       break;
@@ -286,6 +286,7 @@ inline void SubsystemExecutor::arrive(std::uint32_t place) {
       break;
     case Does::Kind::read:
       operations_.read(entry.subject, entry.slot, now());
+      if (entry.tells) take_told(place);
       break;
     case Does::Kind::decide:
       decide(place);

@@ -192,6 +192,7 @@ class SubsystemExecutor {
   // Scripts.
   [[nodiscard]] const Plan::TransitionEntry* decided_by_script(std::uint32_t place) const;
   [[nodiscard]] bool script_ends_without_choice() const;
+  void take_told(std::uint32_t place);
   void decide(std::uint32_t place);
   void route(std::uint32_t place);
   void ask(std::uint32_t place);

@@ -22,6 +22,8 @@ std::string_view forced_by(Guard::Kind guard) {
       return "to send";
     case Guard::Kind::skip:
       return "to send nothing";
+    case Guard::Kind::told:
+      return "what is told of the goal";
     case Guard::Kind::none:
     case Guard::Kind::elapsed:  // the script has waited for it
       break;
@@ -57,6 +59,12 @@ const Plan::TransitionEntry* SubsystemExecutor::decided_by_script(std::uint32_t 
     if (transition.latch.value == place) return &transition;
   }
   return nullptr;
+}
+
+/// Latches the state of the goal that the value tells of, or the one that the script says.
+void SubsystemExecutor::take_told(std::uint32_t place) {
+  const Plan::TransitionEntry* const next = decided_by_script(place);
+  tokens_[place].latched = next != nullptr ? next->decided : operations_.told(places_[place].subject);
 }
 
 bool SubsystemExecutor::script_ends_without_choice() const {

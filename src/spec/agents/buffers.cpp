@@ -6,6 +6,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/memory/few_values.hpp"
+#include "spec/memory/goals.hpp"
 #include "spec/values/literals.hpp"
 
 namespace tessera::spec {
@@ -26,14 +27,19 @@ Type read_cell_type(const Node& written, Span at, const Types& types, const Flee
   return types.parse(counted, at, out);
 }
 
-Field read_cell(const Entry& entry, const Types& types, const FleetSizes* fleets, Diagnostics& out) {
+Field read_cell(const Entry& entry, const GoalScope& buffers, const FleetSizes* fleets, Diagnostics& out) {
+  const Types& types = buffers.types;
   Field cell{entry.key, Types::unknown(), {}, entry.span};
   if (!entry.value->is_map()) {
     cell.type = read_cell_type(*entry.value, entry.span, types, fleets, out);
     return cell;
   }
-  const Section section(*entry.value, entry.span, "a memory cell", {"type", "initial", "values", "counts"},
-                        out);
+  const Section section(*entry.value, entry.span, "a memory cell",
+                        {"type", "initial", "values", "counts", "goal", "progress"}, out);
+  if (section.find("goal") != nullptr || section.find("progress") != nullptr) {
+    cell.few = read_goal(section, buffers, out);
+    return cell;
+  }
   if (section.find("values") != nullptr || section.find("counts") != nullptr) {
     cell.few = read_few_values(section, fleets, out);
     return cell;
@@ -83,13 +89,13 @@ std::vector<Field> read_buffers(const Entry* entry, std::string_view what, const
   return buffers;
 }
 
-std::vector<Field> read_memory(const Entry* entry, const Types& types, const FleetSizes* fleets,
+std::vector<Field> read_memory(const Entry* entry, const GoalScope& buffers, const FleetSizes* fleets,
                                Diagnostics& out) {
   std::vector<Field> cells;
   if (entry == nullptr) return cells;
   for (const Entry& cell : entries_of(*entry->value, entry->span, "memory", out)) {
     check_name(cell.key, cell.span, "memory", out);
-    cells.push_back(read_cell(cell, types, fleets, out));
+    cells.push_back(read_cell(cell, buffers, fleets, out));
   }
   return cells;
 }

@@ -4,6 +4,7 @@
 
 #include "spec/document/document.hpp"
 #include "spec/document/families.hpp"
+#include "spec/memory/goals.hpp"
 #include "spec/model/model.hpp"
 #include "spec/values/types.hpp"
 
@@ -17,11 +18,12 @@ namespace tessera::spec {
 [[nodiscard]] std::vector<Field> read_buffers(const Entry* entry, std::string_view what, const Types& types,
                                               const FleetSizes* fleets, Diagnostics& out);
 
-/// NAME: TYPE, NAME: { type, initial }, NAME: { values } or NAME: { counts } pairs. entry may be null.
+/// NAME: TYPE, NAME: { type, initial }, NAME: { values }, NAME: { counts } or NAME: { goal, progress } pairs. entry may
+/// be null.
 ///
-/// Errors: besides those of names and types, those of read_few_values.
-[[nodiscard]] std::vector<Field> read_memory(const Entry* entry, const Types& types, const FleetSizes* fleets,
-                                             Diagnostics& out);
+/// Errors: besides those of names and types, those of read_few_values and read_goal.
+[[nodiscard]] std::vector<Field> read_memory(const Entry* entry, const GoalScope& buffers,
+                                             const FleetSizes* fleets, Diagnostics& out);
 
 /// NAME: VALUE or NAME: { type, default, min, max, unit } pairs. entry may be null.
 ///

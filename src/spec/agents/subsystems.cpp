@@ -16,6 +16,7 @@
 #include "spec/behaviours/groups.hpp"
 #include "spec/document/section.hpp"
 #include "spec/memory/few_values.hpp"
+#include "spec/memory/goals.hpp"
 #include "spec/model/behaviour_flow.hpp"
 #include "spec/model/endings.hpp"
 #include "spec/values/quantities.hpp"
@@ -203,7 +204,8 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
   subsystem.real = read_buffers(section.find("real"), "real buffer", around.types, around.fleets, out);
   if (kind == SubsystemKind::receptor) check_distinct({&subsystem.inputs, &subsystem.real}, out);
   if (kind == SubsystemKind::effector) check_distinct({&subsystem.outputs, &subsystem.real}, out);
-  subsystem.memory = read_memory(section.find("memory"), around.types, around.fleets, out);
+  subsystem.memory = read_memory(section.find("memory"), {subsystem.inputs, subsystem.outputs, around.types},
+                                 around.fleets, out);
   subsystem.parameters = read_parameters(section.find("parameters"), around.types, out);
   check_shadowing(subsystem.parameters, around.parameters, out);
   read_policies(section, subsystem, out);
@@ -232,6 +234,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
     check_start(subsystem, out);
     check_behaviour_flow(subsystem, out);
     check_counters(subsystem, out);
+    check_goals(subsystem, out);
   }
   return subsystem;
 }

@@ -12,6 +12,7 @@
 #include "spec/document/names.hpp"
 #include "spec/document/section.hpp"
 #include "spec/memory/few_values.hpp"
+#include "spec/memory/goals.hpp"
 #include "spec/values/quantities.hpp"
 #include "tessera/nearest.hpp"
 
@@ -37,7 +38,7 @@ class BehaviourReader {
     for (std::size_t number = 0; number < slots_.size(); ++number) {
       const Slot& slot = slots_[number];
       static_cast<void>(check_behaviour_name(slot.entry->key, slot.entry->span, *out_));
-      Written written{&slot, {count_}, std::nullopt, {}, {}};
+      Written written{&slot, {count_}, std::nullopt, std::nullopt, {}, {}};
       if (const Entry* each = entry_of(*slot.entry, "for"))
         if (may_be_for(slot, *each)) written.each = read_for(*each, fleets);
       count_ += written.each ? written.each->count : 1;
@@ -48,9 +49,11 @@ class BehaviourReader {
 
   ReadBehaviours read() {
     for (Written& one : written_) {
-      const Entry* sets = entry_of(*one.slot->entry, "sets");
+      const Entry& entry = *one.slot->entry;
+      if (!one.slot->is_group) one.orders = read_order(entry, scope_.memory, *out_);
       each_member(one, [&](const Member* member) {
-        one.sets.push_back(read_changes(sets, scope_.memory, member, *out_));
+        one.sets.push_back(read_changes(entry_of(entry, "sets"), scope_.memory, member, *out_));
+        if (one.orders) one.sets.back().push_back(one.orders->change());
       });
     }
     // Groups stand before what is in them.
@@ -65,8 +68,9 @@ class BehaviourReader {
   /// A behaviour as the file has it.
   struct Written {
     const Slot* slot;
-    BehaviourId first;                      ///< of its members
-    std::optional<EachMember> each;         ///< `for: each robot`
+    BehaviourId first;               ///< of its members
+    std::optional<EachMember> each;  ///< `for: each robot`
+    std::optional<Order> orders;
     std::vector<std::vector<Change>> sets;  ///< per member
     BehaviourId start;                      ///< of a group
   };
@@ -137,6 +141,7 @@ class BehaviourReader {
     if (member != nullptr) behaviour.member = *member;
     behaviour.span = entry.span;
     behaviour.sets = written.sets[member == nullptr ? 0 : member->number];
+    behaviour.orders = written.orders;
     const ConditionScope scope = scope_for(member);
     const Section section(*entry.value, entry.span, slot.is_group ? "a group" : "a behaviour",
                           keys_of(slot, *out_), *out_);

@@ -22,12 +22,12 @@ const Entry* entry_in(const Entry& section, std::string_view key) {
 }
 
 using Keys = std::initializer_list<std::string_view>;
-const Keys keys_of_behaviour = {"terminal", "error", "next", "send", "receive",
-                                "transfer", "takes", "sets", "for"};
+const Keys keys_of_behaviour = {"terminal", "error", "next",   "send",   "receive", "transfer",
+                                "takes",    "sets",  "orders", "cancel", "for"};
 const Keys keys_of_group = {"behaviours", "start", "next", "on_error", "until", "sets"};
 /// If there is an error about keys already.
-const Keys all_keys = {"terminal", "error", "next",       "send",  "receive",  "transfer", "takes",
-                       "sets",     "for",   "behaviours", "start", "on_error", "until"};
+const Keys all_keys = {"terminal", "error",      "next",  "send",     "receive", "transfer", "takes", "sets",
+                       "for",      "behaviours", "start", "on_error", "until",   "orders",   "cancel"};
 
 /// A key that only behaviours or only groups have.
 struct OwnKey {
@@ -46,7 +46,9 @@ constexpr std::array own_keys = {
     OwnKey{"send", false, "only the behaviours in it communicate; write 'send' there"},
     OwnKey{"receive", false, "only the behaviours in it communicate; write 'receive' there"},
     OwnKey{"transfer", false, "only the behaviours in it communicate; write 'transfer' there"},
-    OwnKey{"takes", false, "only the behaviours in it take time; write 'takes' there"}};
+    OwnKey{"takes", false, "only the behaviours in it take time; write 'takes' there"},
+    OwnKey{"orders", false, "write 'orders' in the behaviour that sends the goal"},
+    OwnKey{"cancel", false, "write 'cancel' beside 'orders' in a behaviour; leaving the group leaves it"}};
 
 class SlotFinder {
  public:

@@ -138,7 +138,7 @@ void read_initial(const Entry& entry, FewValues& values, Diagnostics& out) {
 std::vector<std::string> names_of_cells(const std::vector<Field>& memory) {
   std::vector<std::string> names;
   for (const Field& cell : memory)
-    if (cell.few) names.push_back(cell.name);
+    if (cell.few && !cell.few->goal) names.push_back(cell.name);
   return names;
 }
 
@@ -205,6 +205,12 @@ std::optional<std::uint32_t> cell_named(const Entry& entry, const std::vector<Fi
       hint = "declare it: memory: { " + entry.key +
              (steps ? ": { counts: 0..4 } }" : ": { values: [nobody, a] } }");
     out.error("E101", entry.span, "unknown memory " + in_quotes(entry.key), std::move(hint));
+    return std::nullopt;
+  }
+  if (found->few && found->few->goal) {
+    out.error("E367", entry.span,
+              in_quotes("memory." + entry.key) + " holds a goal, which 'sets' does not change",
+              "write orders: " + entry.key + " in a behaviour, which begins with a new goal");
     return std::nullopt;
   }
   if (found->few) return static_cast<std::uint32_t>(found - memory.begin());

@@ -19,7 +19,7 @@ namespace tessera::spec {
 /// `sets: { lent_to: a, n: +1 }`. entry may be null.
 ///
 /// Errors: E101 an unknown cell; E261 an unknown value; E265 a cell with a type; E266 no number of the counter,
-///         or a step other than +1 and -1; those of number_of for `sets: { lent_to: robot[i] }`.
+///         or a step other than +1 and -1; E367 a cell with a goal; those of number_of for `sets: { lent_to: robot[i] }`.
 /// member: for which it is; null: for none.
 [[nodiscard]] std::vector<Change> read_changes(const Entry* entry, const std::vector<Field>& memory,
                                                const Member* member, Diagnostics& out);

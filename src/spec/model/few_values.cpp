@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cctype>
 
+#include "tessera/goal_life.hpp"
+
 namespace tessera::spec {
 namespace {
 
@@ -50,6 +52,10 @@ std::optional<std::uint32_t> Change::after(std::uint32_t before, const FewValues
   const std::int64_t moved = std::int64_t{before} + step;
   if (moved < 0 || moved >= static_cast<std::int64_t>(values.names.size())) return std::nullopt;
   return static_cast<std::uint32_t>(moved);
+}
+
+Change Order::change() const {
+  return {.cell = cell, .value = static_cast<std::uint32_t>(GoalState::ordered), .span = span};
 }
 
 std::optional<Allowed> allowed(const FewValues& values, std::uint32_t cell,

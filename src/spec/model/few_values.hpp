@@ -9,10 +9,19 @@
 #include <vector>
 
 #include "diagnostics/diagnostics.hpp"
+#include "spec/model/ids.hpp"
 
 namespace tessera::spec {
 
-/// The values of a memory cell that is part of the net: `{ values: [nobody, a, b] }`, `{ counts: 0..4 }`.
+/// The buffers of a goal whose life a memory cell holds: `{ goal: out.goal, progress: in.progress }`.
+struct GoalBuffers {
+  BufferId goal{};       ///< the output that orders it, with the fields `call` and perhaps `cancel`
+  BufferId progress{};   ///< the input that tells of it, with the fields `call` and `state`
+  bool cancels = false;  ///< the output has the field `cancel`
+};
+
+/// The values of a memory cell that is part of the net: `{ values: [nobody, a, b] }`, `{ counts: 0..4 }`, or the states
+/// of a goal.
 struct FewValues {
   std::vector<std::string> names;        ///< of a counter "0", "1" ...
   std::vector<diagnostics::Span> spans;  ///< as names; of a counter empty
@@ -23,6 +32,8 @@ struct FewValues {
   /// the others follow, "robot[0]", "robot[1]" ...
   std::string fleet{};
   std::uint32_t first_member = 0, member_count = 0;
+  /// Of a goal. Its values are those of tessera::GoalState, in their order.
+  std::optional<GoalBuffers> goal{};
 
   static constexpr std::size_t most = 256;  ///< values of one cell
 
@@ -41,6 +52,16 @@ struct Change {
 
   /// The value after the change; nullopt: a counter would leave its range.
   [[nodiscard]] std::optional<std::uint32_t> after(std::uint32_t before, const FewValues& values) const;
+};
+
+/// A behaviour begins with a new goal: `orders: going`, `cancel: on_leave`.
+struct Order {
+  std::uint32_t cell = 0;        ///< into Subsystem::memory
+  bool cancel_on_leave = false;  ///< a goal that has not ended is cancelled when the behaviour is left
+  diagnostics::Span span{};
+
+  /// The change of the cell.
+  [[nodiscard]] Change change() const;
 };
 
 /// The values of a cell from which changes in this order lead somewhere: its positions `first` to `last`. Steps

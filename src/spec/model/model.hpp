@@ -145,6 +145,7 @@ struct Behaviour {
   Transfer transfer = Transfer::sequential;
   Duration takes{0};               ///< simulated time of the transition function
   std::vector<Change> sets{};      ///< to memory when it begins; of a group, with those of its start
+  std::optional<Order> orders{};   ///< the goal that it orders when it begins; `sets` contains its change
   std::optional<Member> member{};  ///< of a behaviour `for: each robot`
   Span span;
 

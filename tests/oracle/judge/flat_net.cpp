@@ -210,6 +210,52 @@ class Builder {
     net_.layers["subsystem"].transitions += 1;
   }
 
+  /// The goal of which a receive over that channel tells; -1: of none.
+  int goal_told_by(int c) const {
+    const FlatNet::ChannelInfo& channel = net_.channels[static_cast<std::size_t>(c)];
+    for (std::size_t f = 0; f < net_.facts.size(); ++f) {
+      const FlatNet::FactInfo& fact = net_.facts[f];
+      if (fact.cell < 0 || fact.subsystem != channel.receiver) continue;
+      const FlatNet::SubsystemInfo& owner = net_.subsystems[static_cast<std::size_t>(fact.subsystem)];
+      const Cell& cell = owner.of->memory[static_cast<std::size_t>(fact.cell)];
+      if (!cell.goal.empty() && cell.progress == channel.input) return static_cast<int>(f);
+    }
+    return -1;
+  }
+
+  /// A transition behind a value that was read: if it tells of a goal, one for each state and itself or one that may
+  /// come later in its life.
+  void add_reading(int c, const std::string& name, const std::vector<int>& pre, const std::vector<int>& post,
+                   const std::map<int, int>& before = {}) {
+    const int goal = goal_told_by(c);
+    if (goal < 0) {
+      add_transition(name + suffix(net_, before), pre, post);
+      return;
+    }
+    for (int state = 0; state < static_cast<int>(goal_states().size()); ++state)
+      for (int later = 0; later < static_cast<int>(goal_states().size()); ++later) {
+        if (state != later && !comes_later(state, later)) continue;
+        std::map<int, int> all = before;
+        all[goal] = state;
+        const std::string after = state == later ? "" : "." + goal_states()[static_cast<std::size_t>(later)];
+        FlatTransition& made = add_transition(name + suffix(net_, all) + after, pre, post);
+        made.pre.push_back(place_of(goal, state));
+        made.post.push_back(place_of(goal, later));
+      }
+  }
+
+  /// By the table of the specification.
+  static bool comes_later(int state, int later) {
+    static const std::map<std::string, std::set<std::string>> life{
+        {"ordered",
+         {"accepted", "executing", "canceling", "succeeded", "canceled", "aborted", "rejected", "gone"}},
+        {"accepted", {"executing", "canceling", "succeeded", "canceled", "aborted", "gone"}},
+        {"executing", {"canceling", "succeeded", "canceled", "aborted", "gone"}},
+        {"canceling", {"succeeded", "canceled", "aborted", "gone"}}};
+    const auto found = life.find(goal_states()[static_cast<std::size_t>(state)]);
+    return found != life.end() && found->second.contains(goal_states()[static_cast<std::size_t>(later)]);
+  }
+
   /// A transition that ends a block: one for each value that the fact had before.
   void add_end(int c, bool send, bool well, const std::string& name, const std::vector<int>& pre,
                const std::vector<int>& post) {
@@ -219,14 +265,21 @@ class Builder {
           std::find(fact.channels.begin(), fact.channels.end(), c) == fact.channels.end())
         continue;
       for (int before = 0; before < 2; ++before) {
-        FlatTransition& made =
-            add_transition(name + suffix(net_, {{static_cast<int>(f), before}}), pre, post);
-        made.pre.push_back(fact.places[static_cast<std::size_t>(before)]);
-        made.post.push_back(fact.places[well ? 0 : 1]);
+        std::vector<int> from = pre, to = post;
+        from.push_back(fact.places[static_cast<std::size_t>(before)]);
+        to.push_back(fact.places[well ? 0 : 1]);
+        const std::map<int, int> values{{static_cast<int>(f), before}};
+        if (!send && well)
+          add_reading(c, name, from, to, values);
+        else
+          add_transition(name + suffix(net_, values), from, to);
       }
       return;
     }
-    add_transition(name, pre, post);
+    if (!send && well)
+      add_reading(c, name, pre, post);
+    else
+      add_transition(name, pre, post);
   }
 
   void system_layer() {
@@ -521,14 +574,17 @@ class Builder {
     if (!send) channel.received = true;
     if (skip_ != nullptr) add_skip(c, prefix, in, out);
     if (const Model* model = model_of(*channel.of))
-      return model_block(channel, send ? model->send : model->receive, send, prefix, in, out);
+      return model_block(c, channel, send ? model->send : model->receive, send, prefix, in, out);
     const int two = add_place(prefix + ".2");
     (send ? channel.writing : channel.reading)[1].push_back(two);
     if (!send) channel.reads.push_back(static_cast<int>(net_.transitions.size()));
     if (channel.shared.contains("channel")) {
       const int memory = channel.shared.at("channel");
       add_begin(prefix + ".t1", {in, memory}, {two});
-      add_transition(prefix + ".t2", {two}, {out, memory});
+      if (send)
+        add_transition(prefix + ".t2", {two}, {out, memory});
+      else
+        add_reading(c, prefix + ".t2", {two}, {out, memory});
     } else if (send) {
       send_block(c, channel, prefix, in, two, out);
     } else {
@@ -562,8 +618,8 @@ class Builder {
     if (channel.of->receive_timeout) add_end(c, false, false, prefix + ".timeout", {in, empty}, {out, empty});
   }
 
-  void model_block(FlatNet::ChannelInfo& channel, const ModelSide& side, bool send, const std::string& prefix,
-                   int in, int out) {
+  void model_block(int c, FlatNet::ChannelInfo& channel, const ModelSide& side, bool send,
+                   const std::string& prefix, int in, int out) {
     std::map<std::string, int> place = channel.shared;
     std::map<std::string, int> slot_of;
     for (const auto& one : side.places) {
@@ -574,7 +630,11 @@ class Builder {
     for (const auto& one : side.transitions) {
       std::vector<int> pre, post;
       bool reads = false;
-      for (const std::string& name : one.from) pre.push_back(place.at(name));
+      bool has_read = false;
+      for (const std::string& name : one.from) {
+        pre.push_back(place.at(name));
+        has_read = has_read || (!send && slot_of[name] > 0);
+      }
       for (const std::string& name : one.to) {
         post.push_back(place.at(name));
         reads = reads || (!send && slot_of[name] > 0);
@@ -583,6 +643,8 @@ class Builder {
       const bool begins = std::find(one.from.begin(), one.from.end(), "in") != one.from.end();
       if (begins)
         add_begin(prefix + "." + one.name, pre, post);
+      else if (has_read && !one.elapsed)
+        add_reading(c, prefix + "." + one.name, pre, post);
       else
         add_transition(prefix + "." + one.name, pre, post);
     }

@@ -129,6 +129,31 @@ void add_memory(RandomNumbers& random, Subsystem& subsystem) {
   keep_in_range(subsystem);
 }
 
+void add_goal(RandomNumbers& random, Subsystem& subsystem) {
+  const auto alone = [](std::vector<std::string> buffers) {
+    std::erase_if(buffers, [](const std::string& one) { return one.ends_with("]"); });
+    return buffers;
+  };
+  const std::vector<std::string> inputs = alone(subsystem.inputs), outputs = alone(subsystem.outputs);
+  if (inputs.empty() || outputs.empty()) return;
+  Cell cell;
+  cell.name = "goal";
+  cell.values = goal_states();
+  cell.goal = random.of(outputs);
+  cell.progress = random.of(inputs);
+  const Change order{static_cast<int>(subsystem.memory.size()), 0, static_cast<int>(cell.values.size()) - 1};
+  const auto has = [](const std::optional<std::vector<std::string>>& list, const std::string& buffer) {
+    return !list || std::find(list->begin(), list->end(), buffer) != list->end();
+  };
+  for (Behaviour& behaviour : subsystem.behaviours) {
+    if (behaviour.is_group || !behaviour.each.empty() || !random.percent(60)) continue;
+    if (!has(behaviour.send, cell.goal) || !has(behaviour.receive, cell.progress)) continue;
+    behaviour.sets.push_back(order);
+    behaviour.cancels = random.percent(50);
+  }
+  subsystem.memory.push_back(cell);
+}
+
 Asked random_question(RandomNumbers& random, const Cell& cell) {
   if (cell.least != 0 || !random.percent(10)) return comparison(random, cell, "", random.percent(25));
   Asked made{Asked::Kind::memory, "memory." + cell.name, {}, "memory." + cell.name, {}};  // it is not zero

@@ -33,7 +33,8 @@ class Generator {
         remembers_(seed + (1ULL << 63U)),
         skips_(seed ^ 0x5C1B5U),
         groups_(seed * 3 + 0x9209U),
-        members_(seed * 5 + 0xFA1BU) {}
+        members_(seed * 5 + 0xFA1BU),
+        goals_(seed * 7 + 0x60A1U) {}
 
   Specification make() {
     if (random_.percent(15)) specification_.models = random_models(random_);
@@ -47,6 +48,7 @@ class Generator {
     if (skips_.percent(60)) skip();
     time();
     if (remembers_.percent(55)) remember();
+    if (goals_.percent(45)) order();
     if (asks_.percent(60)) ask();
     if (members_.percent(60)) ask_members();
     if (random_.percent(60)) specification_.properties = random_properties(random_, specification_);
@@ -435,6 +437,13 @@ class Generator {
         if (remembers_.percent(50)) add_memory(remembers_, subsystem);
   }
 
+  /// Lets some subsystems order a goal. It has random numbers of its own.
+  void order() {
+    for (Agent* body : bodies_)
+      for (Subsystem& subsystem : body->subsystems)
+        if (goals_.percent(60)) add_goal(goals_, subsystem);
+  }
+
   /// Lets some open expressions ask how the communication ended, and more sides wait with a timeout. It has
   /// random numbers of its own.
   void ask() {
@@ -506,7 +515,7 @@ class Generator {
     return question;
   }
 
-  RandomNumbers random_, asks_, remembers_, skips_, groups_, members_;
+  RandomNumbers random_, asks_, remembers_, skips_, groups_, members_, goals_;
   Specification specification_;
   std::vector<Agent*> bodies_;
   int inputs_ = 0, outputs_ = 0;

@@ -34,6 +34,8 @@ std::vector<Property> random_properties(RandomNumbers& random, const Specificati
 
 /// Cells with few values, and what behaviours and entries of `next` do to them; none of it is refused.
 void add_memory(RandomNumbers& random, Subsystem& subsystem);
+/// A goal of one output and one input, which some of the behaviours order.
+void add_goal(RandomNumbers& random, Subsystem& subsystem);
 /// A comparison of a cell with a constant.
 Asked random_question(RandomNumbers& random, const Cell& cell);
 /// Properties about values of cells, and values where behaviours run; none if there are no cells.

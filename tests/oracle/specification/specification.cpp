@@ -77,6 +77,7 @@ std::string changes(const std::vector<Change>& sets, const Subsystem& owner) {
   std::vector<std::string> parts;
   for (const Change& change : sets) {
     const Cell& cell = owner.memory[static_cast<std::size_t>(change.cell)];
+    if (!cell.goal.empty()) continue;
     const std::string to = change.step > 0   ? "+1"
                            : change.step < 0 ? "-1"
                                              : cell.values[static_cast<std::size_t>(change.value)];
@@ -136,6 +137,9 @@ std::string behaviour(const Behaviour& of, const Subsystem& owner, Expressions& 
   if (of.parallel) keys.push_back("transfer: parallel");
   if (of.takes) keys.push_back("takes: 3 ms");
   if (!of.sets.empty()) keys.push_back(changes(of.sets, owner));
+  for (const Change& change : of.sets)
+    if (const Cell& cell = owner.memory[static_cast<std::size_t>(change.cell)]; !cell.goal.empty())
+      keys.push_back("orders: " + cell.name + (of.cancels ? ", cancel: on_leave" : ""));
   if (of.is_group) {
     std::vector<std::string> inside;
     for (const Behaviour& one : owner.behaviours)
@@ -168,8 +172,9 @@ void subsystem(std::ostream& out, const std::string& indent, const Subsystem& of
   for (const Cell& cell : of.memory)
     cells.push_back(
         cell.name +
-        (cell.least < 0 ? ": { values: " + list(cell.values)
-                        : ": { counts: " + cell.values.front() + ".." + cell.values.back()) +
+        (!cell.goal.empty() ? ": { goal: out." + cell.goal + ", progress: in." + cell.progress
+         : cell.least < 0   ? ": { values: " + list(cell.values)
+                            : ": { counts: " + cell.values.front() + ".." + cell.values.back()) +
         (cell.initial == 0 ? "" : ", initial: " + cell.values[static_cast<std::size_t>(cell.initial)]) +
         " }");
   out << inner << "memory: " << map(cells) << "\n";
@@ -262,6 +267,12 @@ const std::vector<Subsystem>& subsystems_of(const Specification& specification, 
   throw std::logic_error("no template " + agent.use);
 }
 
+const std::vector<std::string>& goal_states() {
+  static const std::vector<std::string> states{"none",     "accepted", "executing", "canceling", "succeeded",
+                                               "canceled", "aborted",  "rejected",  "gone",      "ordered"};
+  return states;
+}
+
 bool compares(const std::string& comparison, int left, int right) {
   if (comparison == "==") return left == right;
   if (comparison == "!=") return left != right;
@@ -315,7 +326,7 @@ std::string kind_name(Property::Kind kind) {
 
 std::string to_yaml(const Specification& specification) {
   std::ostringstream out;
-  out << "tessera: 1\nsystem: s\ntypes: { V: { v: float64 } }\n";
+  out << "tessera: 1\nsystem: s\ntypes: { V: { v: float64, call: uint32, cancel: bool, state: uint8 } }\n";
   if (!specification.models.empty()) out << "models:\n";
   for (const Model& one : specification.models) model(out, one);
   if (!specification.templates.empty()) out << "templates:\n";

@@ -28,7 +28,12 @@ struct Cell {
   std::vector<std::string> values;
   int least = -1;   // of a counter; otherwise the values are names
   int initial = 0;  // position; the first is not written
+  std::string goal{},
+      progress{};  // of a goal: an output and an input; `values` are then its states, by their numbers
 };
+
+/// The states of a goal, by their numbers.
+const std::vector<std::string>& goal_states();
 
 /// A change of a cell: by one step, or to a value.
 struct Change {
@@ -74,7 +79,8 @@ struct Behaviour {
   std::optional<std::vector<std::string>> send, receive;
   bool parallel = false;
   bool takes = false;
-  std::vector<Change> sets{};  // when it begins
+  std::vector<Change> sets{};  // when it begins; that of a goal is written as `orders`
+  bool cancels = false;        // the goal that it orders, when it is left
   std::vector<Skip> skips{};   // of outputs in `send`, which is then written
   std::string group{};         // the name of the group in which it stands
   // The keys of a group, which has `next` and `sets` besides. An empty name is not written.

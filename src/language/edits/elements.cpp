@@ -179,6 +179,10 @@ void add_all_changes(const TextEditor& editor, const Path& at, std::vector<Path>
   const Path behaviours = without_last(without_last(at)) / "behaviours";
   for (const std::string& behaviour : editor.keys(behaviours)) {
     add_changes(editor, behaviours / behaviour / "sets", *key_of(at.back()), paths);
+    if (editor.value_text(behaviours / behaviour / "orders") == *key_of(at.back()))
+      for (const char* key : {"orders", "cancel"})
+        if (editor.entry(behaviours / behaviour / key) != nullptr)
+          paths.push_back(behaviours / behaviour / key);
     for (const Path& entry : next_entries(editor, behaviours / behaviour))
       add_changes(editor, entry / "sets", *key_of(at.back()), paths);
   }

@@ -148,8 +148,11 @@ void IndexBuilder::define_values(UnitNames& unit, const Node& memory, const std:
   for (const Entry& cell : memory.entries) {
     const auto owner = unit.memory.find(cell.key);
     const Entry* list = cell.value->find("values");
-    if (list == nullptr || owner == unit.memory.end() || unit.values.contains(cell.key)) continue;
+    const bool is_goal = cell.value->find("goal") != nullptr;
+    if ((list == nullptr && !is_goal) || owner == unit.memory.end() || unit.values.contains(cell.key))
+      continue;
     index_.enumerations_[owner->second] = *taken.insert(spec::enumeration_name(cell.key, taken)).first;
+    if (list == nullptr) continue;  // the states of a goal are no names of the file
     NamesOf& values = unit.values[cell.key];
     Way way = index_.symbols_[owner->second].way;
     way.emplace_back("values");

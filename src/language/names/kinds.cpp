@@ -8,12 +8,15 @@ bool is_nothing(const Node& node) { return node.kind == Node::Kind::null; }
 
 namespace {
 
-/// "{ values: [nobody, a, b] }", "{ counts: 0..4 }"; empty: the cell has a type.
+/// "{ values: [nobody, a, b] }", "{ counts: 0..4 }", "{ goal: out.goal, progress: in.progress }"; empty: the cell has a
+/// type.
 std::string few_values(const Node& cell) {
   constexpr std::size_t most_shown = 10;
   const Entry* initial = cell.find("initial");
   const std::string end = initial == nullptr ? " }" : ", initial: " + initial->value->text + " }";
   if (const Entry* counts = cell.find("counts")) return "{ counts: " + counts->value->text + end;
+  if (const Entry* goal = cell.find("goal"))
+    return "{ goal: " + goal->value->text + ", progress: " + cell["progress"].text + " }";
   const Entry* values = cell.find("values");
   if (values == nullptr) return {};
   std::string text;

@@ -80,6 +80,8 @@ void IndexBuilder::use_in_unit(UnitNames& unit) {
   for (const char* key : {"inputs", "outputs", "memory", "real"})
     for (const Entry& field : body[key].entries) use_type(*field.value);
   for (const Entry& cell : body["memory"].entries)
+    for (const char* key : {"goal", "progress"}) use_expression(unit, (*cell.value)[key]);
+  for (const Entry& cell : body["memory"].entries)
     for (const Entry& value : (*cell.value)["values"].items)
       if (value.value->verbatim) use_each(value.value->extent.begin, value.value->text);
   for (const Entry& cell : body["memory"].entries)
@@ -178,6 +180,7 @@ void IndexBuilder::use_in_behaviour(const UnitNames& unit, const Entry& behaviou
   }
   use_list(body["receive"], unit.inputs);
   use_sets(unit, body["sets"]);
+  use(body["orders"], unit.memory);
   const auto step = [&](const Node& next) {
     use(next, behaviours);
     use(next["to"], behaviours);

@@ -81,6 +81,10 @@ class Completer {
   /// The memory cells with few values.
   [[nodiscard]] NamesOf kept_cells(const UnitNames& unit) const;
   void values_of_cell(const UnitNames& unit, const std::string& cell);
+  /// The memory cells with a goal.
+  [[nodiscard]] NamesOf goals(const UnitNames& unit) const;
+  /// Behind `orders:`, and behind `goal:` or `progress:` of a memory cell. false: the cursor is elsewhere.
+  bool value_of_goal();
   /// Behind `sets: { lent_to:`. false: the cursor is elsewhere.
   bool value_of_change();
   /// Behind `memory.lent_to ==`, in a condition or a property. false: the cursor is elsewhere.

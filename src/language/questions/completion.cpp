@@ -213,6 +213,7 @@ bool Completer::value_in_unit() {
   if (value_of_change()) return true;
   if ((step(0) == "send" || step(0) == "receive") && inside_.back().empty()) return buffers(step(0)), true;
   if (step(0) == "conditions" && inside_.size() == 2) return expression(), true;
+  if (value_of_goal()) return true;
   if (step(0) != "behaviours" || inside_.size() < 3) return false;
   if (value_of_group() || value_of_template()) return true;
   const std::string& key = inside_[2];

@@ -5,9 +5,12 @@
 #include <string_view>
 
 #include "language/questions/completer.hpp"
+#include "tessera/goal_life.hpp"
 
 namespace tessera::language {
 namespace {
+
+constexpr std::string_view goal_type = "{ goal: ";
 
 constexpr std::uint32_t most_counts = 16;  // that are proposed
 
@@ -30,8 +33,30 @@ std::vector<std::string> counts_of(std::string_view range) {
 
 NamesOf Completer::kept_cells(const UnitNames& unit) const {
   NamesOf cells = unit.memory;
-  std::erase_if(cells, [&](const auto& cell) { return !index_[cell.second].type.starts_with('{'); });
+  std::erase_if(cells, [&](const auto& cell) {
+    const std::string& type = index_[cell.second].type;
+    return !type.starts_with('{') || type.starts_with(goal_type);
+  });
   return cells;
+}
+
+NamesOf Completer::goals(const UnitNames& unit) const {
+  NamesOf cells = unit.memory;
+  std::erase_if(cells, [&](const auto& cell) { return !index_[cell.second].type.starts_with(goal_type); });
+  return cells;
+}
+
+bool Completer::value_of_goal() {
+  if (inside_.size() == 3 && step(0) == "memory" && (step(2) == "goal" || step(2) == "progress")) {
+    const bool orders = step(2) == "goal";
+    const bool has_base = !chain().empty();
+    for (const auto& [name, id] : orders ? unit_->outputs : unit_->inputs)
+      if (index_[id].fleet.empty())
+        add(Proposal::Kind::name, name, index_[id].type, has_base ? name : (orders ? "out." : "in.") + name);
+    return true;
+  }
+  if (step(0) != "behaviours" || inside_.back() != "orders") return false;
+  return add_names(goals(*unit_)), true;
 }
 
 void Completer::values_of_cell(const UnitNames& unit, const std::string& cell) {
@@ -39,6 +64,11 @@ void Completer::values_of_cell(const UnitNames& unit, const std::string& cell) {
     return add_names(values->second);
   const auto counter = unit.memory.find(cell);
   if (counter == unit.memory.end()) return;
+  if (index_[counter->second].type.starts_with(goal_type)) {
+    for (const std::string_view state : goal_state_names)
+      add(Proposal::Kind::word, std::string(state), "state of a goal");
+    return;
+  }
   const Node& counts = node_at(document_.outline(), index_[counter->second].way)["counts"];
   for (const std::string& count : counts_of(counts.text)) add(Proposal::Kind::word, count, "count");
 }

@@ -99,7 +99,7 @@ std::string inherited(const Document& document, const Symbol& symbol, const Unit
   return text;
 }
 
-/// The lines where `sets` changes a memory cell, or gives it a value: "Changed on lines 12, 17."
+/// The lines where `sets` or `orders` changes a memory cell, or gives it a value: "Changed on lines 12, 17."
 std::string changes_of(const Document& document, SymbolId id) {
   constexpr std::size_t most_shown = 8;
   std::string lines;
@@ -108,7 +108,8 @@ std::string changes_of(const Document& document, SymbolId id) {
     const auto place = use.symbol == id && !use.defines ? place_at(document.outline(), use.extent.begin)
                                                         : std::optional<PlaceInText>();
     const std::size_t above = place && place->key != nullptr ? 1 : 2;
-    if (!place || place->way.size() < above || place->way[place->way.size() - above] != "sets") continue;
+    if (!place || place->way.size() < above) continue;
+    if (place->way[place->way.size() - above] != "sets" && place->way.back() != "orders") continue;
     if (++count <= most_shown)
       lines += fmt::format("{}{}", lines.empty() ? "" : ", ",
                            document.lines().position(use.extent.begin).line + 1);

@@ -48,7 +48,7 @@ class Generator {
     if (skips_.percent(60)) skip();
     time();
     if (remembers_.percent(55)) remember();
-    if (goals_.percent(45)) order();
+    if (goals_.percent(60)) order();
     if (asks_.percent(60)) ask();
     if (members_.percent(60)) ask_members();
     if (random_.percent(60)) specification_.properties = random_properties(random_, specification_);
@@ -441,7 +441,7 @@ class Generator {
   void order() {
     for (Agent* body : bodies_)
       for (Subsystem& subsystem : body->subsystems)
-        if (goals_.percent(60)) add_goal(goals_, subsystem);
+        if (goals_.percent(75)) add_goal(goals_, subsystem);
   }
 
   /// Lets some open expressions ask how the communication ended, and more sides wait with a timeout. It has

@@ -25,6 +25,15 @@ export function keptCell(yaml: YamlText, at: YamlPath): KeptCell | undefined {
   return { name: String(at.at(-1)), counts: yaml.valueText([...at, "counts"]) ?? "", values };
 }
 
+/** The memory cell at a path holds the life of a goal. */
+export const isGoal = (yaml: YamlText, at: YamlPath): boolean => yaml.pair([...at, "goal"]) !== undefined;
+
+/** The names of the memory of a subsystem that holds goals. */
+export function goalsOf({ yaml }: Structure, subsystem: Subsystem): string[] {
+  const memory = [...subsystem.yaml, "memory"];
+  return yaml.keys(memory).filter((name) => isGoal(yaml, [...memory, name]));
+}
+
 /** `sets` that fits the cells: "{ lent_to: a, served: +1 }". */
 export function exampleOf(cells: readonly KeptCell[]): string {
   // "each robot" stands for the values of the members.

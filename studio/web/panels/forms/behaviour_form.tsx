@@ -1,6 +1,6 @@
 import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
-import { exampleOf, keptCells } from "../../model/structure/kept_cells";
+import { exampleOf, goalsOf, keptCells } from "../../model/structure/kept_cells";
 import { groupTemplates, takenBy } from "../../model/structure/group_templates";
 import {
   leadsFailures,
@@ -175,6 +175,39 @@ function Sets({ structure, behaviour, subsystem, what }: Shown & { what: string 
   );
 }
 
+/** The goal that the beginning of a behaviour orders, and whether leaving it cancels the goal. */
+function Orders({ structure, behaviour, subsystem }: Shown) {
+  const edit = useEdit();
+  const field = (key: string) => structure.yaml.lineText([...behaviour.yaml, key]);
+  const goals = goalsOf(structure, subsystem);
+  const orders = field("orders"),
+    cancels = field("cancel");
+  if (goals.length === 0 && !orders && !cancels) return null;
+  return (
+    <>
+      <Field
+        label="Orders"
+        value={orders}
+        placeholder="no goal"
+        choices={goals}
+        hint="The goal that is ordered anew when the behaviour begins"
+        onChange={(text) => edit(edits.set(behaviour.yaml, "orders", text))}
+      />
+      {(orders || cancels) && (
+        <Choice
+          label="Cancel on leaving"
+          value={cancels === "on_leave" ? "on_leave" : ""}
+          choices={[
+            { value: "", title: "the goal goes on" },
+            { value: "on_leave", title: "a goal that has not ended is cancelled" },
+          ]}
+          onChange={(value) => edit(edits.set(behaviour.yaml, "cancel", value))}
+        />
+      )}
+    </>
+  );
+}
+
 function OneForm(shown: Shown) {
   const { structure, behaviour, subsystem } = shown;
   const edit = useEdit();
@@ -211,6 +244,7 @@ function OneForm(shown: Shown) {
       />
       <Field label="Error condition" mono value={behaviour.error} placeholder="never" onChange={set("error")} />
       <Sets {...shown} what="behaviour" />
+      <Orders {...shown} />
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
       <Field
         label="Sends"

@@ -1,7 +1,7 @@
 import { insert, remove, rename, replace, set } from "../../model/text/edits";
 import { keysNow, named, type Now } from "../../live/editor";
 import type { Edit, EditValue } from "../../model/protocol";
-import { keptCell } from "../../model/structure/kept_cells";
+import { isGoal, keptCell } from "../../model/structure/kept_cells";
 import { type Structure } from "../../model/structure/structure";
 import { isNumber, plainTypes, typeParts, typeText, type TypeParts } from "../../model/text/type_text";
 import type { YamlPath } from "../../model/text/yaml_text";
@@ -109,6 +109,7 @@ const memoryKinds = [
   { value: "type", title: "any value, by functions", fresh: "int32" },
   { value: "values", title: "few values, by the net", fresh: { values: ["nobody", "a"] } },
   { value: "counts", title: "a counter, by the net", fresh: { counts: "0..4" } },
+  { value: "goal", title: "the life of a goal, by the net", fresh: { goal: "out.goal", progress: "in.progress" } },
 ] as const;
 
 /** A field of a subsystem's memory: its type and its value at the start, or the values that the net keeps. */
@@ -116,7 +117,8 @@ export function MemoryFields({ structure, at }: { structure: Structure; at: Yaml
   const edit = useEdit();
   const cell = keptCell(structure.yaml, at);
   const name = String(at.at(-1));
-  const kind = !cell ? "type" : cell.counts ? "counts" : "values";
+  const goal = isGoal(structure.yaml, at);
+  const kind = goal ? "goal" : !cell ? "type" : cell.counts ? "counts" : "values";
   return (
     <>
       <Choice
@@ -126,7 +128,23 @@ export function MemoryFields({ structure, at }: { structure: Structure; at: Yaml
         choices={memoryKinds}
         onChange={(to) => to !== kind && edit(replace(at, memoryKinds.find((one) => one.value === to)!.fresh as EditValue))}
       />
-      {!cell && <TypedMemory structure={structure} at={at} />}
+      {!cell && !goal && <TypedMemory structure={structure} at={at} />}
+      {goal &&
+        (["goal", "progress"] as const).map((key) => (
+          <Field
+            key={key}
+            label={key === "goal" ? "Ordered by" : "Told by"}
+            of={`of ${name}`}
+            mono
+            value={structure.yaml.lineText([...at, key])}
+            hint={
+              key === "goal"
+                ? "An output, out.NAME, whose type has call: uint32, and cancel: bool if it can be cancelled"
+                : "An input, in.NAME, whose type has call: uint32 and state: uint8"
+            }
+            onChange={(text) => edit(set(at, key, text))}
+          />
+        ))}
       {cell && (
         <Field
           label={cell.counts ? "Counts" : "Values"}

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { exampleOf, keptCells } from "../../model/structure/kept_cells";
+import { exampleOf, goalsOf, keptCells } from "../../model/structure/kept_cells";
 import { readStructure } from "../../model/structure/structure";
 
 const text = `agents:
@@ -9,6 +9,7 @@ const text = `agents:
         lent_to: { values: [nobody, a, b] }
         served: { counts: 0..4 }
         last: int32
+        going: { goal: out.goal, progress: in.progress }
         at: { type: float64, initial: 2 }
       send:
         - answer   # the only one
@@ -35,6 +36,10 @@ describe("memory with few values", () => {
   const structure = readStructure(text);
   const control = structure.agents[0]!.subsystems[0]!;
   const [wait, lend] = control.behaviours;
+
+  it("has the goals apart from what sets changes", () => {
+    expect(goalsOf(structure, control)).toEqual(["going"]);
+  });
 
   it("is read with its values", () => {
     expect(keptCells(structure, control)).toEqual([

@@ -1,12 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <set>
 #include <tessera/controller.hpp>
 
 #include "drivers.hpp"
+#include "errands.hpp"
 #include "system.hpp"
 #include "walks.hpp"
 
@@ -24,7 +26,7 @@ TEST(System, ExecutesTheVerifiedNetForASecond) {
   ASSERT_TRUE(summary) << error;
   EXPECT_FALSE(summary->failed) << summary->ended;
   EXPECT_EQ(summary->simulated, 1s);
-  ASSERT_EQ(summary->subsystems.size(), 10U);
+  ASSERT_EQ(summary->subsystems.size(), 12U);
   for (const tessera::RunSummary::PerSubsystem& each : summary->subsystems) {
     EXPECT_GT(each.iterations, 10U) << each.path;
     EXPECT_EQ(each.errors, 0U) << each.path;
@@ -94,6 +96,29 @@ TEST(System, ConditionsSeeTheMemoryThatFunctionsWrite) {
   walks_after_a_rest = 0;
   ASSERT_TRUE(tessera::execute(system(), options, error)) << error;
   EXPECT_GT(walks_after_a_rest, 10);
+}
+
+// What the office answers out of order never reaches a condition: that errand is late, and is cancelled.
+TEST(System, TellsTheLifeOfAGoal) {
+  tessera::RunOptions options;
+  options.duration = 4s;
+  std::string error;
+  ends_of_errands.clear();
+  served_errands.clear();
+  const auto summary = tessera::execute(system(), options, error);
+  ASSERT_TRUE(summary) << error;
+  ASSERT_GT(ends_of_errands.size(), 20U);
+  for (std::size_t index = 0; index < ends_of_errands.size(); ++index) {
+    const EndOfErrand& end = ends_of_errands[index];
+    EXPECT_EQ(end.call, index + 1) << "each errand has the next number";
+    constexpr std::array<const char*, 5> behaviours{"report", "arrive", "report", "report", "stop"};
+    constexpr std::array<const char*, 5> states{"gone", "succeeded", "rejected", "aborted", "executing"};
+    EXPECT_EQ(end.behaviour, behaviours[end.call % 5]) << end.call;
+    EXPECT_EQ(end.state, states[end.call % 5]) << end.call;
+    EXPECT_EQ(end.cancels, end.call % 5 == 4) << "what has ended is not cancelled";
+  }
+  for (std::size_t index = 0; index < served_errands.size(); ++index)
+    EXPECT_EQ(served_errands[index], index + 1) << "the office sees each of them, once";
 }
 
 TEST(System, RefusesTablesOfAnotherNet) {

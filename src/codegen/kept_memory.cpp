@@ -72,7 +72,8 @@ std::string kept_enumerations(const spec::Model& model, const spec::Subsystem& s
           few.fleet, cell.name, name, few.first_member, few.member_count);
     text += fmt::format("friend constexpr std::array<std::string_view, {}> tessera_names_of({}) {{\n",
                         literals.size(), name);
-    const std::string list = fmt::format("  return {{{}}};\n", fmt::join(literals, ", "));
+    const std::string list = few.goal ? std::string("  return tessera::goal_state_names;\n")
+                                      : fmt::format("  return {{{}}};\n", fmt::join(literals, ", "));
     text += (list.size() <= column_limit - 2
                  ? list
                  : fmt::format("  return {{\n      {},\n  }};\n", fmt::join(literals, ",\n      "))) +

@@ -5,6 +5,8 @@
 #include <optional>
 #include <string_view>
 
+#include "tessera/goal_life.hpp"
+
 namespace tessera {
 
 struct Bindings;

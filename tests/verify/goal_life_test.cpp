@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <fstream>
 #include <sstream>
 #include <string>
@@ -34,14 +35,16 @@ TEST(LifeOfAGoal, ProvesThePatrol) {
 
 TEST(LifeOfAGoal, FindsTheStationThatIsTakenForReached) {
   const Proved proof =
-      proved(with_change("there: memory.going == succeeded", "there: memory.going != aborted"));
+      proved(with_change("there: memory.going == succeeded", "there: memory.going != aborted"),
+             std::chrono::seconds(20), {"the next station after an arrival alone"});
   EXPECT_EQ(proof["the next station after an arrival alone"].verdict, Verdict::violated);
 }
 
 TEST(LifeOfAGoal, FindsTheEndThatNobodyHears) {
   const Proved proof = proved(with_change("dock:\n",
                                           "dock:\n          receive: [battery]\n          next: dock\n"
-                                          "        old_dock:\n"));
+                                          "        old_dock:\n"),
+                              std::chrono::seconds(20), {"an accepted goal ends"});
   EXPECT_EQ(proof["an accepted goal ends"].verdict, Verdict::violated);
 }
 

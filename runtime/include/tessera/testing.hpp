@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <functional>
@@ -103,6 +104,22 @@ class SubsystemUnderTest : private std::unique_ptr<Subsystem>, public SubsystemD
   void receive_invalid(Input<T>& input) {
     input.fresh = input.valid = false;
     input.failed = true;
+  }
+
+  /// The memory cell of a goal has that state, as if its progress had told so.
+  ///
+  /// Errors: std::invalid_argument: no goal has that cell.
+  void tell(std::string_view cell, GoalState state) {
+    Bindings bindings;
+    subsystem().bind(bindings);
+    const auto goal = std::find_if(bindings.goals.begin(), bindings.goals.end(),
+                                   [&](const auto& one) { return one.cell == cell; });
+    if (goal == bindings.goals.end()) throw std::invalid_argument("there is no goal " + std::string(cell));
+    for (std::size_t fact = 0; fact < kept_.size(); ++fact)
+      if (Unit::net().facts[fact].name == "memory." + std::string(cell))
+        kept_[fact] = static_cast<std::uint16_t>(state);
+    for (const Bindings::KeptCell& kept : bindings.kept)
+      if (kept.name == cell) kept.set(kept.value, static_cast<std::uint32_t>(state));
   }
 
   /// A whole iteration of the behaviour: its transition function and its conditions. Returns the behaviour

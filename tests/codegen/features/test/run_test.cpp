@@ -5,11 +5,13 @@
 #include <cmath>
 #include <limits>
 #include <set>
+#include <stdexcept>
 #include <tessera/controller.hpp>
 
 #include "drivers.hpp"
 #include "errands.hpp"
 #include "system.hpp"
+#include "tessera_testing.hpp"
 #include "walks.hpp"
 
 namespace features {
@@ -119,6 +121,17 @@ TEST(System, TellsTheLifeOfAGoal) {
   }
   for (std::size_t index = 0; index < served_errands.size(); ++index)
     EXPECT_EQ(served_errands[index], index + 1) << "the office sees each of them, once";
+}
+
+TEST(System, TellsOneSubsystemAloneOfItsGoal) {
+  tessera::SubsystemUnderTest<courier::control::Context> courier;
+  EXPECT_EQ(courier.memory.going.view(), "ordered");
+  EXPECT_EQ(courier.iterate("go"), "go");
+  courier.tell("going", tessera::GoalState::aborted);
+  EXPECT_EQ(courier.iterate("go"), "report");
+  EXPECT_EQ(courier.iterate("report"), "go");
+  EXPECT_EQ(courier.memory.going.view(), "ordered");
+  EXPECT_THROW(courier.tell("gone", tessera::GoalState::gone), std::invalid_argument);
 }
 
 TEST(System, RefusesTablesOfAnotherNet) {

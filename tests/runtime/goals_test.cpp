@@ -49,10 +49,11 @@ class OneGoal {
  public:
   OneGoal() : goals_(parts(), reports_) {}
 
-  void begin(std::uint16_t behaviour) {
+  void begin(std::uint16_t behaviour, bool sends = true) {
     goals_.begin(behaviour);
     if (behaviour != 0) goals_.learn(0, static_cast<std::uint16_t>(GoalState::ordered));
     goals_.write();
+    if (sends) goals_.note_sent(&payload(out_));
   }
   GoalState told(std::uint32_t call, std::uint8_t state, bool taken = true) {
     payload(in_) = {call, state};
@@ -155,6 +156,23 @@ TEST(Goals, AreCancelledWhenTheirBehaviourIsLeftUnlessTheyHaveEnded) {
   goal.begin(1);
   EXPECT_EQ(goal.out().call, 5U) << "left for itself: another goal";
   EXPECT_FALSE(goal.out().cancel);
+}
+
+TEST(Goals, AreWithdrawnIfTheirOrderHasNotGoneOut) {
+  OneGoal goal;
+  goal.begin(1);
+  static_cast<void>(goal.told(1, 2));
+  goal.begin(1, /*sends=*/false);
+  EXPECT_EQ(goal.out().call, 2U);
+  goal.begin(0);
+  EXPECT_EQ(goal.out().call, 0U) << "which orders nothing";
+  EXPECT_FALSE(goal.out().cancel);
+  EXPECT_EQ(goal.told(1, 5), GoalState::gone);
+  EXPECT_EQ(goal.told(1, 5), GoalState::gone);
+  EXPECT_EQ(goal.dropped(), 0U);
+  goal.begin(2);
+  EXPECT_EQ(goal.out().call, 3U) << "a number is never used twice";
+  EXPECT_EQ(goal.told(3, 4), GoalState::succeeded);
 }
 
 /// The state is always one that the life has after the one before, whatever comes.

@@ -39,17 +39,23 @@ void Goals::begin(std::uint16_t behaviour) {
     const auto& orders = goal.bound->orders;
     const auto order = std::ranges::find(orders, behaviour, &BoundGoal::Order::behaviour);
     if (order == orders.end()) {
-      goal.cancel = goal.cancel || (leaves && !is_end(goal.state));
+      goal.withdrawn = goal.withdrawn || (goal.call != 0 && !goal.sent);
+      goal.cancel = goal.cancel || (leaves && !goal.withdrawn && !is_end(goal.state));
       continue;
     }
     goal.call = std::max<std::uint32_t>(goal.call + 1, 1);
-    goal.cancel = false;
+    goal.cancel = goal.sent = goal.withdrawn = false;
     goal.on_leave = order->cancel_on_leave;
   }
 }
 
 void Goals::write() const {
-  for (const Goal& goal : goals_) goal.bound->write(goal.bound->goal, goal.call, goal.cancel);
+  for (const Goal& goal : goals_)
+    goal.bound->write(goal.bound->goal, goal.withdrawn ? 0 : goal.call, goal.cancel);
+}
+
+void Goals::note_sent(const void* output) {
+  for (Goal& goal : goals_) goal.sent = goal.sent || goal.bound->goal == output;
 }
 
 void Goals::learn(std::uint16_t fact, std::uint16_t value) {
@@ -60,6 +66,7 @@ void Goals::learn(std::uint16_t fact, std::uint16_t value) {
 std::uint16_t Goals::told(std::uint32_t port, bool taken) {
   if (goal_of_port_[port] >= goals_.size()) return 0;
   Goal& goal = goals_[goal_of_port_[port]];
+  if (goal.withdrawn && goal.state == GoalState::ordered) return static_cast<std::uint16_t>(GoalState::gone);
   const auto now = static_cast<std::uint16_t>(goal.state);
   if (!taken) return now;
   const BoundGoal::Progress progress = goal.bound->read(goal.bound->progress);

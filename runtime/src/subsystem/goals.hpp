@@ -15,6 +15,9 @@ namespace tessera {
 /// ordered, or of a state that the life of a goal does not allow after the one before, is a mistake of the receptor or of
 /// who serves the goal: it is counted, and a warning says so at the 1st, 10th, 100th ... time. Neither changes memory.
 ///
+/// *Withdrawn.* An order that has not gone out as valid when its behaviour is left, because the function failed or the
+/// output was skipped, never goes out: `call` is 0 then, which orders nothing. The next receive tells that it is gone.
+///
 /// Threads: the subsystem's. Allocates nothing after construction.
 class Goals {
  public:
@@ -24,6 +27,8 @@ class Goals {
   [[nodiscard]] bool empty() const { return goals_.empty(); }
   /// A behaviour begins: the one before was left. It may order a goal, and what was left may have one to cancel.
   void begin(std::uint16_t behaviour);
+  /// An output, by its value, was sent as valid.
+  void note_sent(const void* output);
   /// Writes the numbers and cancels into the outputs, where the user's code may have changed them.
   void write() const;
   /// The net has given that value to a fact.
@@ -41,6 +46,8 @@ class Goals {
     std::uint32_t call = 0;  // the number of the goal ordered last; 0: none was
     bool cancel = false;     // it shall be cancelled
     bool on_leave = false;   // it will be when the behaviour that has ordered it is left
+    bool sent = false;       // its order has gone out as valid
+    bool withdrawn = false;  // it had not when the behaviour was left: nobody is to work for it
     std::uint64_t dropped = 0;
   };
   void drop(Goal& goal, const BoundGoal::Progress& progress);

@@ -178,7 +178,9 @@ void Operations::check_skips(std::uint16_t behaviour) {
 
 void Operations::write(std::uint32_t port, std::uint16_t slot, Time now) {
   const std::uint32_t output = parts_.ports[port].buffer;
-  channels_.write(port, slot, now, !failed_ && written_.has(output));
+  const bool valid = !failed_ && written_.has(output);
+  channels_.write(port, slot, now, valid);
+  if (valid && !goals_.empty()) goals_.note_sent(parts_.bindings.outputs[output].value);
   if (failed_ || written_.has(output) || !written_.should_explain(output)) return;
   const std::string_view name = parts_.bindings.outputs[output].name;
   std::array<char, 256> text;

@@ -23,12 +23,6 @@ using diagnostics::in_quotes;
 
 constexpr const char* next_hint = "write a behaviour, or a list such as [{ to: search, when: error }, end]";
 
-const Entry* entry_of(const Entry& behaviour, std::string_view key) {
-  const std::vector<Entry>& entries = behaviour.value->entries;
-  const auto found = std::ranges::find(entries, key, &Entry::key);
-  return found == entries.end() ? nullptr : &*found;
-}
-
 /// Reads the behaviours of one subsystem. They may refer to behaviours that follow later in the file.
 class BehaviourReader {
  public:
@@ -39,7 +33,7 @@ class BehaviourReader {
       const Slot& slot = slots_[number];
       static_cast<void>(check_behaviour_name(slot.entry->key, slot.entry->span, *out_));
       Written written{&slot, {count_}, std::nullopt, std::nullopt, {}, {}};
-      if (const Entry* each = entry_of(*slot.entry, "for"))
+      if (const Entry* each = entry_in(*slot.entry, "for"))
         if (may_be_for(slot, *each)) written.each = read_for(*each, fleets);
       count_ += written.each ? written.each->count : 1;
       by_name_.emplace(std::pair(slot.parent, slot.entry->key), number);
@@ -52,7 +46,7 @@ class BehaviourReader {
       const Entry& entry = *one.slot->entry;
       if (!one.slot->is_group) one.orders = read_order(entry, scope_.memory, *out_);
       each_member(one, [&](const Member* member) {
-        one.sets.push_back(read_changes(entry_of(entry, "sets"), scope_.memory, member, *out_));
+        one.sets.push_back(read_changes(entry_in(entry, "sets"), scope_.memory, member, *out_));
         if (one.orders) one.sets.back().push_back(one.orders->change());
       });
     }
@@ -122,7 +116,7 @@ class BehaviourReader {
     if (!group.slot->is_group) return;
     const SlotId id{static_cast<std::uint32_t>(number)};
     const Written* start = &written_[number + 1];
-    if (const Entry* entry = entry_of(*group.slot->entry, "start"))
+    if (const Entry* entry = entry_in(*group.slot->entry, "start"))
       if (const Node* text =
               text_of(*entry->value, entry->span, "start", *out_, "name a behaviour of the group"))
         if (const Written* named = find(text->text, *text, id, /*or_end=*/false); named != nullptr)
@@ -166,7 +160,7 @@ class BehaviourReader {
                   Behaviour& behaviour) {
     const Member* member = scope.member;
     behaviour.terminal = read_condition(section.find("terminal"), scope, defaults_.conditions, *out_);
-    if (entry_of(*slot.entry, "behaviours") != nullptr) {  // an error was found; it may end in any way
+    if (entry_in(*slot.entry, "behaviours") != nullptr) {  // an error was found; it may end in any way
       behaviour.terminal.kind = Condition::Kind::expressions;
       behaviour.terminal.expressions.push_back({{}, {}, behaviour.span});
     }

@@ -7,6 +7,7 @@
 
 #include "diagnostics/utf8.hpp"
 #include "spec/document/names.hpp"
+#include "spec/document/section.hpp"
 #include "spec/model/endings.hpp"
 #include "tessera/nearest.hpp"
 
@@ -14,12 +15,6 @@ namespace tessera::spec {
 namespace {
 
 using diagnostics::in_quotes;
-
-const Entry* entry_in(const Entry& section, std::string_view key) {
-  const std::vector<Entry>& entries = section.value->entries;
-  const auto found = std::ranges::find(entries, key, &Entry::key);
-  return found == entries.end() ? nullptr : &*found;
-}
 
 using Keys = std::initializer_list<std::string_view>;
 const Keys keys_of_behaviour = {"terminal", "error", "next",   "send",   "receive", "transfer",

@@ -83,6 +83,12 @@ const Entry* Section::require(std::string_view key, std::string hint) const {
   return entry;
 }
 
+const Entry* entry_in(const Entry& section, std::string_view key) {
+  const std::vector<Entry>& entries = section.value->entries;
+  const auto found = std::ranges::find(entries, key, &Entry::key);
+  return found == entries.end() ? nullptr : &*found;
+}
+
 const std::vector<Entry>& entries_of(const Node& node, Span at, std::string_view what, Diagnostics& out) {
   if (!node.is_map() && !node.is_null()) complain(node, at, what, "a map", "write NAME: VALUE", out);
   return node.entries;

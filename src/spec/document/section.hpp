@@ -36,6 +36,9 @@ class Section {
   Diagnostics& out_;
 };
 
+/// The entry of that key in the map that stands behind an entry, or nullptr.
+[[nodiscard]] const Entry* entry_in(const Entry& section, std::string_view key);
+
 /// The entries of a map with free keys; empty if `node` is empty. Errors: E104 not a map.
 [[nodiscard]] const std::vector<Entry>& entries_of(const Node& node, Span at, std::string_view what,
                                                    Diagnostics& out);

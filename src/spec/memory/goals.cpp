@@ -15,12 +15,6 @@ using diagnostics::in_quotes;
 
 constexpr const char* goal_hint = "for example { goal: out.goal, progress: in.progress }";
 
-const Entry* goal_entry(const Entry& section, std::string_view key) {
-  const std::vector<Entry>& entries = section.value->entries;
-  const auto found = std::ranges::find(entries, key, &Entry::key);
-  return found == entries.end() ? nullptr : &*found;
-}
-
 /// A field that a buffer of a goal has.
 struct GoalField {
   std::string_view name;
@@ -245,8 +239,8 @@ FewValues read_goal(const Section& cell, const GoalScope& buffers, Diagnostics& 
 }
 
 std::optional<Order> read_order(const Entry& behaviour, const std::vector<Field>& memory, Diagnostics& out) {
-  const Entry* orders = goal_entry(behaviour, "orders");
-  const Entry* cancel = goal_entry(behaviour, "cancel");
+  const Entry* orders = entry_in(behaviour, "orders");
+  const Entry* cancel = entry_in(behaviour, "cancel");
   bool on_leave = false;
   if (cancel != nullptr) {
     const Node* text = text_of(*cancel->value, cancel->span, "cancel", out, "write cancel: on_leave");

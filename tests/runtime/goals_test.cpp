@@ -186,7 +186,8 @@ TEST(Goals, StayOnTheLifeInAnyOrderOfValues) {
       goal.begin(static_cast<std::uint16_t>(1 + random() % 2));
       now = GoalState::ordered;
     }
-    const std::uint32_t call = goal.out().call + (random() % 8 == 0 ? random() % 3 - 1U : 0U);
+    const std::uint32_t call =
+        goal.out().call + (random() % 8 == 0 ? static_cast<std::uint32_t>(random() % 3) - 1U : 0U);
     const GoalState after = goal.told(call, static_cast<std::uint8_t>(random() % 12), random() % 5 != 0);
     EXPECT_TRUE(reached.contains({now, after}));
     now = after;

@@ -48,15 +48,10 @@ bool is_same(const std::optional<spec::Group>& a, const std::optional<spec::Grou
   return a->start == b->start && is_same(*a->until, *b->until);
 }
 
-bool is_same(const std::optional<spec::Order>& a, const std::optional<spec::Order>& b) {
-  if (!a || !b) return a.has_value() == b.has_value();
-  return a->cell == b->cell && a->cancel_on_leave == b->cancel_on_leave;
-}
-
 bool is_same(const spec::Behaviour& a, const spec::Behaviour& b) {
   return a.name == b.name && a.parent == b.parent && is_same(a.group, b.group) &&
          is_same(a.terminal, b.terminal) && is_same(a.error, b.error) && is_same(a.sets, b.sets) &&
-         is_same(a.orders, b.orders) && a.send == b.send &&
+         a.orders == b.orders && a.send == b.send &&
          std::ranges::equal(a.skippable, b.skippable,
                             [](const spec::Skippable& one, const spec::Skippable& other) {
                               return one.output == other.output && one.by_function == other.by_function &&

@@ -62,6 +62,10 @@ struct Order {
 
   /// The change of the cell.
   [[nodiscard]] Change change() const;
+  /// Wherever it stands in the file.
+  bool operator==(const Order& other) const {
+    return cell == other.cell && cancel_on_leave == other.cancel_on_leave;
+  }
 };
 
 /// The values of a cell from which changes in this order lead somewhere: its positions `first` to `last`. Steps

@@ -48,6 +48,7 @@ class Comparison {
   bool run(std::string& error) {
     bag_.condition = mcap::read(bytes_, {.message = [this](const mcap::ReadMessage& one) { take(one); },
                                          .attachment = [this](const mcap::Attachment& one) { take(one); },
+                                         .metadata = [this](const mcap::Metadata& one) { take(one); },
                                          .gap =
                                              [this] {
                                                if (conversion_) conversion_->forget();
@@ -78,6 +79,12 @@ class Comparison {
     due_.resize(conversion_->channels().size());
     found_.resize(due_.size());
     bag_.recording = reader_.recording();
+  }
+
+  void take(const mcap::Metadata& metadata) {
+    const auto version = metadata.entries.find("bag_version");
+    if (metadata.name == "tessera" && version != metadata.entries.end() && version->second != bag_version)
+      tell("another version of Tessera has written it, so its messages cannot be compared");
   }
 
   /// Several buffers may be on one topic.

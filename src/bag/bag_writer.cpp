@@ -15,7 +15,8 @@ constexpr std::size_t usual_chunk = 1U << 20U;
 
 mcap::Metadata run_metadata(const Recording& recording) {
   return {"tessera",
-          {{"system", recording.system},
+          {{"bag_version", bag_version},
+           {"system", recording.system},
            {"net_hash", recording.net_hash},
            {"verification_hash", recording.verification_hash},
            {"seed", std::to_string(recording.seed)},

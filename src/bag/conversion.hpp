@@ -12,6 +12,9 @@
 
 namespace tessera::bag {
 
+/// The version of the messages that this conversion makes, as the metadata `tessera` of a bag name it.
+inline constexpr const char* bag_version = "1";
+
 /// Makes the messages of a bag of the entries of a recording, one after the other. The same entries give the same
 /// messages. That is how a bag is checked: the recording that stands in it must give the messages that stand beside it.
 ///

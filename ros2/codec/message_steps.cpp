@@ -26,10 +26,35 @@ Translator::Step* find_step(std::vector<Translator::Step>& steps, const Structur
   return field == nullptr ? nullptr : &steps[static_cast<std::size_t>(field - structure.fields.data())];
 }
 
+namespace {
+
+void fill_frame(Translator::Step& header) {
+  if (Translator::Step* const frame = find_step(header.members, *header.type.structure, "frame_id"))
+    if (frame->type.primitive == Primitive::string) frame->fill = Translator::Fill::frame_id;
+}
+
+}  // namespace
+
+bool is_header(const Type& type) {
+  return type.refers == "std_msgs/msg/Header" && type.repeat == Type::Repeat::once;
+}
+
+bool fill_frames(std::vector<Translator::Step>& steps) {
+  bool found = false;
+  for (Translator::Step& step : steps) {
+    if (is_header(step.type)) {
+      fill_frame(step);
+      found = true;
+    } else if (step.type.structure != nullptr && step.type.repeat == Type::Repeat::once) {
+      found = fill_frames(step.members) || found;
+    }
+  }
+  return found;
+}
+
 void fill_header(Translator::Step& header) {
   const Structure& structure = *header.type.structure;
-  if (Translator::Step* const frame = find_step(header.members, structure, "frame_id"))
-    if (frame->type.primitive == Primitive::string) frame->fill = Translator::Fill::frame_id;
+  fill_frame(header);
   Translator::Step* const stamp = find_step(header.members, structure, "stamp");
   if (stamp == nullptr || stamp->type.structure == nullptr) return;
   if (Translator::Step* const sec = find_step(stamp->members, *stamp->type.structure, "sec"))

@@ -15,8 +15,14 @@ namespace tessera::ros2 {
 /// The step for that field of the structure, of which `steps` are; nullptr: it has no such field.
 [[nodiscard]] Translator::Step* find_step(std::vector<Translator::Step>& steps, const Structure& structure,
                                           const std::string& name);
+/// Whether it is a std_msgs/Header, and no array of them.
+[[nodiscard]] bool is_header(const Type& type);
 /// Lets the translator fill the time and the frame of a std_msgs/Header.
 void fill_header(Translator::Step& header);
+
+/// Lets the translator fill the frames of all headers in a message, except for those in arrays, and none of the times. false:
+/// there is no header.
+bool fill_frames(std::vector<Translator::Step>& steps);
 
 struct ArrayOfMessage {
   Translator::Step* step;

@@ -35,7 +35,7 @@ struct Mapping {
   /// With names, the message has a field `name` (sensor_msgs/JointState). Its sequences are received in the
   /// order of these names, whatever order the sender uses; they are sent with these names.
   std::vector<std::string> names{};
-  /// The value of `header.frame_id` in sent messages.
+  /// The value of `header.frame_id` in sent messages; without a field `header`, that of all headers inside.
   std::string frame_id{};
   /// Fields of the buffer that are no part of the message.
   std::vector<OwnField> own{};

@@ -64,11 +64,10 @@ class TranslatorBuilder {
   /// The time, the frame and the names, which are sent without a part of the buffer.
   bool check_fills() {
     const Field* const header = translator_.message_->find("header");
-    const bool stamped = header != nullptr && header->type.refers == "std_msgs/msg/Header" &&
-                         header->type.repeat == Type::Repeat::once;
+    const bool stamped = header != nullptr && is_header(header->type);
     if (stamped && !receives_) fill_header(*find_step(translator_.steps_, *translator_.message_, "header"));
     subject_ = "frame_id";
-    if (!mapping_.frame_id.empty() && (receives_ || !stamped)) {
+    if (!mapping_.frame_id.empty() && (receives_ || (!stamped && !fill_frames(translator_.steps_)))) {
       wrong(receives_ ? "a receptor sends no frame_id"
                       : in_quotes(translator_.message_->name) + " has no header",
             "remove it");

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <future>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "eventually.hpp"
 #include "fast_action.hpp"
 #include "ros2/actions/goal.hpp"
+#include "ros2/dds/action_client.hpp"
 #include "ros2/dds/drivers.hpp"
 #include "ros2/definitions/resolver.hpp"
 #include "stderr_text.hpp"
@@ -68,12 +70,15 @@ std::vector<std::int32_t> numbers_in(const BoundedSequence<std::int32_t, 4>& num
 
 /// The two drivers of a client.
 struct GoalClient {
-  explicit GoalClient(Duration timeout = std::chrono::seconds(30), Duration wait = Duration::zero()) {
-    Ros2Binding sends = side_of_action("client", true);
+  explicit GoalClient(Duration timeout = std::chrono::seconds(30), Duration wait = Duration::zero(),
+                      const std::string& agent = "robot") {
+    Ros2Binding sends = side_of_action("client", true), receives = side_of_action("client", false);
     sends.timeout = timeout;
     sends.wait = wait;
+    sends.path = agent + ".legs.goal";
+    receives.path = agent + ".eyes.progress";
     orders = opened_action<RealEffector>(make_effector, sends);
-    lives = opened_action<RealReceptor>(make_receptor, side_of_action("client", false));
+    lives = opened_action<RealReceptor>(make_receptor, receives);
   }
   ~GoalClient() {
     lives->close();
@@ -445,6 +450,46 @@ TEST(Actions, OfTwoControllersFindEachOther) {
   EXPECT_EQ(client.states_until(executing).back(), executing);
   server.reset();
   EXPECT_EQ(client.states_until(aborted).back(), aborted);
+}
+
+/// As the guardian process does after the death of a controller.
+TEST(Actions, GoalsOfARunAreCancelledByTheirNamesAndNoOthers) {
+  GoalServer server;
+  GoalClient client(std::chrono::seconds(30), std::chrono::seconds(60));
+  GoalClient other(std::chrono::seconds(30), std::chrono::seconds(60), "cart");
+  for (GoalClient* const one : {&client, &other}) {
+    std::uint32_t number = 0;
+    ASSERT_TRUE(eventually([&] {
+      EXPECT_TRUE(one->order(++number, one == &client ? 1 : 2));
+      for (int tries = 0; tries < 20; ++tries) {
+        EXPECT_TRUE(one->order(number, one == &client ? 1 : 2));
+        if (server.read() && !server.order.cancel) return true;
+        usleep(5'000);
+      }
+      return false;
+    }));
+    ASSERT_TRUE(server.say(server.order.call, executing));
+    EXPECT_EQ(one->states_until(executing).back(), executing);
+  }
+  EndpointSetup endpoint;
+  endpoint.path = "guardian";
+  endpoint.topic = "/fibonacci";
+  endpoint.node = "guardian";
+  endpoint.network = {action_domain(), "lo", ""};
+  ActionClient guardian({endpoint, "action_tutorials_interfaces/action/Fibonacci", true, {}, "action"});
+  guardian.open();
+  const GoalPrefix names = goal_prefix(getpid(), "robot.legs.goal /fibonacci");
+  auto cancelled = std::async(std::launch::async,
+                              [&] { return guardian.cancel_goals_of(names, std::chrono::seconds(60)); });
+  ASSERT_TRUE(eventually([&] { return server.read() && server.order.cancel; }));
+  EXPECT_EQ(server.order.order, 1);
+  EXPECT_TRUE(eventually([&] {
+    EXPECT_FALSE(server.read() && server.order.cancel) << "the goal of another";
+    return cancelled.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
+  }));
+  EXPECT_TRUE(cancelled.get());
+  EXPECT_TRUE(guardian.cancel_goals_of(names, std::chrono::seconds(60))) << "nothing is left";
+  guardian.close();
 }
 
 }  // namespace

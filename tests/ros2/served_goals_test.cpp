@@ -9,6 +9,8 @@
 #include <vector>
 
 #include "ros2/actions/messages.hpp"
+#include "ros2/codec/value_type.hpp"
+#include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
 
 namespace tessera::ros2 {
@@ -205,6 +207,29 @@ TEST(ActionMessages, AreJoinedAndSplitWithTheirAlignment) {
   ASSERT_TRUE(again);
   EXPECT_EQ(again->result, parts->result);
   EXPECT_EQ(again->feedback, parts->feedback);
+}
+
+TEST(ActionMessages, HaveTheFrameOfTheDriverInTheirHeaders) {
+  const DefinitionFolders folders({std::string(TESSERA_SOURCE_DIR) + "/share/tessera/ros2"});
+  std::vector<Mistake> mistakes;
+  const auto goal = resolve_action("nav2_msgs/action/NavigateToPose", folders, mistakes)->goal;
+  std::vector<MappingProblem> problems;
+  const auto sent =
+      Translator::make(goal, *parse_value_type("{x: float64}"),
+                       written_mapping("pose.pose.position.x=x", "", "map"), Direction::send, problems);
+  const auto received = Translator::make(
+      goal, *parse_value_type("{frame: string(8), sec: int32, w: float64}"),
+      written_mapping("pose.header.frame_id=frame, pose.header.stamp.sec=sec, pose.pose.orientation.w=w", "",
+                      ""),
+      Direction::receive, problems);
+  ASSERT_TRUE(sent && received) << problems.front().text;
+  MessageBytes message, value;
+  ASSERT_TRUE(sent->encode(MessageBytes(8), {77, 5}, message));
+  ASSERT_EQ(received->decode(message, value), Translator::Outcome::good);
+  ASSERT_EQ(value.size(), 4 + 3 + 4 + 8U);
+  EXPECT_EQ(std::string(reinterpret_cast<const char*>(value.data()) + 4, 3), "map");
+  EXPECT_EQ(value[7], std::byte{0}) << "no time: the newest transformation counts";
+  EXPECT_EQ(value.back(), std::byte{0x3f}) << "an orientation that is none would be refused";
 }
 
 /// Nothing that comes from the network may do harm.

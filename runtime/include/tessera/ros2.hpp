@@ -14,16 +14,16 @@
 
 namespace tessera {
 
-/// A real buffer that is a ROS 2 topic or one side of a service, with everything that the library needs to
+/// A real buffer that is a ROS 2 topic or one side of a service or action, with everything that the library needs to
 /// know about it (docs/use/ros2.md).
 struct Ros2Binding {
   std::string path;   ///< "robot.base.velocity"
-  std::string topic;  ///< "/cmd_vel", or the name of a service
-  std::string type;   ///< "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool"
-  /// The definition of the message, or of the service's message that the buffer has, and of all messages it
-  /// uses (ros2/definitions/resolver.hpp).
+  std::string topic;  ///< "/cmd_vel", or the name of a service or action
+  std::string type;  ///< "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", "nav2_msgs/action/NavigateToPose"
+  /// The definition of the message, or of the service's or action's message that the buffer has, and of all
+  /// messages it uses (ros2/definitions/resolver.hpp).
   std::string definition;
-  std::string role;    ///< side of a service: "client" or "server"; empty: a topic
+  std::string role;    ///< side of a service or action: "client" or "server"; empty: a topic
   std::string fields;  ///< "linear.x=v, angular.z=omega"; empty: equal names
   std::string names;   ///< "shoulder, elbow"; empty: none
   std::string frame_id;
@@ -34,7 +34,7 @@ struct Ros2Binding {
   std::string peers;                    ///< "10.0.0.2, cart.local"; empty: those on the interface are found
   std::optional<std::uint32_t> domain;  ///< nullopt: ROS_DOMAIN_ID, or else 0
   Duration wait{};                      ///< how long `open` waits for the other side; zero: not at all
-  Duration timeout{};                   ///< how long a call may last; zero: the default
+  Duration timeout{};                   ///< how long a call or stage may last; zero: the default
   const ValueEncoding* encoding = nullptr;
 };
 

@@ -274,9 +274,17 @@ Use use_of(const Entry& entry) {
 void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
   driver.kind = topic_kind;
   const Use use = use_of(entry);
-  if (use != Use::topic) {
+  if (use == Use::action) {
+    const Section section(*entry.value, entry.span, "an action of ROS 2",
+                          {"ros2", "type", "role", "fields", "frame_id", "node", "domain", "interface",
+                           "peers", "wait", "timeout"},
+                          out);
+    if (section.readable()) TopicReader(section, use, driver, out).read();
+    return;
+  }
+  if (use == Use::service) {
     const Section section(
-        *entry.value, entry.span, use == Use::service ? "a service of ROS 2" : "an action of ROS 2",
+        *entry.value, entry.span, "a service of ROS 2",
         {"ros2", "type", "role", "fields", "node", "domain", "interface", "peers", "wait", "timeout"}, out);
     if (section.readable()) TopicReader(section, use, driver, out).read();
     return;

@@ -66,14 +66,17 @@ it("forms that are made of the schema reach the keys deep inside", () => {
   expect(lines).toContain("deploy.processes.*");
 });
 
-it("the fields of a driver of ROS 2 are those of its topic or its service, and its type may become the other's", () => {
+it("the fields of a driver of ROS 2 are those of its topic, service or action, and its type may become another's", () => {
   const fields = (value: unknown) => fieldsFor(at("$defs/ros2_device"), schema, value);
   expect(fields({ ros2: "/a", type: "std_msgs/msg/Bool" }).map(({ key }) => key)).toContain("qos");
   const service = fields({ ros2: "/a", type: "std_srvs/srv/SetBool" });
   expect(service.map(({ key }) => key)).toEqual(expect.arrayContaining(["role", "timeout", "wait"]));
   expect(service.map(({ key }) => key)).not.toContain("qos");
+  const action = fields({ ros2: "/a", type: "nav2_msgs/action/NavigateToPose" }).map(({ key }) => key);
+  expect(action).toEqual(expect.arrayContaining(["role", "frame_id", "timeout", "wait"]));
   const type = fields({ ros2: "/a" }).find(({ key }) => key === "type")!;
-  expect([type.wrong("std_srvs/srv/SetBool"), type.wrong("std_msgs/msg/Bool")]).toEqual([undefined, undefined]);
+  for (const one of ["std_srvs/srv/SetBool", "std_msgs/msg/Bool", "nav2_msgs/action/NavigateToPose"])
+    expect(type.wrong(one)).toBeUndefined();
   expect(type.wrong("no type")).toMatch(/type/);
 });
 

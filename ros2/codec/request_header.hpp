@@ -9,8 +9,7 @@
 namespace tessera::ros2 {
 
 /// Identifies a request of a service: its client and its number. It stands before the data of a request and
-/// of its reply, as in rmw_cyclonedds_cpp. (rmw_fastrtps_cpp sends it beside the data, in a form that Cyclone
-/// DDS can neither send nor read.)
+/// of its reply, as in rmw_cyclonedds_cpp. (rmw_fastrtps_cpp sends a RelatedIdentity beside the data instead.)
 struct RequestHeader {
   std::uint64_t client = 0;   ///< a number that no other client has
   std::int64_t sequence = 0;  ///< number of the request

@@ -116,8 +116,8 @@ void ActionClient::look_for_servers(GoalLife::Instant now) {
   const ServiceEnds::Servers servers = ends_->servers();
   if (servers.foreign && life_.state() == GoalState::ordered)
     warn(foreign_,
-         "no goal is sent: a server is there that would misunderstand it. Start it with "
-         "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
+         "no goal is sent: somebody who reads goals would misunderstand it. Start all servers with the same "
+         "RMW_IMPLEMENTATION, see \"Which ROS 2\" in docs/use/ros2.md");
   ready_ = servers.foreign ? 0 : servers.ready;
   if (ready_ > 1 && life_.state() == GoalState::ordered)
     warn(several_, "several servers get this goal, and the first answer counts");

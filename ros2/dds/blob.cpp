@@ -16,6 +16,7 @@ namespace {
 struct BlobType : ddsi_sertype {};
 struct Blob : ddsi_serdata {
   std::vector<std::byte> bytes;
+  std::optional<BesideMessage> beside;
 };
 
 const Blob& blob_of(const ddsi_serdata* data) { return *static_cast<const Blob*>(data); }
@@ -24,6 +25,31 @@ Blob* new_blob(const ddsi_sertype* type, ddsi_serdata_kind kind) {
   auto blob = std::make_unique<Blob>();
   ddsi_serdata_init(blob.get(), type, kind);
   return blob.release();
+}
+
+/// Cyclone DDS does not tell of the inline QoS, so it is read from the datagram, whose first fragment has it.
+/// The submessage begins: kind, flags, uint16 size, uint16, uint16 offset of the inline QoS from behind this
+/// field, reader, writer, and the sequence number: int32 high, uint32 low.
+std::optional<BesideMessage> beside_message(const nn_rdata& first) {
+  constexpr unsigned little_endian = 1, has_inline_qos = 2;
+  constexpr std::size_t offset_at = 6, sequence_at = 16, shortest = 24;
+  const std::size_t begin = NN_RDATA_SUBMSG_OFF(&first), end = NN_RDATA_PAYLOAD_OFF(&first);
+  if (begin == 0 || end < begin + shortest) return std::nullopt;
+  const unsigned char* const submessage = NN_RMSG_PAYLOADOFF(first.rmsg, begin);
+  if ((submessage[1] & little_endian) == 0 || (submessage[1] & has_inline_qos) == 0) return std::nullopt;
+  std::uint16_t offset = 0;
+  std::memcpy(&offset, submessage + offset_at, sizeof offset);
+  const std::size_t list = offset_at + sizeof offset + offset;
+  if (list > end - begin) return std::nullopt;
+  const auto related =
+      related_identity_in(std::as_bytes(std::span(submessage + list, submessage + (end - begin))));
+  if (!related) return std::nullopt;
+  std::int32_t high = 0;
+  std::uint32_t low = 0;
+  std::memcpy(&high, submessage + sequence_at, sizeof high);
+  std::memcpy(&low, submessage + sequence_at + sizeof high, sizeof low);
+  constexpr std::int64_t of_high = std::int64_t{1} << 32U;
+  return BesideMessage{*related, high * of_high + low};
 }
 
 // The functions that Cyclone DDS requires of a type. There are no keys, so all samples have the same one.
@@ -36,6 +62,7 @@ std::uint32_t size_of_blob(const ddsi_serdata* data) {
 ddsi_serdata* from_fragments(const ddsi_sertype* type, ddsi_serdata_kind kind, const nn_rdata* fragment,
                              std::size_t size) {
   Blob* const blob = new_blob(type, kind);
+  blob->beside = beside_message(*fragment);
   blob->bytes.resize(size);
   std::uint32_t filled = 0;
   for (; fragment != nullptr; fragment = fragment->nextfrag) {
@@ -182,7 +209,8 @@ void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void*, const 
     if (count <= 0) return;
     for (std::size_t index = 0; index < static_cast<std::size_t>(count); ++index) {
       if (infos[index].valid_data)
-        use(context, {blob_of(samples[index]).bytes, infos[index].publication_handle});
+        use(context,
+            {blob_of(samples[index]).bytes, infos[index].publication_handle, blob_of(samples[index]).beside});
       ddsi_serdata_unref(samples[index]);
     }
     taken += static_cast<std::size_t>(count);

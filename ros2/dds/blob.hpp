@@ -3,8 +3,12 @@
 #include <dds/dds.h>
 
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
+
+#include "ros2/codec/related_identity.hpp"
 
 struct ddsi_sertype;
 
@@ -26,10 +30,17 @@ struct BlobTopic {
 [[nodiscard]] dds_return_t write_blob(dds_entity_t writer, const BlobTopic& topic,
                                       std::span<const std::byte> message);
 
+/// What a datagram says about a request beside the message.
+struct BesideMessage {
+  RelatedIdentity related;
+  std::int64_t sequence = 0;  ///< the number of the message itself
+};
+
 /// A received message, and the instance handle of its writer.
 struct TakenBlob {
   std::span<const std::byte> message;
   dds_instance_handle_t writer = 0;
+  std::optional<BesideMessage> beside{};
 };
 /// Takes the received messages, the oldest first, and passes each to `use`; at most `most`.
 void take_blobs(dds_entity_t reader, std::size_t most, void (*use)(void* context, const TakenBlob& blob),

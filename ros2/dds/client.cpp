@@ -110,8 +110,9 @@ void ServiceClient::try_to_send() {
   if (servers.foreign) {
     if (!std::exchange(pending_->told, true))
       warn(foreign_,
-           "no request is sent: a server is there that would misunderstand it. Start it with "
-           "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
+           "no request is sent: somebody who reads requests would misunderstand it. Start all servers with "
+           "the "
+           "same RMW_IMPLEMENTATION, see \"Which ROS 2\" in docs/use/ros2.md");
     return;
   }
   if (servers.ready == 0) return;

@@ -38,6 +38,12 @@ std::string user_data_in(const dds_builtintopic_endpoint_t& known) {
   return text;
 }
 
+Guid bytes_of(const dds_guid_t& guid) {
+  Guid bytes{};
+  std::copy_n(guid.v, bytes.size(), bytes.begin());
+  return bytes;
+}
+
 void tell_of_middleware() {
   if (const auto text = dds::middleware_log_report(std::chrono::steady_clock::now()))
     std::fprintf(stderr, "warning: %s\n", text->c_str());
@@ -94,6 +100,10 @@ void Endpoint::look_for_other_writers(const EndpointSetup& setup) {
 std::vector<OtherWriters::Writer> Endpoint::new_other_writers() {
   if (!other_writers_) return {};
   return other_writers_->look(OtherWriters::Clock::now());
+}
+
+void Endpoint::take_for_ours(const Guid& writer) {
+  if (other_writers_) other_writers_->take_for_ours(writer);
 }
 
 Endpoint::~Endpoint() {
@@ -177,7 +187,7 @@ std::vector<Endpoint::Other> Endpoint::others() const {
         writes_ ? dds_get_matched_subscription_data(entity_, handles[index])
                 : dds_get_matched_publication_data(entity_, handles[index]);
     if (known == nullptr) continue;
-    others.push_back({handles[index], user_data_in(*known)});
+    others.push_back({handles[index], user_data_in(*known), bytes_of(known->key)});
     dds_builtintopic_free_endpoint(known);
   }
   return others;
@@ -187,6 +197,12 @@ std::uint64_t Endpoint::identity() const {
   dds_instance_handle_t handle = 0;
   static_cast<void>(dds_get_instance_handle(entity_, &handle));
   return handle;
+}
+
+Guid Endpoint::guid() const {
+  dds_guid_t guid{};
+  static_cast<void>(dds_get_guid(entity_, &guid));
+  return bytes_of(guid);
 }
 
 void Endpoint::take(void (*use)(void*, const TakenBlob&), void* context) const {

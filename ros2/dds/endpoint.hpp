@@ -56,7 +56,8 @@ class Endpoint {
   /// A matched endpoint of the other side. DDS does not report one that has left meanwhile.
   struct Other {
     dds_instance_handle_t handle = 0;
-    std::string user_data;
+    std::string user_data{};
+    Guid guid{};
   };
   [[nodiscard]] std::vector<Other> others() const;
   /// For a reader: the user data of a writer that it has found. A message may be read after its writer has
@@ -64,8 +65,11 @@ class Endpoint {
   [[nodiscard]] std::optional<std::string> user_data_of(dds_instance_handle_t writer) const;
   /// For a sole writer: the other writers of its topic that were found since the last call.
   [[nodiscard]] std::vector<OtherWriters::Writer> new_other_writers();
+  /// From now on, a writer of this participant is not another one.
+  void take_for_ours(const Guid& writer);
   /// A number that no other writer or reader has.
   [[nodiscard]] std::uint64_t identity() const;
+  [[nodiscard]] Guid guid() const;
   /// Prints why endpoints of the other side cannot be matched, as far as it was not printed yet. Whether there
   /// is such an endpoint.
   bool tell_of_misfits() const;

@@ -9,9 +9,6 @@
 namespace tessera::ros2 {
 namespace {
 
-/// The part of a GUID that all entities of a participant share.
-constexpr std::size_t participant_bytes = 12;
-
 bool same(const dds_guid_t& one, const dds_guid_t& other, std::size_t bytes) {
   return std::memcmp(one.v, other.v, bytes) == 0;
 }
@@ -53,6 +50,7 @@ std::vector<OtherWriters::Writer> OtherWriters::look(Clock::time_point now) {
       if (!infos[index].valid_data || infos[index].instance_state != DDS_ALIVE_INSTANCE_STATE) continue;
       const auto& writer = *static_cast<const dds_builtintopic_endpoint_t*>(samples[index]);
       if (writer.topic_name != topic_ || same(writer.key, own_, sizeof own_.v)) continue;
+      if (ours_ && std::memcmp(writer.key.v, ours_->data(), participant_bytes) == 0) continue;
       found.push_back({writer.type_name, text_of(writer.participant_key),
                        same(writer.participant_key, participant_, participant_bytes)});
     }

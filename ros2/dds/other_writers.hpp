@@ -3,8 +3,11 @@
 #include <dds/dds.h>
 
 #include <chrono>
+#include <optional>
 #include <string>
 #include <vector>
+
+#include "ros2/codec/related_identity.hpp"
 
 namespace tessera::ros2 {
 
@@ -30,10 +33,13 @@ class OtherWriters {
   };
   /// Those that were found since the last call. A look within `between_looks` of the last one finds none.
   [[nodiscard]] std::vector<Writer> look(Clock::time_point now);
+  /// From now on, the writers of the participant of that endpoint are left out.
+  void take_for_ours(const Guid& endpoint) { ours_ = endpoint; }
 
  private:
   std::string topic_;
   dds_guid_t own_{}, participant_{};
+  std::optional<Guid> ours_;
   dds_entity_t reader_ = 0;
   Clock::time_point next_look_{};
 };

@@ -76,9 +76,10 @@ void ServiceServer::progress() {
 void ServiceServer::take_requests() {
   ServiceEnds::Requests requests = ends_->take_requests();
   for (; requests.foreign > 0; --requests.foreign)
-    warn(foreign_,
-         "a request was dropped: its client is not one of rmw_cyclonedds_cpp. Start it with "
-         "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp, see docs/use/ros2.md");
+    warn(
+        foreign_,
+        "a request was dropped: its client is not one of rmw_cyclonedds_cpp or rmw_fastrtps_cpp, see \"Which "
+        "ROS 2\" in docs/use/ros2.md");
   for (ServiceEnds::Request& one : requests.all) {
     if (waiting_.size() >= most_waiting)
       warn(crowded_, "a request was dropped: too many wait");
@@ -91,6 +92,8 @@ void ServiceServer::send_reply() {
   const ServiceEnds::Sending sending = ends_->send_reply(current_->asker, reply_);
   if (sending == ServiceEnds::Sending::not_yet) return;
   refused_ = sending == ServiceEnds::Sending::refused;
+  if (sending == ServiceEnds::Sending::impossible)
+    warn(unanswerable_, "a reply was dropped: the library libtessera_ros2_fast.so cannot be used");
   if (sending == ServiceEnds::Sending::gone) warn(unheard_, "a reply was dropped: its client has gone");
   current_.reset();
   reply_.clear();

@@ -51,7 +51,7 @@ class ServiceServer : public SharedService {
   std::uint64_t number_ = 0;      ///< number of the newest request that was given
   std::uint64_t told_ = 0;
   std::uint64_t foreign_ = 0, strange_ = 0, crowded_ = 0, unanswered_ = 0, unheard_ = 0, useless_ = 0,
-                several_ = 0;
+                several_ = 0, unanswerable_ = 0;
 };
 
 }  // namespace tessera::ros2

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <set>
 #include <string_view>
 #include <utility>
 
@@ -28,9 +29,15 @@ std::optional<std::string> value_of(std::string_view user_data, std::string_view
   return std::nullopt;
 }
 
+bool same_participant(const Guid& one, const Guid& other) {
+  return std::equal(one.begin(), one.begin() + participant_bytes, other.begin());
+}
+/// The GUIDs of Fast DDS begin with the number of its vendor.
+bool is_fast(const Guid& guid) { return guid[0] == 0x01 && guid[1] == 0x0f; }
+
 }  // namespace
 
-ServiceEnds::ServiceEnds(const ServiceSetup& setup) {
+ServiceEnds::ServiceEnds(const ServiceSetup& setup) : path_(setup.endpoint.path) {
   EndpointSetup requests = setup.endpoint;
   const auto participant = Participant::of(requests.network);
   requests.qos = Qos{.depth = kept_messages};
@@ -42,22 +49,40 @@ ServiceEnds::ServiceEnds(const ServiceSetup& setup) {
   replies.dds_topic = dds_reply_name(replies.topic);
   replies.dds_type = dds_type_name(response_type(setup.type));
   replies.sole_writer = !setup.is_client;
+  const Network& network = requests.network;
+  fast_setup_ = {network.domain,    network.interface, network.peers,    requests.dds_topic,
+                 requests.dds_type, replies.dds_topic, replies.dds_type, requests.user_data};
   reader_.emplace(setup.is_client ? replies : requests, /*writes=*/false);
   writer_.emplace(setup.is_client ? requests : replies, /*writes=*/true);
 }
 
+bool ServiceEnds::await_receipt(Duration timeout) {
+  const bool received = writer_->await_receipt(timeout);
+  FastReplies* const fast = fast_library_.replies();
+  return (fast == nullptr || fast->await_receipt(timeout)) && received;
+}
+
 std::optional<std::int64_t> ServiceEnds::send_request(std::vector<std::byte> request) {
-  put_header({writer_->identity(), ++newest_request_}, request);
-  return writer_->write(request) ? std::optional(newest_request_) : std::nullopt;
+  ++newest_request_;
+  if (!servers().fast) put_header({writer_->identity(), newest_request_}, request);
+  if (writer_->write(request)) return newest_request_;
+  --newest_request_;
+  return std::nullopt;
 }
 
 ServiceEnds::Replies ServiceEnds::take_replies() {
   Replies replies;
-  for (Taken& one : take()) {
+  const Guid writer = writer_->guid();
+  for (Taken& one : take()) {  // all clients get all replies
+    if (one.beside) {
+      if (one.beside->related.endpoint == writer)
+        replies.ours.push_back({one.beside->related.sequence, std::move(one.message)});
+      continue;
+    }
     const auto header = take_header(one.message);
     if (!header)
       ++replies.strange;
-    else if (header->client == writer_->identity())  // all clients get all replies
+    else if (header->client == writer_->identity())
       replies.ours.push_back({header->sequence, std::move(one.message)});
   }
   return replies;
@@ -66,6 +91,12 @@ ServiceEnds::Replies ServiceEnds::take_replies() {
 ServiceEnds::Requests ServiceEnds::take_requests() {
   Requests requests;
   for (Taken& one : take()) {
+    if (one.beside) {
+      if (cannot_answer_fast_clients()) continue;
+      const RelatedIdentity asker{one.beside->related.endpoint, one.beside->sequence};
+      requests.all.push_back({{{}, {}, one.writer, asker}, std::move(one.message)});
+      continue;
+    }
     auto client = client_of(one.writer);
     const auto header = client ? take_header(one.message) : std::nullopt;
     if (header)
@@ -78,9 +109,38 @@ ServiceEnds::Requests ServiceEnds::take_requests() {
 
 /// The writer of replies may not have found the client of a request yet.
 ServiceEnds::Sending ServiceEnds::send_reply(const Asker& asker, std::vector<std::byte> reply) {
+  if (asker.fast) return send_fast_reply(asker, reply);
   if (!hears(asker.client)) return is_there(asker.writer) ? Sending::not_yet : Sending::gone;
   put_header(asker.header, reply);
   return writer_->write(reply) ? Sending::sent : Sending::refused;
+}
+
+ServiceEnds::Sending ServiceEnds::send_fast_reply(const Asker& asker, const std::vector<std::byte>& reply) {
+  FastReplies* const fast = fast_library_.replies();
+  if (!fast_library_.error().empty()) return Sending::impossible;
+  if (fast == nullptr || !fast->is_heard_by(asker.fast->endpoint))
+    return is_there(asker.writer) ? Sending::not_yet : Sending::gone;
+  return fast->write(reply, *asker.fast) ? Sending::sent : Sending::refused;
+}
+
+bool ServiceEnds::cannot_answer_fast_clients() {
+  fast_library_.begin(fast_setup_);
+  static_cast<void>(fast_library_.replies());
+  if (fast_library_.error().empty()) return false;
+  if (is_told(++unanswerable_))
+    std::fprintf(
+        stderr,
+        "warning: %s: a request was dropped (%llu until now): clients that run rmw_fastrtps_cpp get no "
+        "replies: %s. Install the Debian package libfastrtps2.9, or start them with "
+        "RMW_IMPLEMENTATION=rmw_cyclonedds_cpp\n",
+        path_.c_str(), static_cast<unsigned long long>(unanswerable_), fast_library_.error().c_str());
+  return true;
+}
+
+std::size_t ServiceEnds::new_other_servers() {
+  FastReplies* const fast = fast_library_.replies();
+  if (fast != nullptr && !std::exchange(fast_known_, true)) writer_->take_for_ours(fast->identity());
+  return writer_->new_other_writers().size();
 }
 
 std::vector<ServiceEnds::Taken> ServiceEnds::take() const {
@@ -88,24 +148,41 @@ std::vector<ServiceEnds::Taken> ServiceEnds::take() const {
   reader_->take(
       [](void* all, const TakenBlob& blob) {
         static_cast<std::vector<Taken>*>(all)->push_back(
-            Taken{{blob.message.begin(), blob.message.end()}, blob.writer});
+            Taken{{blob.message.begin(), blob.message.end()}, blob.writer, blob.beside});
       },
       &taken);
   return taken;
 }
 
+/// A server has a reader of requests and a writer of replies. In rmw_cyclonedds_cpp both have the same user data.
+/// In rmw_fastrtps_cpp both belong to a participant of Fast DDS, without such user data.
 ServiceEnds::Servers ServiceEnds::servers() const {
-  std::vector<std::string> heard;
-  for (const Endpoint::Other& one : reader_->others())
-    if (auto server = value_of(one.user_data, server_key)) heard.push_back(*std::move(server));
-  Servers servers;
-  for (const Endpoint::Other& one : writer_->others()) {
-    const auto server = value_of(one.user_data, server_key);
-    if (!server)
-      servers.foreign = true;
-    else if (std::ranges::find(heard, *server) != heard.end())
-      ++servers.ready;
+  std::set<std::string> heard, ready;
+  std::vector<Guid> fast_writers;
+  for (const Endpoint::Other& one : reader_->others()) {
+    if (auto server = value_of(one.user_data, server_key))
+      heard.insert(*std::move(server));
+    else if (is_fast(one.guid))
+      fast_writers.push_back(one.guid);
   }
+  Servers servers;
+  std::size_t fast_readers = 0, fast_ready = 0;
+  bool has_header = false;
+  for (const Endpoint::Other& one : writer_->others()) {
+    if (const auto server = value_of(one.user_data, server_key)) {
+      has_header = true;
+      if (heard.contains(*server)) ready.insert(*server);
+    } else if (is_fast(one.guid)) {
+      ++fast_readers;
+      fast_ready += static_cast<std::size_t>(std::ranges::any_of(
+          fast_writers, [&](const Guid& writer) { return same_participant(writer, one.guid); }));
+    } else {
+      servers.foreign = true;
+    }
+  }
+  servers.foreign = servers.foreign || (has_header && fast_readers > 0);
+  servers.fast = !has_header;
+  servers.ready = has_header ? ready.size() : fast_ready;
   return servers;
 }
 

@@ -13,6 +13,7 @@
 
 #include "ros2/codec/request_header.hpp"
 #include "ros2/dds/endpoint.hpp"
+#include "ros2/dds/fast_library.hpp"
 
 namespace tessera::ros2 {
 
@@ -34,8 +35,10 @@ void warn_of(const ServiceSetup& setup, std::uint64_t& count, const char* text);
 /// The two endpoints of a client or server, as rmw_cyclonedds_cpp makes them: their user data identifies them
 /// ("clientid=...;", "serviceid=...;").
 ///
-/// Other implementations of ROS 2 use the same topics and types, but send no header in the message. Their
-/// bytes, read in our form, would be wrong values, and the reverse. The user data tells them apart.
+/// The other side may run rmw_fastrtps_cpp instead, which uses the same topics and types, but puts the identity
+/// of a request beside the message, not before it. A message in the form of the other would be wrong values.
+/// So each side is recognised: by the user data; else by a GUID of Fast DDS (servers), or by the identity beside
+/// the request (clients). Nothing is sent to an endpoint of neither kind, or to servers of both kinds.
 ///
 /// Threads: one at a time.
 class ServiceEnds {
@@ -44,7 +47,7 @@ class ServiceEnds {
   explicit ServiceEnds(const ServiceSetup& setup);
 
   /// Whether all matched readers have received everything within this time.
-  [[nodiscard]] bool await_receipt(Duration timeout) const { return writer_->await_receipt(timeout); }
+  [[nodiscard]] bool await_receipt(Duration timeout);
 
   /// For a client: sends a request, with encapsulation and without a header. Gives its number, which its reply
   /// has, too. nullopt: DDS refused.
@@ -55,7 +58,7 @@ class ServiceEnds {
   };
   struct Replies {
     std::vector<Reply> ours{};  ///< the oldest first; those to other clients are left out
-    std::size_t strange = 0;    ///< without a header
+    std::size_t strange = 0;    ///< without an identity
   };
   /// For a client: what came since the last call.
   [[nodiscard]] Replies take_replies();
@@ -65,6 +68,7 @@ class ServiceEnds {
     RequestHeader header{};
     std::string client{};
     dds_instance_handle_t writer = 0;
+    std::optional<RelatedIdentity> fast{};  ///< for a client of rmw_fastrtps_cpp, instead of the first two
   };
   struct Request {
     Asker asker{};
@@ -72,15 +76,16 @@ class ServiceEnds {
   };
   struct Requests {
     std::vector<Request> all{};  ///< the oldest first
-    std::size_t foreign = 0;     ///< of clients of another kind, or without a header
+    std::size_t foreign = 0;     ///< of clients of another kind, or without an identity
   };
   /// For a server: what came since the last call.
   [[nodiscard]] Requests take_requests();
   enum class Sending : std::uint8_t {
     sent,
-    not_yet,  ///< the client exists, and does not hear us yet
-    gone,     ///< the client has left
-    refused   ///< by DDS
+    not_yet,    ///< the client exists, and does not hear us yet
+    gone,       ///< the client has left
+    refused,    ///< by DDS
+    impossible  ///< there is no library for that kind of client
   };
   /// For a server: sends a reply, with encapsulation and without a header, if the client hears it.
   [[nodiscard]] Sending send_reply(const Asker& asker, std::vector<std::byte> reply);
@@ -89,15 +94,17 @@ class ServiceEnds {
   struct Servers {
     std::size_t ready = 0;
     bool foreign = false;  ///< some server would misread a request
+    bool fast = false;     ///< those that are ready run rmw_fastrtps_cpp
   };
   [[nodiscard]] Servers servers() const;
   /// For a server: the number of other servers that were found since the last call.
-  [[nodiscard]] std::size_t new_other_servers() { return writer_->new_other_writers().size(); }
+  [[nodiscard]] std::size_t new_other_servers();
 
  private:
   struct Taken {
     std::vector<std::byte> message;
     dds_instance_handle_t writer = 0;
+    std::optional<BesideMessage> beside{};
   };
   /// The messages since the last call, the oldest first.
   [[nodiscard]] std::vector<Taken> take() const;
@@ -108,8 +115,17 @@ class ServiceEnds {
   /// Whether that client receives a reply.
   [[nodiscard]] bool hears(const std::string& client) const;
 
+  /// Begins to load the library for clients of rmw_fastrtps_cpp. Whether that has failed; a warning says so.
+  [[nodiscard]] bool cannot_answer_fast_clients();
+  [[nodiscard]] Sending send_fast_reply(const Asker& asker, const std::vector<std::byte>& reply);
+
   std::optional<Endpoint> writer_, reader_;
-  std::int64_t newest_request_ = 0;
+  std::int64_t newest_request_ = 0;  ///< also the sequence number of its datagram, as a writer of DDS counts
+  std::string path_;
+  FastSetup fast_setup_;
+  FastLibrary fast_library_;
+  bool fast_known_ = false;
+  std::uint64_t unanswerable_ = 0;
 };
 
 /// One side of a service or action, which its drivers share. Ends: its endpoints, made of a ServiceSetup.

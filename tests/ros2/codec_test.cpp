@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "ros2/codec/cdr.hpp"
+#include "ros2/codec/related_identity.hpp"
 #include "ros2/codec/request_header.hpp"
 #include "ros2/codec/translator.hpp"
 #include "ros2/codec/value_type.hpp"
@@ -486,6 +487,35 @@ TEST(Mapping, MistakesAreTold) {
   EXPECT_EQ(problems_of({twist, "float64", "linear.x", "a, b"}, Direction::receive),
             "names|'geometry_msgs/msg/Twist' has no field 'name' of type string[]|names are for messages "
             "such as sensor_msgs/JointState\n");
+}
+
+TEST(RelatedIdentity, IsFoundAmongTheParametersOfADatagram) {
+  const auto list = [](std::initializer_list<int> numbers) {
+    std::vector<std::byte> bytes;
+    for (const int number : numbers) bytes.push_back(static_cast<std::byte>(number));
+    return bytes;
+  };
+  const auto with_identity = [&](int low, int high) {
+    std::vector<std::byte> bytes =
+        list({0x71, 0, 4, 0, 0, 0, 0, 1, low, high, 24, 0});  // after a status info
+    for (int byte = 1; byte <= 16; ++byte) bytes.push_back(static_cast<std::byte>(byte));
+    const auto rest = list({1, 0, 0, 0, 7, 0, 0, 0x80, 1, 0, 0, 0});
+    bytes.insert(bytes.end(), rest.begin(), rest.end());
+    return bytes;
+  };
+  for (const auto& bytes : {with_identity(0x0f, 0x80), with_identity(0x83, 0)}) {
+    const auto found = related_identity_in(bytes);
+    ASSERT_TRUE(found.has_value());
+    EXPECT_EQ(found->endpoint, (Guid{1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, 16}));
+    EXPECT_EQ(found->sequence, 0x1'8000'0007);
+    for (std::size_t size = 0; size < bytes.size() - 4; ++size)  // without the end of the list
+      EXPECT_FALSE(related_identity_in(std::span(bytes).first(size)).has_value()) << size;
+  }
+  EXPECT_FALSE(related_identity_in(with_identity(0x70, 0)).has_value()) << "a key hash";
+  auto ended = list({1, 0, 0, 0});
+  const auto behind = with_identity(0x0f, 0x80);
+  ended.insert(ended.end(), behind.begin(), behind.end());
+  EXPECT_FALSE(related_identity_in(ended).has_value()) << "behind the end of the list";
 }
 
 }  // namespace

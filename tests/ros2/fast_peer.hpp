@@ -2,6 +2,7 @@
 
 #include <fastcdr/Cdr.h>
 #include <fastcdr/FastBuffer.h>
+#include <fastdds/rtps/common/WriteParams.h>
 
 #include <array>
 #include <cstdint>
@@ -152,7 +153,16 @@ struct SetBoolResponse {
     all(client, sequence, success, message);
   }
 };
-/// A request of an implementation that puts no header before the data.
+/// The same without a header before the data, as rmw_fastrtps_cpp sends them.
+struct BareSetBoolResponse {
+  static constexpr const char* name = SetBoolResponse::name;
+  bool success = false;
+  std::string message;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(success, message);
+  }
+};
 struct BareSetBoolRequest {
   static constexpr const char* name = SetBoolRequest::name;
   bool data = false;
@@ -257,6 +267,46 @@ class Peer {
     while (reader.take_next_sample(&message, &info) == ReturnCode_t::RETCODE_OK)
       if (info.valid_data) return message;
     return std::nullopt;
+  }
+  /// A message, and the identities in its datagram.
+  template <class Message>
+  struct Identified {
+    Message message;
+    eprosima::fastrtps::rtps::SampleIdentity own, related;
+  };
+  template <class Message>
+  static std::optional<Identified<Message>> take_identified(eprosima::fastdds::dds::DataReader& reader) {
+    Identified<Message> taken;
+    eprosima::fastdds::dds::SampleInfo info;
+    using eprosima::fastrtps::types::ReturnCode_t;
+    while (reader.take_next_sample(&taken.message, &info) == ReturnCode_t::RETCODE_OK) {
+      taken.own = info.sample_identity;
+      taken.related = info.related_sample_identity;
+      if (info.valid_data) return taken;
+    }
+    return std::nullopt;
+  }
+  /// As the client of rmw_fastrtps_cpp: the identity beside the request names its reader of replies.
+  /// Gives the identity that the reply must have.
+  template <class Message>
+  static eprosima::fastrtps::rtps::SampleIdentity request(eprosima::fastdds::dds::DataWriter& writer,
+                                                          Message& message,
+                                                          const eprosima::fastdds::dds::DataReader& replies) {
+    eprosima::fastrtps::rtps::WriteParams parameters;
+    parameters.related_sample_identity().writer_guid(replies.guid());
+    writer.write(&message, parameters);
+    parameters.sample_identity().writer_guid(replies.guid());
+    return parameters.sample_identity();
+  }
+  /// As its server: the reply goes to the reader of replies, if the request names it, or else to its writer.
+  template <class Message, class Request>
+  static void reply(eprosima::fastdds::dds::DataWriter& writer, Message& message,
+                    const Identified<Request>& request) {
+    eprosima::fastrtps::rtps::WriteParams parameters;
+    parameters.related_sample_identity(request.own);
+    if (request.related.writer_guid() != eprosima::fastrtps::rtps::GUID_t::unknown())
+      parameters.related_sample_identity().writer_guid(request.related.writer_guid());
+    writer.write(&message, parameters);
   }
   static bool is_matched(eprosima::fastdds::dds::DataWriter& writer);
   static bool is_matched(eprosima::fastdds::dds::DataReader& reader);

@@ -1,0 +1,130 @@
+// Services with the other side as rmw_fastrtps_cpp makes it: the identity of a request stands beside the data.
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <cstdlib>
+#include <optional>
+#include <string>
+
+#include "eventually.hpp"
+#include "fast_peer.hpp"
+#include "service_sides.hpp"
+#include "stderr_text.hpp"
+
+namespace tessera::ros2 {
+namespace {
+
+constexpr std::uint32_t calls = 1000;
+
+/// Like `eventually`, for what takes less than a millisecond.
+template <class Look>
+bool soon(Look look) {
+  const auto end = std::chrono::steady_clock::now() + test_patience;
+  while (!look()) {
+    if (std::chrono::steady_clock::now() > end) return false;
+    usleep(20);
+  }
+  return true;
+}
+
+/// Prints the mean of the calls, which no test judges.
+class Stopwatch {
+ public:
+  explicit Stopwatch(const char* what) : what_(what) {}
+  ~Stopwatch() {
+    const std::chrono::duration<double, std::milli> all = std::chrono::steady_clock::now() - start_;
+    testing::Test::RecordProperty(what_, std::to_string(all.count() / calls));
+    std::printf("%s: %.3f ms a call\n", what_, all.count() / calls);
+  }
+  Stopwatch(const Stopwatch&) = delete;
+  Stopwatch& operator=(const Stopwatch&) = delete;
+
+ private:
+  const char* what_;
+  std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
+};
+
+TEST(ServicesOfFastDds, ServerAnswersEachCallOfOurClient) {
+  fast::Peer peer(service_domain());
+  auto* const requests = peer.reader<fast::BareSetBoolRequest>("rq/enableRequest");
+  auto* const replies = peer.writer<fast::BareSetBoolResponse>("rr/enableReply");
+  Client client(std::chrono::seconds(60), /*wait=*/std::chrono::seconds(60));
+  ASSERT_TRUE(
+      eventually([&] { return fast::Peer::is_matched(*requests) && fast::Peer::is_matched(*replies); }));
+  const Stopwatch watch("our client");
+  for (std::uint32_t number = 1; number <= calls; ++number) {
+    ASSERT_TRUE(client.call(number, number % 2 == 0));
+    std::optional<fast::Peer::Identified<fast::BareSetBoolRequest>> request;
+    ASSERT_TRUE(soon([&] {
+      return (request = fast::Peer::take_identified<fast::BareSetBoolRequest>(*requests)).has_value();
+    })) << number;
+    ASSERT_EQ(request->message.data, number % 2 == 0);
+    fast::BareSetBoolResponse reply;
+    reply.success = request->message.data;
+    reply.message = std::to_string(number);
+    auto other = *request;  // a reply to another client
+    other.own.writer_guid(requests->guid());
+    fast::Peer::reply(*replies, reply, other);
+    fast::Peer::reply(*replies, reply, *request);
+    ASSERT_TRUE(soon([&] { return client.read(); })) << number;
+    ASSERT_EQ(client.reply.call, number);
+    ASSERT_EQ(client.reply.outcome, answered);
+    ASSERT_EQ(client.reply.success, number % 2 == 0);
+    ASSERT_EQ(client.reply.message.view(), std::to_string(number));
+  }
+  EXPECT_FALSE(fast::Peer::take<fast::BareSetBoolRequest>(*requests).has_value()) << "each request once";
+}
+
+TEST(ServicesOfFastDds, ClientGetsTheReplyToEachCallOfOurServer) {
+  setenv("TESSERA_ROS2_FAST_LIBRARY", TESSERA_ROS2_FAST_LIBRARY, 1);
+  Server server(std::chrono::seconds(60));
+  fast::Peer peer(service_domain());
+  auto* const requests = peer.writer<fast::BareSetBoolRequest>("rq/enableRequest");
+  auto* const replies = peer.reader<fast::BareSetBoolResponse>("rr/enableReply");
+  ASSERT_TRUE(
+      eventually([&] { return fast::Peer::is_matched(*requests) && fast::Peer::is_matched(*replies); }));
+  const auto serve = [&] {
+    return server.read() && server.reply(server.request.call, server.request.data,
+                                         "call " + std::to_string(server.request.call));
+  };
+  const auto call = [&](std::uint32_t number) {
+    fast::BareSetBoolRequest request{number % 2 == 0};
+    const auto expected = fast::Peer::request(*requests, request, *replies);
+    ASSERT_TRUE(soon(serve)) << number;
+    std::optional<fast::Peer::Identified<fast::BareSetBoolResponse>> reply;
+    ASSERT_TRUE(soon([&] {
+      EXPECT_FALSE(server.read());
+      return (reply = fast::Peer::take_identified<fast::BareSetBoolResponse>(*replies)).has_value();
+    })) << number;
+    ASSERT_TRUE(reply->related == expected) << number;
+    ASSERT_EQ(reply->message.success, number % 2 == 0);
+    ASSERT_EQ(reply->message.message, "call " + std::to_string(number));
+  };
+  {
+    const Stopwatch first("first call, a thousandth of it");
+    call(1);
+  }
+  const Stopwatch watch("our server");
+  for (std::uint32_t number = 2; number <= calls && !HasFatalFailure(); ++number) call(number);
+  EXPECT_FALSE(fast::Peer::take<fast::BareSetBoolResponse>(*replies).has_value()) << "each reply once";
+}
+
+TEST(ServicesOfFastDds, RequestsAreDroppedIfTheLibraryIsMissing) {
+  setenv("TESSERA_ROS2_FAST_LIBRARY", "/nowhere/libtessera_ros2_fast.so", 1);
+  const StderrText told;
+  Server server(std::chrono::seconds(60));
+  fast::Peer peer(service_domain());
+  auto* const requests = peer.writer<fast::BareSetBoolRequest>("rq/enableRequest");
+  auto* const replies = peer.reader<fast::BareSetBoolResponse>("rr/enableReply");
+  ASSERT_TRUE(eventually([&] { return fast::Peer::is_matched(*requests); }));
+  fast::BareSetBoolRequest request{true};
+  EXPECT_TRUE(eventually([&] {
+    fast::Peer::request(*requests, request, *replies);
+    if (server.read()) EXPECT_TRUE(server.reply(server.request.call, true, "")) << "no fault of the robot";
+    return told.has("clients that run rmw_fastrtps_cpp get no replies: /nowhere/libtessera_ros2_fast.so");
+  })) << told.now();
+}
+
+}  // namespace
+}  // namespace tessera::ros2

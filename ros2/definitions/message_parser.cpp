@@ -46,6 +46,11 @@ bool is_field_name(std::string_view text) {
   return is_word(text, false, true, false) && text.find("__") == std::string_view::npos &&
          !text.ends_with('_');
 }
+std::string in_small_letters(std::string name) {
+  for (char& c : name)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return is_field_name(name) ? name : "to_the_left";
+}
 bool is_constant_name(std::string_view text) {
   if (text.empty() || text[0] < 'A' || text[0] > 'Z') return false;
   return std::ranges::all_of(
@@ -165,6 +170,12 @@ class MessageReader {
     }
     if (is_package_name(package) && is_message_name(message))
       return std::string(package) + "/msg/" + std::string(message);
+    if (name == "time" || name == "duration") {
+      wrong("unknown type '" + std::string(name) + "', which only ROS 1 has",
+            std::string("a definition of ROS 2 has builtin_interfaces/") +
+                (name == "time" ? "Time" : "Duration"));
+      return {};
+    }
     std::vector<std::string> names;
     for (const NamedPrimitive& one : named_primitives) names.emplace_back(one.name);
     wrong("unknown type '" + std::string(name) + "'", did_you_mean(name, names));
@@ -184,7 +195,8 @@ class MessageReader {
 
   void read_field(const std::string& name, const Type& type, std::string_view value) {
     if (!is_field_name(name))
-      return wrong("'" + name + "' is no name of a field", "write it in small letters: to_the_left");
+      return wrong("'" + name + "' is no name of a field",
+                   "write it in small letters: " + in_small_letters(name));
     Field field{name, type};
     if (!value.empty() && !read_default(value, field)) return;
     structure_.fields.push_back(std::move(field));

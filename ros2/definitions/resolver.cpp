@@ -121,6 +121,8 @@ class Resolver {
     for (const std::string& one : definitions_.names())
       if (kind_of(one) == kind) names.push_back(short_name(one));
     Hint hint = did_you_mean(short_name(name), names);
+    if (name.ends_with("/msg/Header"))
+      hint = "a definition of ROS 2 has std_msgs/Header; that of ROS 1 has Header";
     if (hint.empty())
       hint = "write its definition into msg/" + name + "." + kind.ending + " beside the specification";
     return wrong(used_by, std::string("there is no ") + kind.word + " '" + short_name(name) + "'", hint);

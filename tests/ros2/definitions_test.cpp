@@ -66,7 +66,10 @@ TEST(Definitions, MistakesHaveTheirLine) {
   EXPECT_EQ(mistakes_of("int8 a 200"), "Some.msg:1: '200' is no value of the type int8\n");
   EXPECT_EQ(mistakes_of("uint8 a -1"), "Some.msg:1: '-1' is no value of the type uint8\n");
   EXPECT_EQ(mistakes_of("int32 Bad"),
-            "Some.msg:1: 'Bad' is no name of a field; write it in small letters: to_the_left\n");
+            "Some.msg:1: 'Bad' is no name of a field; write it in small letters: bad\n");
+  EXPECT_EQ(mistakes_of("time at"),
+            "Some.msg:1: unknown type 'time', which only ROS 1 has; a definition of ROS 2 "
+            "has builtin_interfaces/Time\n");
   EXPECT_EQ(mistakes_of("int32 a\nint32 a"), "Some.msg:2: there is a 'a' already\n");
   EXPECT_EQ(mistakes_of("int32[] a 3"),
             "Some.msg:1: the default of an array is a list in brackets, not '3'\n");

@@ -41,7 +41,7 @@ void ActionServer::close() {
   goals_.end_all(stamp_now(), Clock::now());
   for (progress(); !answers_.empty() && Clock::now() < until; progress())
     std::this_thread::sleep_for(between_tries);
-  for (const ServiceEnds* const one : {&ends_->send_goal, &ends_->get_result, &ends_->cancel_goal})
+  for (ServiceEnds* const one : {&ends_->send_goal, &ends_->get_result, &ends_->cancel_goal})
     static_cast<void>(one->await_receipt(longest_goodbye));
   static_cast<void>(ends_->status.await_receipt(longest_goodbye));
   answers_.clear();

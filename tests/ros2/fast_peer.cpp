@@ -56,6 +56,7 @@ dds::DataWriter* Peer::make_writer(dds::TypeSupport type, const std::string& nam
                                    const std::string& user_data, bool transient_local) {
   dds::DataWriterQos qos;
   qos.user_data().data_vec({user_data.begin(), user_data.end()});
+  qos.reliable_writer_qos().times.heartbeatPeriod = {0, 20'000'000};  // not 3 s, so that receipts come soon
   qos.reliability().kind = reliable ? dds::RELIABLE_RELIABILITY_QOS : dds::BEST_EFFORT_RELIABILITY_QOS;
   qos.durability().kind =
       transient_local ? dds::TRANSIENT_LOCAL_DURABILITY_QOS : dds::VOLATILE_DURABILITY_QOS;

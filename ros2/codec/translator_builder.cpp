@@ -53,7 +53,9 @@ class TranslatorBuilder {
     for (const Field& field : structure.fields) {
       if (field.type.primitive == Primitive::wstring) {
         wrong(in_quotes(structure.name) + " has the wstring " + in_quotes(field.name),
-              "implementations of DDS disagree on wide strings, so that Tessera sends and receives none");
+              "implementations of DDS disagree on wide strings; let a node copy the message into one that "
+              "has a "
+              "string instead");
         return false;
       }
       if (field.type.structure != nullptr && !refuse_wide_strings(*field.type.structure)) return false;

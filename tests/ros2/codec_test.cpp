@@ -482,8 +482,8 @@ TEST(Mapping, MistakesAreTold) {
   EXPECT_EQ(problems_of({twist, "float64"}, Direction::send),
             "|which field of 'geometry_msgs/msg/Twist' is meant?|for example fields: angular\n");
   EXPECT_EQ(problems_of({"wstring a", "string(8)"}, Direction::send),
-            "|'pkg/msg/Some' has the wstring 'a'|implementations of DDS disagree on wide strings, so that "
-            "Tessera sends and receives none\n");
+            "|'pkg/msg/Some' has the wstring 'a'|implementations of DDS disagree on wide strings; let a node "
+            "copy the message into one that has a string instead\n");
   EXPECT_EQ(problems_of({twist, "float64", "linear.x", "a, b"}, Direction::receive),
             "names|'geometry_msgs/msg/Twist' has no field 'name' of type string[]|names are for messages "
             "such as sensor_msgs/JointState\n");

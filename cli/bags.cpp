@@ -192,7 +192,7 @@ std::optional<std::string> unpacked(const std::string& file, const std::string& 
   if (!run->differences.empty())
     throw std::runtime_error(file + " shows another run than the recording in it");
   const Recording& recording = run->recording;
-  const std::string name = (fs::path(folder) / "unpacked.tsr").string();
+  const std::string name = (fs::path(folder) / "inputs.tsr").string();
   std::ofstream stream(name, std::ios::binary);
   stream << bag::file_start(recording.header);
   for (const Recording::Entry& entry : recording.entries) stream << bag::file_bytes(bag::raw_of(entry));

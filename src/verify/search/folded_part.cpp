@@ -171,7 +171,7 @@ void FoldedPart::find_values(net::SubsystemId subsystem) {
     const bool is_known = one.is_memory || found.is_joined || !made.apart.empty();
     if (is_known) made.apart.insert(found.given.begin(), found.given.end());
     made.is_merged = one.may_merge() && one.values.size() > made.apart.size() + 1;
-    is_smaller_ = is_smaller_ || (made.is_merged && made.apart.empty());
+    is_smaller_ = is_smaller_ || made.is_merged;
     if (!folded_.contains(subsystem) || !is_known || one.is_memory) continue;
     std::vector<TransitionId>& some = transitions_[subsystem];
     for (const PlaceId place : one.values)

@@ -32,9 +32,10 @@ class FoldedPart final : public Merging {
              const std::set<net::SubsystemId>& subsystems, const std::set<net::PlaceId>& asked,
              std::size_t few);
 
-  /// Whether it is of use: behaviours of a subsystem count as one place, or a fact is left out, and the steps are not
-  /// too many. Precondition of all that follows.
-  [[nodiscard]] bool is_made() const { return is_smaller_ && has_all_steps_; }
+  /// Whether places count as one or are left out at all. If not, each place counts for itself.
+  [[nodiscard]] bool is_smaller() const { return is_smaller_; }
+  /// Whether the steps are not too many. Precondition of all that follows.
+  [[nodiscard]] bool is_made() const { return has_all_steps_; }
   [[nodiscard]] net::PlaceId operator[](net::PlaceId place) const override;
   [[nodiscard]] bool is_merged(net::PlaceId place) const override;
   [[nodiscard]] const std::vector<net::TransitionId>* transitions(net::SubsystemId one) const override;

@@ -56,6 +56,8 @@ class PartGraph {
       }
     for (std::uint32_t step = 0; step < part.steps.size(); ++step)
       for (const std::uint32_t place : part.steps[step].in) takers_[place].push_back(step);
+    for (std::uint32_t step = 0; step < part.steps.size(); ++step)
+      if (part.steps[step].in.empty()) free_.push_back(step);
     explore();
   }
 
@@ -187,8 +189,7 @@ class PartGraph {
       for (const char32_t place : marking)
         for (const std::uint32_t step : takers_[place])
           if (part_.steps[step].in.front() == place) go(node, step);
-      for (std::uint32_t step = 0; step < part_.steps.size(); ++step)
-        if (part_.steps[step].in.empty()) go(node, step);
+      for (const std::uint32_t step : free_) go(node, step);
     }
   }
 
@@ -275,6 +276,7 @@ class PartGraph {
   std::vector<bool> seen_;                // per place: the formulas ask about it
   std::vector<std::uint32_t> sets_with_;  // per place outside: how many sets have it
   std::vector<Numbers> takers_;           // per place: steps
+  Numbers free_;                          // steps that take nothing of the part
   std::unordered_map<Marking, std::uint32_t> numbers_;
   std::vector<const Marking*> nodes_;
   std::vector<std::vector<Edge>> edges_;

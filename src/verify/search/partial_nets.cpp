@@ -170,7 +170,7 @@ PartialNets::Answer PartialNets::settled_by(Counting counting, const About& abou
     if (counting == Counting::folded) {
       auto folded = std::make_unique<FoldedPart>(net_, surroundings_, lists_, subsystems, about.asked, few_);
       if (!folded->is_made()) break;
-      merging = std::move(folded);
+      if (folded->is_smaller()) merging = std::move(folded);
     }
     const PartialNet part(net_, surroundings_, sets_, subsystems, merging.get());
     const std::optional<NumberedPart> question = ask(part);

@@ -282,7 +282,7 @@ agents:
           next: [{ to: safe, when: error }, { to: rest, when: until }, work]
           behaviours:
             ask: { terminal: { low: memory.low }, next: [{ to: dock, when: error }, dock] }
-            dock: { terminal: { low: memory.low }, next: [{ to: ask, when: error }, end] }
+            dock: { terminal: { low: memory.low }, next: end }
         rest: { terminal: { low: memory.low }, next: [{ to: safe, when: error }, work] }
         safe: { terminal: true, next: work }
 )";

@@ -30,6 +30,7 @@ TEST(Stubs, OfSeveralDefinitionsStandInFoldersOfTheirOwn) {
   for (const codegen::Stub& stub : codegen::stubs(generate_file(features_spec).model))
     files.insert(stub.file);
   EXPECT_EQ(files, (std::set<std::string>{"src/base/arm.cpp", "src/base/control.cpp", "src/base/lidar.cpp",
+                                          "src/courier/control.cpp", "src/office/control.cpp",
                                           "src/scout/control.cpp", "src/walker/control.cpp"}));
 }
 

@@ -9,10 +9,10 @@
 #include <utility>
 #include <vector>
 
-#include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/outcome.hpp"
 #include "cli/outputs.hpp"
+#include "cli/recordings/coverage.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/installation.hpp"
 #include "project/files/state_folder.hpp"

@@ -7,9 +7,9 @@
 #include <stdexcept>
 #include <utility>
 
-#include "cli/film.hpp"
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
+#include "cli/recordings/film.hpp"
 #include "cli/terminal.hpp"
 #include "tessera/judgement.hpp"
 #include "tessera/printable.hpp"

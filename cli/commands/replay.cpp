@@ -10,13 +10,13 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "cli/bags.hpp"
 #include "cli/commands/commands.hpp"
-#include "cli/commands/legality_check.hpp"
-#include "cli/commands/legality_text.hpp"
-#include "cli/coverage.hpp"
-#include "cli/film.hpp"
-#include "cli/recording_summary.hpp"
+#include "cli/recordings/bags.hpp"
+#include "cli/recordings/coverage.hpp"
+#include "cli/recordings/film.hpp"
+#include "cli/recordings/legality_check.hpp"
+#include "cli/recordings/legality_text.hpp"
+#include "cli/recordings/recording_summary.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"

@@ -3,11 +3,11 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 
-#include "cli/bags.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outputs.hpp"
+#include "cli/recordings/bags.hpp"
 #include "cli/terminal.hpp"
 
 namespace tessera::cli {

@@ -11,8 +11,8 @@
 #include <variant>
 
 #include "cli/commands/commands.hpp"
-#include "cli/coverage.hpp"
 #include "cli/launch.hpp"
+#include "cli/recordings/coverage.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/files.hpp"
 #include "project/process/death.hpp"

@@ -6,14 +6,14 @@
 #include <variant>
 
 #include "bag/live_bag.hpp"
-#include "cli/bags.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/commands/deploy.hpp"
-#include "cli/coverage.hpp"
 #include "cli/early_checks.hpp"
 #include "cli/launch.hpp"
 #include "cli/outcome.hpp"
 #include "cli/outputs.hpp"
+#include "cli/recordings/bags.hpp"
+#include "cli/recordings/coverage.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "mcap/records.hpp"

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "cli/commands/commands.hpp"
-#include "cli/coverage.hpp"
 #include "cli/launch.hpp"
+#include "cli/recordings/coverage.hpp"
 #include "cli/terminal.hpp"
 #include "project/build/controller.hpp"
 #include "project/build/line_coverage.hpp"

@@ -37,12 +37,12 @@ class GoalLife {
   explicit GoalLife(std::function<GoalId()> new_id) : new_id_(std::move(new_id)) {}
   void use(const Times& times) { times_ = times; }
 
-  /// What the effector wants. A call that is not 0 and not that of the last goal orders a goal; the goal before it
+  /// Takes the wish of the effector. A call that is not 0 and not that of the last goal orders a goal; the goal before it
   /// is cancelled and given up. The same call changes nothing, unless it asks to cancel. 0: no goal is wanted,
   /// so one that is under way is cancelled.
   void order(std::uint64_t call, bool cancel, std::span<const std::byte> goal, Instant now);
 
-  // What the server says. `id` and `message` may be anything.
+  // The messages of the server. `id` and `message` may be anything.
   /// is_there: a server can take goals.
   void hear_of_server(bool is_there, Instant now);
   void hear_sign_of_life() { probed_at_.reset(); }
@@ -65,7 +65,7 @@ class GoalLife {
     GoalId id{};
     Bytes goal{};
   };
-  /// What is to be sent since the last call, in order.
+  /// Gives the messages to send since the last call, in order.
   [[nodiscard]] std::vector<Deed> take_deeds();
 
   /// A change of the state, or feedback.
@@ -81,7 +81,7 @@ class GoalLife {
   /// Whether a goal is not over, or was given up and may still be at work.
   [[nodiscard]] bool is_busy() const;
 
-  /// What was dropped, and what went wrong.
+  /// The numbers of messages that were dropped, and of what went wrong.
   struct Counts {
     std::uint64_t disorder = 0;         ///< results before acceptance, second results, second answers ...
     std::uint64_t given_up = 0;         ///< words about goals that were given up

@@ -44,7 +44,7 @@ class ServedGoals {
   /// Lets the time go on.
   void tick(Stamp at, Instant now);
 
-  /// What the effector says about the goal of that number. 0 says nothing. The same may be said several times.
+  /// Takes the word of the effector about the goal of that number. 0 says nothing. The same may be said several times.
   ///
   /// state: 1 or 2 accepts, 7 rejects, 4, 5 and 6 end. feedback, result: as ProgressType::split makes them.
   void say(std::uint64_t number, GoalState state, const MessageBytes& feedback, const MessageBytes& result,
@@ -68,10 +68,10 @@ class ServedGoals {
     Question question = 0;  ///< for answers
     MessageBytes message{};
   };
-  /// What is to be sent since the last call, in order.
+  /// Gives the messages to send since the last call, in order.
   [[nodiscard]] std::vector<Deed> take_deeds();
 
-  /// What was dropped or refused.
+  /// The numbers of what was dropped or refused.
   struct Counts {
     std::uint64_t crowded = 0;    ///< goals that were rejected, because too many are open
     std::uint64_t undecided = 0;  ///< goals that were rejected, because nobody decided in time

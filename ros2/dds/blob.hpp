@@ -30,7 +30,7 @@ struct BlobTopic {
 [[nodiscard]] dds_return_t write_blob(dds_entity_t writer, const BlobTopic& topic,
                                       std::span<const std::byte> message);
 
-/// What a datagram says about a request beside the message.
+/// The part of a datagram that is about a request and stands beside the message.
 struct BesideMessage {
   RelatedIdentity related;
   std::int64_t sequence = 0;  ///< the number of the message itself

@@ -25,7 +25,7 @@ class BagWriter {
   void end(std::uint64_t lost);
   /// Writes the index; after `end`, or for a recording without its end. Only `take` may follow.
   void finish() { writer_.finish(); }
-  /// All complete records that have not been taken. What stands in an open chunk is not among them.
+  /// All complete records that have not been taken. Those in an open chunk are not among them.
   [[nodiscard]] std::string take() { return writer_.take(); }
 
  private:

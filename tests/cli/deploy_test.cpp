@@ -6,7 +6,7 @@
 #include <csignal>
 
 #include "../schema/judge.hpp"
-#include "cli/commands/legality_check.hpp"
+#include "cli/recordings/legality_check.hpp"
 #include "tessera/process_claim.hpp"
 #include "tessera/recording.hpp"
 

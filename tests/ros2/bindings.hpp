@@ -11,8 +11,8 @@
 #include <string>
 #include <vector>
 
-#include "ros2/dds/drivers.hpp"
 #include "ros2/definitions/resolver.hpp"
+#include "ros2/drivers/drivers.hpp"
 #include "tessera/fields.hpp"
 
 namespace tessera::ros2 {

@@ -1,4 +1,4 @@
-// What ROS 2 sees of our nodes, and what is told of endpoints that do not fit.
+// ROS 2 sees our nodes, and users are told of endpoints that do not fit.
 #include "ros2/dds/graph.hpp"
 
 #include <gtest/gtest.h>
@@ -24,7 +24,7 @@ class GraphWithFastDds : public testing::Test {
   fast::Peer peer{test_domain()};
 };
 
-/// What a node sees that reads an announcement of ours.
+/// A node that reads an announcement of ours sees this.
 template <class Form>
 void expect_one_writer(const Form& node) {
   EXPECT_EQ(node.nodes, 1U);

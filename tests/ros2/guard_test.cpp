@@ -59,7 +59,7 @@ class Program {
   int status_ = 0;
 };
 
-/// What the base is told.
+/// The base, which takes the commands of the guard.
 class Base {
  public:
   explicit Base(const std::string& domain)

@@ -13,8 +13,8 @@
 #include <string_view>
 #include <vector>
 
-#include "ros2/dds/drivers.hpp"
 #include "ros2/definitions/resolver.hpp"
+#include "ros2/drivers/drivers.hpp"
 #include "tessera/bounded_string.hpp"
 #include "tessera/fields.hpp"
 

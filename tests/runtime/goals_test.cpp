@@ -1,4 +1,4 @@
-// What a subsystem is told of its goals: every pair of states, wrong orders, orders and cancels.
+// A subsystem is told of its goals: every pair of states, wrong orders, orders and cancels.
 #include "subsystem/goals.hpp"
 
 #include <gtest/gtest.h>

@@ -1,4 +1,4 @@
-#include "subsystem/parameters.hpp"
+#include "parameters/parameters.hpp"
 
 #include <gtest/gtest.h>
 

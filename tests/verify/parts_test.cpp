@@ -82,7 +82,7 @@ TEST(Parts, ProveADockOfManyRobots) {
   }
 }
 
-/// What is searched for each of many robots is the same for all but those with which the dock begins, whatever their
+/// The part that is searched for each of many robots is the same for all but those with which the dock begins, whatever their
 /// number.
 TEST(Parts, AreSearchedOnceForEqualMembers) {
   const auto markings = [](int robots) {

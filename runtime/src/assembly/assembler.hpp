@@ -17,7 +17,7 @@
 #include "assembly/recording_setup.hpp"
 #include "drivers/recorded_inputs.hpp"
 #include "drivers/substitutes.hpp"
-#include "subsystem/parameters.hpp"
+#include "parameters/parameters.hpp"
 #include "tessera/subsystem.hpp"
 
 namespace tessera {

@@ -13,9 +13,9 @@
 #include <vector>
 
 #include "network/carrier.hpp"
+#include "parameters/parameters.hpp"
 #include "run/driver_requests.hpp"
 #include "safety/device_claims.hpp"
-#include "subsystem/parameters.hpp"
 #include "tessera/channel_limits.hpp"
 
 namespace tessera {

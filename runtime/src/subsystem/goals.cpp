@@ -7,16 +7,9 @@
 #include <string_view>
 #include <utility>
 
+#include "system/repeated_lines.hpp"
+
 namespace tessera {
-namespace {
-
-[[nodiscard]] bool is_power_of_ten(std::uint64_t number) {
-  while (number % 10 == 0) number /= 10;
-  return number == 1;
-}
-
-}  // namespace
-
 Goals::Goals(const SubsystemParts& parts, const Reports& reports)
     : reports_(reports), goal_of_port_(parts.ports.size(), UINT32_MAX) {
   const auto& facts = parts.instance->net->facts;

@@ -18,11 +18,6 @@ std::uint64_t mixed(std::uint64_t hash, std::string_view text) {
   return (hash ^ 0xff) * 0x100000001b3ULL;
 }
 
-bool is_power_of_ten(std::uint64_t count) {
-  while (count % 10 == 0) count /= 10;
-  return count == 1;
-}
-
 template <std::size_t Size>
 std::size_t copied(std::array<char, Size>& to, std::string_view from) {
   std::size_t size = std::min(Size, from.size());
@@ -33,6 +28,11 @@ std::size_t copied(std::array<char, Size>& to, std::string_view from) {
 }
 
 }  // namespace
+
+bool is_power_of_ten(std::uint64_t count) {
+  while (count % 10 == 0) count /= 10;
+  return count == 1;
+}
 
 RepeatedLines::Kind* RepeatedLines::find(std::uint64_t key, std::string_view path, std::string_view text) {
   for (std::size_t step = 0; step < kinds_.size(); ++step) {

@@ -52,7 +52,7 @@ class IndexBuilder {
   /// The names that a template takes, in its text.
   void use_taken(const Node& node, const NamesOf& taken, bool gives);
   void use_taken(Extent extent, const NamesOf& taken);
-  /// What the units that use templates have in common.
+  /// Finds the names that units which use templates have in common.
   void share_names();
   /// The words of an expression at their places in the file, each name of a template replaced by what stands for it.
   [[nodiscard]] std::vector<Token> words_of_expression(const Node& text) const;
@@ -100,7 +100,7 @@ class IndexBuilder {
   void use_in_world(const Node& simulation);
   void sort_uses();
 
-  /// What a `with` gives for a name.
+  /// The text that a `with` gives for a name.
   struct Given {
     std::string text;
     std::size_t at = 0;

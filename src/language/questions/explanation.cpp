@@ -174,7 +174,7 @@ std::string about_template(const Document& document, SymbolId id) {
          fmt::format("\n\nUsed on line{} {}{}.", count == 1 ? "" : "s", lines, count > 8 ? " ..." : "");
 }
 
-/// What the uses of a template give for a name that it takes.
+/// The texts that the uses of a template give for a name that it takes.
 std::string about_taken(const Document& document, SymbolId id) {
   std::string all;
   std::size_t count = 0;

@@ -144,7 +144,7 @@ std::optional<std::string> in_included_files(const Document& document, SymbolId 
   return std::nullopt;
 }
 
-/// Where the text means something else after an edit of names; nullopt: nowhere.
+/// The place at which the text means something else after an edit of names; nullopt: none.
 std::optional<std::string> new_meaning(const Document& before, const Document& after) {
   const std::vector<Use>&old = before.index().uses(), &now = after.index().uses();
   for (std::size_t at = 0; at < std::max(old.size(), now.size()); ++at) {

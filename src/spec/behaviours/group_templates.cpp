@@ -88,7 +88,7 @@ std::vector<const Node*> taken_by(const Entry& from, Diagnostics& out) {
   return names;
 }
 
-/// What stands beside the use of a template alone.
+/// Checks the keys beside the use of a template.
 void check_keys(const Entry& from, Diagnostics& out) {
   for (const Entry& key : from.value->entries)
     if (key.key == "next" || key.key == "use")

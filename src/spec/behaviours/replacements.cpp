@@ -30,7 +30,7 @@ bool stands_alone(std::string_view text, std::size_t at) {
   return false;
 }
 
-/// Where `word` stands in a text, not as a part of a longer word; npos: nowhere.
+/// The place of `word` in a text, not as a part of a longer word; npos: nowhere.
 std::size_t find_word(std::string_view text, std::string_view word) {
   if (word.empty()) return std::string_view::npos;
   for (std::size_t at = text.find(word); at != std::string_view::npos; at = text.find(word, at + 1)) {
@@ -42,7 +42,7 @@ std::size_t find_word(std::string_view text, std::string_view word) {
   return std::string_view::npos;
 }
 
-/// What a message has in quotes.
+/// The parts of a message in quotes.
 std::vector<std::string_view> quoted_in(std::string_view message) {
   std::vector<std::string_view> all;
   for (std::size_t begin = message.find('\''); begin != std::string_view::npos;) {

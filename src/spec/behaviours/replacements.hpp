@@ -8,10 +8,10 @@
 
 #include "spec/document/document.hpp"
 
-/// What a `with` has put in the texts of a template, and messages about it.
+/// The words that a `with` has put in the texts of a template, and messages about it.
 namespace tessera::spec {
 
-/// What stands for a name that a template takes.
+/// The text that stands for a name that a template takes.
 struct Given {
   std::string text;
   Span at{};              ///< where a `with` says it
@@ -43,8 +43,8 @@ using TextOf = std::function<const std::string*(const std::string& word)>;
 
 [[nodiscard]] bool is_in(const Replacement& replacement, Span span);
 
-/// Adds what has been found to `out`. What names something that a `with` has given is said there, with the line of the
-/// template; for each use if several give the same.
+/// Adds what has been found to `out`. A message about a word that a `with` has given is said there, with the
+/// line of the template; for each use if several give the same.
 void place(const std::vector<Replacement>& replacements, const Diagnostics& found, Diagnostics& out);
 
 }  // namespace tessera::spec

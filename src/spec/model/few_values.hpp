@@ -32,7 +32,7 @@ struct FewValues {
   /// the others follow, "robot[0]", "robot[1]" ...
   std::string fleet{};
   std::uint32_t first_member = 0, member_count = 0;
-  /// Of a goal. Its values are those of tessera::GoalState, in their order.
+  /// The buffers of a goal. Its values are those of tessera::GoalState, in their order.
   std::optional<GoalBuffers> goal{};
 
   static constexpr std::size_t most = 256;  ///< values of one cell

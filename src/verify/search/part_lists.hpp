@@ -13,7 +13,7 @@
 #include "net/net.hpp"
 #include "verify/search/surroundings.hpp"
 
-/// What parts of a net ask about the net, made once for all of them.
+/// The lists that parts of a net ask for, made once for all of them.
 namespace tessera::verify {
 
 /// A subsystem whose behaviours may count as one place. That place and those for values of what it knows are none of
@@ -44,9 +44,9 @@ struct SubsystemLists {
     std::vector<net::PlaceId> values{};
   };
 
-  /// What it does is at most one token, so that behaviours can count as one place.
+  /// The places of its steps have at most one token, so that behaviours can count as one place.
   bool is_one_token = false;
-  /// And from its start on it is always one.
+  /// From its start on they always have one.
   bool keeps_token = false;
   net::PlaceId rest{};                                                 ///< that place
   std::map<net::BehaviourId, std::vector<net::PlaceId>> behaviours{};  ///< places that may count as one

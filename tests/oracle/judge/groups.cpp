@@ -59,7 +59,7 @@ bool takes_all_errors(const Subsystem& subsystem, const std::vector<Entry>& next
   });
 }
 
-/// Of a group only if something in it can fail, and nothing in it takes that.
+/// A group has failures only if something in it can fail, and nothing in it takes that.
 bool has_failures(const Behaviour& written_out) {
   return written_out.may_fail || written_out.error.form != Condition::Form::absent;
 }

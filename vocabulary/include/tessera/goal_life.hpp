@@ -33,7 +33,7 @@ inline constexpr std::array<std::string_view, goal_state_count> goal_state_names
 }
 
 /// Whether a goal in the state `before` may be told to be in `after`: it is the same state, or a later one of its
-/// life. Who is told may miss the states in between.
+/// life. A reader may miss the states in between.
 [[nodiscard]] constexpr bool can_follow(GoalState before, GoalState after) {
   if (before == after) return true;
   switch (before) {

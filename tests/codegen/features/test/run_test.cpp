@@ -100,7 +100,7 @@ TEST(System, ConditionsSeeTheMemoryThatFunctionsWrite) {
   EXPECT_GT(walks_after_a_rest, 10);
 }
 
-// What the office answers out of order never reaches a condition: that errand is late, and is cancelled.
+// An answer of the office out of order never reaches a condition: that errand is late, and is cancelled.
 TEST(System, TellsTheLifeOfAGoal) {
   tessera::RunOptions options;
   options.duration = 4s;

@@ -1,4 +1,4 @@
-#include "ros2/dds/prepared.hpp"
+#include "ros2/drivers/prepared.hpp"
 
 #include <optional>
 #include <stdexcept>

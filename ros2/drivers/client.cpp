@@ -1,4 +1,4 @@
-#include "ros2/dds/client.hpp"
+#include "ros2/drivers/client.hpp"
 
 #include <thread>
 #include <utility>

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "ros2/actions/goal_life.hpp"
-#include "ros2/dds/action_ends.hpp"
 #include "ros2/dds/run_identity.hpp"
+#include "ros2/drivers/action_ends.hpp"
 
 namespace tessera::ros2 {
 
@@ -25,7 +25,7 @@ class ActionClient : public Shared<ActionEnds> {
   /// Whether a server is found within this time.
   [[nodiscard]] bool await_server(Duration timeout);
 
-  /// What the effector wants (GoalLife::order). goal: with encapsulation. false: DDS refused.
+  /// Takes the wish of the effector (GoalLife::order). goal: with encapsulation. false: DDS refused.
   [[nodiscard]] bool order(std::uint64_t call, bool cancel, const std::vector<std::byte>& goal);
   /// The beginning of the names of the next goals.
   void use_names(const GoalPrefix& prefix);

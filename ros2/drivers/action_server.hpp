@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "ros2/actions/served_goals.hpp"
-#include "ros2/dds/action_ends.hpp"
+#include "ros2/drivers/action_ends.hpp"
 
 namespace tessera::ros2 {
 
@@ -28,7 +28,7 @@ class ActionServer : public Shared<ActionEnds> {
   [[nodiscard]] std::optional<ServedGoals::Event> next_event();
   /// The goal does not have the type of the action: it is rejected.
   void refuse(std::uint64_t number);
-  /// What the effector says (ServedGoals::say). false: DDS refused.
+  /// Takes the word of the effector (ServedGoals::say). false: DDS refused.
   [[nodiscard]] bool say(std::uint64_t number, GoalState state, const MessageBytes& feedback,
                          const MessageBytes& result);
 

@@ -1,4 +1,4 @@
-#include "ros2/dds/action_client.hpp"
+#include "ros2/drivers/action_client.hpp"
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,7 @@ constexpr auto between_turns = std::chrono::milliseconds(5);
 constexpr auto between_looks_for_servers = std::chrono::milliseconds(10);
 constexpr std::size_t most_remembered = 64;
 
-/// What is told of losses.
+/// A kind of loss, and its text.
 struct Loss {
   std::uint64_t GoalLife::Counts::*count;
   const char* text;

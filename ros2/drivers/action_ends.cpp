@@ -1,4 +1,4 @@
-#include "ros2/dds/action_ends.hpp"
+#include "ros2/drivers/action_ends.hpp"
 
 #include <algorithm>
 #include <string>

@@ -9,7 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include "subsystem/parameters.hpp"
+#include "parameters/parameters.hpp"
 #include "tessera/control_messages.hpp"
 
 namespace tessera {

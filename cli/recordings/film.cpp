@@ -1,4 +1,4 @@
-#include "cli/film.hpp"
+#include "cli/recordings/film.hpp"
 
 #include <fmt/core.h>
 #include <unistd.h>
@@ -14,7 +14,7 @@
 #include <utility>
 #include <vector>
 
-#include "cli/film_file.hpp"
+#include "cli/recordings/film_file.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/chosen_world.hpp"
 #include "project/files/file_names.hpp"

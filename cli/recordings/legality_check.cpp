@@ -1,4 +1,4 @@
-#include "cli/commands/legality_check.hpp"
+#include "cli/recordings/legality_check.hpp"
 
 #include <fmt/core.h>
 

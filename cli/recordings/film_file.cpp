@@ -1,4 +1,4 @@
-#include "cli/film_file.hpp"
+#include "cli/recordings/film_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/core.h>

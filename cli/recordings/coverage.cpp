@@ -1,4 +1,4 @@
-#include "cli/coverage.hpp"
+#include "cli/recordings/coverage.hpp"
 
 #include <fmt/core.h>
 

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "ros2/dds/service_ends.hpp"
+#include "ros2/drivers/service_ends.hpp"
 
 namespace tessera::ros2 {
 

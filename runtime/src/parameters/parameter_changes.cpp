@@ -1,4 +1,4 @@
-#include "subsystem/parameter_changes.hpp"
+#include "parameters/parameter_changes.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "ros2/dds/action_drivers.hpp"
+#include "ros2/drivers/action_drivers.hpp"
 
 #include <unistd.h>
 
@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "ros2/actions/messages.hpp"
-#include "ros2/dds/action_client.hpp"
-#include "ros2/dds/action_server.hpp"
-#include "ros2/dds/shared_driver.hpp"
+#include "ros2/drivers/action_client.hpp"
+#include "ros2/drivers/action_server.hpp"
+#include "ros2/drivers/shared_driver.hpp"
 #include "ros2/naming/names.hpp"
 
 namespace tessera::ros2 {

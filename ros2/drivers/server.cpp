@@ -1,4 +1,4 @@
-#include "ros2/dds/server.hpp"
+#include "ros2/drivers/server.hpp"
 
 #include <utility>
 

@@ -1,4 +1,4 @@
-#include "cli/recording_summary.hpp"
+#include "cli/recordings/recording_summary.hpp"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "ros2/dds/service_drivers.hpp"
+#include "ros2/drivers/service_drivers.hpp"
 
 #include <unistd.h>
 
@@ -7,10 +7,10 @@
 #include <stdexcept>
 #include <utility>
 
-#include "ros2/dds/client.hpp"
-#include "ros2/dds/prepared.hpp"
-#include "ros2/dds/server.hpp"
-#include "ros2/dds/shared_driver.hpp"
+#include "ros2/drivers/client.hpp"
+#include "ros2/drivers/prepared.hpp"
+#include "ros2/drivers/server.hpp"
+#include "ros2/drivers/shared_driver.hpp"
 
 namespace tessera::ros2 {
 namespace {

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "ros2/dds/endpoint.hpp"
-#include "ros2/dds/service_ends.hpp"
+#include "ros2/drivers/service_ends.hpp"
 
 namespace tessera::ros2 {
 

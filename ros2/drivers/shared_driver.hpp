@@ -10,8 +10,8 @@
 
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/dds/clock.hpp"
-#include "ros2/dds/prepared.hpp"
-#include "ros2/dds/service_ends.hpp"
+#include "ros2/drivers/prepared.hpp"
+#include "ros2/drivers/service_ends.hpp"
 #include "ros2/naming/names.hpp"
 
 namespace tessera::ros2 {

@@ -1,4 +1,4 @@
-#include "ros2/dds/action_server.hpp"
+#include "ros2/drivers/action_server.hpp"
 
 #include <array>
 #include <thread>

@@ -1,4 +1,4 @@
-#include "cli/commands/legality_text.hpp"
+#include "cli/recordings/legality_text.hpp"
 
 #include <fmt/core.h>
 

@@ -1,6 +1,6 @@
 // The exported functions of the library. Controllers load it at run time, so they need no DDS to build.
 #include "ros2/dds/clock.hpp"
-#include "ros2/dds/drivers.hpp"
+#include "ros2/drivers/drivers.hpp"
 
 // Both sides of the call are C++; only the linkage is that of C.
 #ifdef __clang__

@@ -1,4 +1,4 @@
-#include "ros2/dds/drivers.hpp"
+#include "ros2/drivers/drivers.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>
@@ -12,11 +12,11 @@
 #include <thread>
 #include <utility>
 
-#include "ros2/dds/action_drivers.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/dds/other_side.hpp"
-#include "ros2/dds/prepared.hpp"
-#include "ros2/dds/service_drivers.hpp"
+#include "ros2/drivers/action_drivers.hpp"
+#include "ros2/drivers/prepared.hpp"
+#include "ros2/drivers/service_drivers.hpp"
 
 namespace tessera::ros2 {
 namespace {

@@ -1,4 +1,4 @@
-#include "ros2/dds/service_ends.hpp"
+#include "ros2/drivers/service_ends.hpp"
 
 #include <algorithm>
 #include <cstdio>
@@ -6,7 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include "ros2/dds/prepared.hpp"
+#include "ros2/drivers/prepared.hpp"
 #include "ros2/naming/names.hpp"
 
 namespace tessera::ros2 {

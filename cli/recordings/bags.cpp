@@ -1,4 +1,4 @@
-#include "cli/bags.hpp"
+#include "cli/recordings/bags.hpp"
 
 #include <fmt/core.h>
 

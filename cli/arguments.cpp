@@ -179,8 +179,8 @@ void CommandLine::tell_unexpected() const {
   std::string command = "tessera";
   std::vector<std::string> options{"--help", "--version", "--state"};
   // For these options, the option with the nearest spelling would mislead.
-  static const std::map<std::string, std::string> moved_options{
-      {"--schedules", "schedules N"}, {"--from", "rerun RECORDING"}, {"--steps", "play NET"}};
+  static const std::map<std::string, std::string> moved_options{{"--schedules", "schedules N"},
+                                                                {"--steps", "play NET"}};
   for (const CLI::App* chosen : app_->get_subcommands()) {
     command += " " + chosen->get_name();
     for (const CLI::Option* option : chosen->get_options())

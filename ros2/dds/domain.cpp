@@ -87,18 +87,39 @@ std::uint32_t domain_of_environment() {
   throw std::runtime_error("ROS_DOMAIN_ID is '" + std::string(text) + "', and not a number from 0 to 232");
 }
 
+namespace {
+
+struct KnownParticipants {
+  std::mutex mutex;
+  std::map<Network, std::weak_ptr<Participant>> all;
+};
+KnownParticipants& known_participants() {
+  static KnownParticipants known;
+  return known;
+}
+
+}  // namespace
+
 std::shared_ptr<Participant> Participant::of(const Network& network) {
-  static std::mutex mutex;
-  static std::map<Network, std::weak_ptr<Participant>> known;
-  const std::lock_guard lock(mutex);
-  std::weak_ptr<Participant>& one = known[network];
+  KnownParticipants& known = known_participants();
+  const std::lock_guard lock(known.mutex);
+  std::weak_ptr<Participant>& one = known.all[network];
   if (auto shared = one.lock()) return shared;
   const std::shared_ptr<Participant> made(new Participant(network));
   one = made;
   return made;
 }
 
-Participant::Participant(const Network& network) {
+std::vector<std::shared_ptr<Participant>> Participant::all() {
+  KnownParticipants& known = known_participants();
+  const std::lock_guard lock(known.mutex);
+  std::vector<std::shared_ptr<Participant>> open;
+  for (const auto& [network, one] : known.all)
+    if (auto shared = one.lock()) open.push_back(std::move(shared));
+  return open;
+}
+
+Participant::Participant(const Network& network) : network_(network) {
   try {
     open(network);
   } catch (...) {
@@ -127,6 +148,16 @@ void Participant::open(const Network& network) {
   dds_delete_qos(qos);
   checked("cannot take part in domain " + std::to_string(network.domain) + " of DDS", participant_);
   graph_.emplace(participant_);
+}
+
+void Participant::note(const std::string& node, const std::string& agent) {
+  const std::lock_guard lock(mutex_);
+  nodes_[node].insert(agent);
+}
+
+std::map<std::string, std::set<std::string>> Participant::nodes() {
+  const std::lock_guard lock(mutex_);
+  return nodes_;
 }
 
 std::string Participant::new_service_identity() {

@@ -4,10 +4,13 @@
 
 #include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "ros2/dds/graph.hpp"
 
@@ -39,6 +42,8 @@ class Participant {
  public:
   /// Throws std::runtime_error.
   [[nodiscard]] static std::shared_ptr<Participant> of(const Network& network);
+  /// Those that are open in this process.
+  [[nodiscard]] static std::vector<std::shared_ptr<Participant>> all();
   ~Participant();
   Participant(const Participant&) = delete;
   Participant& operator=(const Participant&) = delete;
@@ -46,6 +51,11 @@ class Participant {
   [[nodiscard]] dds_entity_t entity() const { return participant_; }
   /// The nodes of this process in this domain.
   [[nodiscard]] Graph& graph() { return *graph_; }
+  [[nodiscard]] const Network& network() const { return network_; }
+  /// Notes that an agent has drivers in that node.
+  void note(const std::string& node, const std::string& agent);
+  /// The nodes that had drivers, and their agents.
+  [[nodiscard]] std::map<std::string, std::set<std::string>> nodes();
   /// Whether the advice about a missing other side was given.
   [[nodiscard]] std::atomic<bool>& advised() const { return advised_; }
   /// A text that identifies the two endpoints of a client or server of a service as belonging together.
@@ -55,7 +65,9 @@ class Participant {
   explicit Participant(const Network& network);
   void open(const Network& network);
 
+  const Network network_;
   std::mutex mutex_;
+  std::map<std::string, std::set<std::string>> nodes_;
   dds_entity_t domain_ = 0, participant_ = 0;
   std::optional<Graph> graph_;
   mutable std::atomic<bool> advised_{false};

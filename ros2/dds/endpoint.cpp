@@ -85,6 +85,7 @@ Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     throw std::runtime_error("cannot use the topic " + setup.topic + ": " + dds_strretcode(entity_));
   }
   participant_->graph().add(setup.node, entity_, writes);
+  participant_->note(setup.node, setup.path.substr(0, setup.path.find('.')));
   if (writes && setup.sole_writer) look_for_other_writers(setup);
 }
 

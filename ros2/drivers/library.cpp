@@ -1,6 +1,7 @@
 // The exported functions of the library. Controllers load it at run time, so they need no DDS to build.
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/drivers.hpp"
+#include "ros2/drivers/nodes.hpp"
 
 // Both sides of the call are C++; only the linkage is that of C.
 #ifdef __clang__
@@ -22,5 +23,10 @@ __attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> te
 __attribute__((visibility("default"))) std::unique_ptr<tessera::Ros2Clock> tessera_ros2_clock_2(
     const std::string& interface, std::string& error) {
   return tessera::ros2::make_clock(interface, error);
+}
+
+__attribute__((visibility("default"))) std::unique_ptr<tessera::Ros2Nodes> tessera_ros2_nodes_1(
+    tessera::Ros2Host& host, std::string& error) {
+  return tessera::ros2::make_nodes(host, error);
 }
 }

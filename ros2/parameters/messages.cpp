@@ -15,7 +15,7 @@
 namespace tessera::ros2 {
 namespace {
 
-using Kind = Ros2Parameter::Kind;
+using OfferedType = Ros2Parameter::Kind;
 
 constexpr std::size_t most_padding_of_parameters = 3;
 
@@ -62,7 +62,8 @@ struct Reading<ParameterValue> {
     if (type >= std::variant_size_v<ParameterValue>) reader.fail();
     [&]<std::size_t... Index>(std::index_sequence<Index...>) {
       (read_field<Index + 1>(reader, type, value), ...);
-    }(std::make_index_sequence<std::variant_size_v<ParameterValue> - 1>());
+    }
+    (std::make_index_sequence<std::variant_size_v<ParameterValue> - 1>());
     return value;
   }
 
@@ -97,9 +98,7 @@ void put(const Described& described, CdrWriter& writer);
 void put(const std::pair<std::string, std::string>& pair, CdrWriter& writer);
 template <class Number>
 requires std::is_arithmetic_v<Number> || std::is_same_v<Number, std::byte>
-void put(Number number, CdrWriter& writer) {
-  writer.number(&number, sizeof number);
-}
+void put(Number number, CdrWriter& writer) { writer.number(&number, sizeof number); }
 void put(const std::string& text, CdrWriter& writer) { writer.text(text); }
 template <class Element>
 void put_all(const Element& elements, CdrWriter& writer) {
@@ -120,9 +119,8 @@ void put_field(const ParameterValue& value, CdrWriter& writer) {
 }
 void put(const ParameterValue& value, CdrWriter& writer) {
   put(static_cast<std::uint8_t>(value.index()), writer);
-  [&]<std::size_t... Index>(std::index_sequence<Index...>) {
-    (put_field<Index + 1>(value, writer), ...);
-  }(std::make_index_sequence<std::variant_size_v<ParameterValue> - 1>());
+  [&]<std::size_t... Index>(std::index_sequence<Index...>) { (put_field<Index + 1>(value, writer), ...); }
+  (std::make_index_sequence<std::variant_size_v<ParameterValue> - 1>());
 }
 void put(const NamedValue& named, CdrWriter& writer) {
   put(named.first, writer);
@@ -157,7 +155,7 @@ std::int64_t whole_number(double number) {
 
 /// Clients check ranges of single numbers only, so those of elements are words.
 std::string constraints_of(const Ros2Parameter& parameter) {
-  if (parameter.kind == Kind::text) return fmt::format("at most {} bytes", parameter.longest);
+  if (parameter.kind == OfferedType::text) return fmt::format("at most {} bytes", parameter.longest);
   if (parameter.elements == 0) return "";
   std::string text = fmt::format("{} elements", parameter.elements);
   if (std::isfinite(parameter.minimum)) text += fmt::format(", each at least {}", parameter.minimum);
@@ -167,8 +165,8 @@ std::string constraints_of(const Ros2Parameter& parameter) {
 
 void put_ranges(const Ros2Parameter& parameter, CdrWriter& writer) {
   const bool limited = std::isfinite(parameter.minimum) || std::isfinite(parameter.maximum);
-  const bool real = limited && parameter.kind == Kind::real;
-  const bool integer = limited && parameter.kind == Kind::integer;
+  const bool real = limited && parameter.kind == OfferedType::real;
+  const bool integer = limited && parameter.kind == OfferedType::integer;
   constexpr double most = std::numeric_limits<double>::max();
   writer.length(real ? 1 : 0);
   if (real) {

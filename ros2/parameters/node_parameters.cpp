@@ -46,7 +46,8 @@ NodeParameters::NodeParameters(Ros2Host& host, std::string node, std::set<std::s
 
 std::optional<std::string> NodeParameters::name_of(std::string_view path) const {
   const std::size_t dot = path.find(separator);
-  if (dot == std::string_view::npos || !agents_.contains(std::string(path.substr(0, dot)))) return std::nullopt;
+  if (dot == std::string_view::npos || !agents_.contains(std::string(path.substr(0, dot))))
+    return std::nullopt;
   return std::string(agents_.size() == 1 ? path.substr(dot + 1) : path);
 }
 

@@ -13,11 +13,11 @@
 namespace tessera::ros2 {
 namespace {
 
-using Kind = Ros2Parameter::Kind;
+using ParameterKind = Ros2Parameter::Kind;
 
 constexpr std::array<std::string_view, 10> type_names{
-    "not set",       "bool",          "integer",      "double",      "string", "array of bytes",
-    "array of bool", "integer array", "double array", "string array"};
+    "not set",        "bool",          "integer",       "double",       "string",
+    "array of bytes", "array of bool", "integer array", "double array", "string array"};
 
 template <class Value>
 std::optional<Value> element_of(std::string_view text) {
@@ -78,19 +78,19 @@ std::string written(const std::vector<Value>& values) {
 
 ParameterValue value_of(const Ros2Parameter& parameter) {
   switch (parameter.kind) {
-    case Kind::boolean:
+    case ParameterKind::boolean:
       return one_of<bool>(parameter.value);
-    case Kind::integer:
+    case ParameterKind::integer:
       return one_of<std::int64_t>(parameter.value);
-    case Kind::real:
+    case ParameterKind::real:
       return one_of<double>(parameter.value);
-    case Kind::text:
+    case ParameterKind::text:
       return parameter.value;
-    case Kind::booleans:
+    case ParameterKind::booleans:
       return all_of_array<bool>(parameter.value);
-    case Kind::integers:
+    case ParameterKind::integers:
       return all_of_array<std::int64_t>(parameter.value);
-    case Kind::reals:
+    case ParameterKind::reals:
       return all_of_array<double>(parameter.value);
   }
   return {};
@@ -99,10 +99,10 @@ ParameterValue value_of(const Ros2Parameter& parameter) {
 Result<std::string> text_for(const Ros2Parameter& parameter, const ParameterValue& value) {
   const auto wanted = static_cast<std::size_t>(parameter.kind);
   if (value.index() != wanted) {
-    std::string text = fmt::format("parameter {} is of type {}, not {}", parameter.path,
-                                   type_names[wanted], type_names[value.index()]);
+    std::string text = fmt::format("parameter {} is of type {}, not {}", parameter.path, type_names[wanted],
+                                   type_names[value.index()]);
     if (const auto* const whole = std::get_if<std::int64_t>(&value);
-        whole != nullptr && parameter.kind == Kind::real)
+        whole != nullptr && parameter.kind == ParameterKind::real)
       text += fmt::format(": write {}.0", *whole);
     return Problem{std::move(text)};
   }

@@ -26,9 +26,9 @@ struct Ros2Parameter {
   };
   std::string path;  ///< "robot.control.v"
   Kind kind = Kind::real;
-  std::string value;                                         ///< as `--set` takes it, without its unit
-  std::string unit{};                                        ///< empty: none
-  double minimum = -std::numeric_limits<double>::infinity(); /// of a number, or of each element
+  std::string value;                                          ///< as `--set` takes it, without its unit
+  std::string unit{};                                         ///< empty: none
+  double minimum = -std::numeric_limits<double>::infinity();  ///< of a number, or of each element
   double maximum = std::numeric_limits<double>::infinity();
   std::size_t longest = 0;   ///< bytes of a text
   std::size_t elements = 0;  ///< of an array

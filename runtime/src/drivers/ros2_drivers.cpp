@@ -3,6 +3,8 @@
 
 #include <cstdlib>
 #include <filesystem>
+#include <mutex>
+#include <optional>
 #include <system_error>
 #include <vector>
 
@@ -66,6 +68,15 @@ Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) 
   return binding;
 }
 
+struct UsedFolder {
+  std::mutex mutex;
+  std::optional<fs::path> path;
+};
+UsedFolder& used_folder() {
+  static UsedFolder folder;
+  return folder;
+}
+
 template <class Maker>
 auto make_with_library(const DriverSetup& setup, const ValueEncoding* encoding, const char* folder,
                        const char* name) {
@@ -74,10 +85,19 @@ auto make_with_library(const DriverSetup& setup, const ValueEncoding* encoding, 
   std::string error = "it cannot be made";
   auto device = maker(binding, error);
   if (device == nullptr) throw DriverError(error);
+  UsedFolder& used = used_folder();
+  const std::lock_guard lock(used.mutex);
+  used.path = folder;
   return device;
 }
 
 }  // namespace
+
+std::optional<fs::path> ros2_folder_in_use() {
+  UsedFolder& used = used_folder();
+  const std::lock_guard lock(used.mutex);
+  return used.path;
+}
 
 std::unique_ptr<RealReceptor> make_ros2_receptor(const DriverSetup& setup, const ValueEncoding* encoding,
                                                  const char* folder) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 namespace tessera {
 
@@ -24,23 +25,45 @@ ParameterChanges::ParameterChanges(std::vector<ParameterOwner> owners)
 }
 
 std::optional<Problem> ParameterChanges::ask(const std::string& path, const std::string& value) {
+  const std::pair one(path, value);
+  return ask_all({&one, 1});
+}
+
+std::optional<Problem> ParameterChanges::ask_all(
+    std::span<const std::pair<std::string, std::string>> values) {
   std::vector<CheckedValue> checked;
-  if (std::optional<Problem> wrong = check_parameter(owners_, path, value, checked)) return wrong;
-  for (CheckedValue& one : checked) {
-    Waiting& waiting = waiting_[one.owner];
-    const ParameterOwner& owner = owners_[one.owner];
-    std::string text = fmt::format("{}.{}={}", owner.path, one.parameter.name, value);
-    const auto place = std::ranges::find(owner.parameters, one.parameter.name, &Bindings::Parameter::name);
-    {
-      const std::lock_guard lock(offered_mutex_);
-      offered_[first_offered_[one.owner] + static_cast<std::size_t>(place - owner.parameters.begin())].value =
-          text_of(one.parameter, one.bytes.data());
+  std::vector<std::vector<Change>> changes(owners_.size());
+  std::vector<std::pair<std::size_t, const std::string*>> texts;  // the end of the checked ones of a value
+  for (const auto& [path, value] : values) {
+    if (std::optional<Problem> wrong = check_parameter(owners_, path, value, checked)) return wrong;
+    texts.emplace_back(checked.size(), &value);
+  }
+  std::size_t next = 0;
+  for (const auto& [end, value] : texts)
+    for (; next < end; ++next) {
+      CheckedValue& one = checked[next];
+      std::string text = note(one, *value);
+      std::vector<Change>& of_owner = changes[one.owner];
+      of_owner.push_back({std::move(one), std::move(text)});
     }
+  for (std::size_t owner = 0; owner < changes.size(); ++owner) {
+    if (changes[owner].empty()) continue;
+    Waiting& waiting = waiting_[owner];
     const std::lock_guard lock(waiting.mutex);
-    waiting.changes.push_back({std::move(one), std::move(text)});
+    std::ranges::move(changes[owner], std::back_inserter(waiting.changes));
     waiting.any.store(true, std::memory_order_release);
   }
   return std::nullopt;
+}
+
+/// Offers the new value. Returns the text about the change.
+std::string ParameterChanges::note(const CheckedValue& one, const std::string& value) {
+  const ParameterOwner& owner = owners_[one.owner];
+  const auto place = std::ranges::find(owner.parameters, one.parameter.name, &Bindings::Parameter::name);
+  const std::lock_guard lock(offered_mutex_);
+  offered_[first_offered_[one.owner] + static_cast<std::size_t>(place - owner.parameters.begin())].value =
+      text_of(one.parameter, one.bytes.data());
+  return fmt::format("{}.{}={}", owner.path, one.parameter.name, value);
 }
 
 std::optional<Problem> ParameterChanges::try_out(const std::string& path, const std::string& value) const {

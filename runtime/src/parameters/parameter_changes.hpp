@@ -5,6 +5,7 @@
 #include <memory>
 #include <mutex>
 #include <optional>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -27,6 +28,8 @@ class ParameterChanges {
   /// Returns the mistake in the request; nullopt: the change will take place. path: as in set_parameters.
   /// Threads: any.
   [[nodiscard]] std::optional<Problem> ask(const std::string& path, const std::string& value);
+  /// The same for several, of which all will take place or none. Those of one subsystem take place at once.
+  [[nodiscard]] std::optional<Problem> ask_all(std::span<const std::pair<std::string, std::string>> values);
   /// The same mistakes; nothing changes. Threads: any.
   [[nodiscard]] std::optional<Problem> try_out(const std::string& path, const std::string& value) const;
   /// Whether a subsystem here has a parameter that `path` names. Threads: any.
@@ -34,6 +37,8 @@ class ParameterChanges {
 
   /// All parameters, with the values that were requested last. Threads: any.
   [[nodiscard]] std::vector<Offered::Value> offered() const;
+  /// The owners: their parameters have the order of `offered`. The values are those of the subsystems.
+  [[nodiscard]] std::span<const ParameterOwner> owners() const { return owners_; }
 
   /// Applies the changes that wait for a subsystem, in the order of the requests, and calls
   /// `tell("robot.control.v=0.3")` for each. Never waits: changes that are being requested at the moment
@@ -63,6 +68,8 @@ class ParameterChanges {
     std::mutex mutex;
     std::vector<Change> changes;
   };
+  [[nodiscard]] std::string note(const CheckedValue& one, const std::string& value);
+
   std::vector<ParameterOwner> owners_;
   std::unique_ptr<Waiting[]> waiting_;  // per instance
   /// The subsystems use the values themselves, so that no other thread may read them while the system runs.

@@ -206,6 +206,7 @@ void SteadyRun::start_threads(Assembly& assembly) {
     ++started_;
   }
   if (monitor_ && assembly.carrier != nullptr) status_.emplace(assembly, clock_);
+  shown_ = ShownInRos2::of(assembly, clock_);
 }
 
 void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& securing) {

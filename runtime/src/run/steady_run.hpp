@@ -16,6 +16,7 @@
 #include "watch/emergency_watch.hpp"
 #include "watch/liveness.hpp"
 #include "watch/monitor.hpp"
+#include "watch/ros2_host.hpp"
 #include "watch/status_sender.hpp"
 #include "watch/stillness.hpp"
 #include "watch/stuck.hpp"
@@ -101,6 +102,7 @@ class SteadyRun final : public Waker {
   std::unique_ptr<MonitorSocket> listening_;  // until there is a monitor
   std::optional<Monitor> monitor_;            // the last members: they look at the others
   std::optional<StatusSender> status_;
+  std::unique_ptr<ShownInRos2> shown_;
 };
 
 }  // namespace tessera

@@ -1,0 +1,121 @@
+#include "watch/ros2_host.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <utility>
+
+#include "drivers/ros2_library.hpp"
+#include "system/console.hpp"
+#include "tessera/device.hpp"
+#include "watch/snapshot.hpp"
+
+namespace tessera {
+namespace {
+
+using OfferedKind = Ros2Parameter::Kind;
+
+/// nullopt: a structure.
+std::optional<OfferedKind> ros2_kind_of(const Bindings::Parameter& parameter) {
+  if (parameter.capacity > 0) return OfferedKind::text;
+  if (!parameter.scalar) return std::nullopt;
+  const bool array = parameter.elements > 0;
+  switch (*parameter.scalar) {
+    case Scalar::boolean:
+      return array ? OfferedKind::booleans : OfferedKind::boolean;
+    case Scalar::float32:
+    case Scalar::float64:
+      return array ? OfferedKind::reals : OfferedKind::real;
+    default:
+      return array ? OfferedKind::integers : OfferedKind::integer;
+  }
+}
+
+/// Raises the level of a status and adds a reason.
+void worsen(Ros2Status& status, Ros2Status::Level level, const std::string& why) {
+  status.level = std::max(status.level, level);
+  status.message += (status.message.empty() ? "" : "; ") + why;
+}
+
+}  // namespace
+
+std::vector<Ros2Parameter> ros2_parameters(std::span<const ParameterOwner> owners,
+                                           std::span<const Offered::Value> values) {
+  std::vector<Ros2Parameter> all;
+  std::size_t next = 0;
+  for (const ParameterOwner& owner : owners)
+    for (const Bindings::Parameter& one : owner.parameters) {
+      const Offered::Value& offered = values[next++];
+      const std::optional<OfferedKind> kind = ros2_kind_of(one);
+      if (kind)
+        all.push_back({.path = offered.path,
+                       .kind = *kind,
+                       .value = offered.value,
+                       .unit = offered.unit,
+                       .minimum = one.minimum,
+                       .maximum = one.maximum,
+                       .longest = one.capacity,
+                       .elements = one.elements});
+    }
+  return all;
+}
+
+std::vector<Ros2Status> Ros2Statuses::of(const Snapshot& snapshot) {
+  using Level = Ros2Status::Level;
+  std::vector<Ros2Status> all;
+  for (const Snapshot::Subsystem& one : snapshot.subsystems) {
+    Ros2Status& status = all.emplace_back();
+    status.path = one.path;
+    if (snapshot.emergency) worsen(status, Level::error, "emergency stop: " + *snapshot.emergency);
+    if (one.errors > 0) worsen(status, Level::error, fmt::format("{} faults", one.errors));
+    const auto last = overruns_.find(one.path);
+    if (const std::uint64_t before = last == overruns_.end() ? 0 : last->second; one.overruns > before)
+      worsen(status, Level::warn, fmt::format("{} new overruns", one.overruns - before));
+    overruns_[one.path] = one.overruns;
+    for (const Snapshot::Wait& wait : snapshot.waits)  // may be what it should do
+      if (wait.subsystem == one.path)
+        worsen(status, Level::ok,
+               fmt::format("waits for {} ({:.1f} s)", wait.waits_for, snapshot.time_s - wait.since_s));
+    if (one.ended) worsen(status, Level::stale, "has ended");
+    if (status.message.empty()) status.message = one.behaviour.value_or("has not begun");
+    status.values = {{"behaviour", one.behaviour.value_or("")},
+                     {"iterations", std::to_string(one.iterations)},
+                     {"firings", std::to_string(one.firings)},
+                     {"overruns", std::to_string(one.overruns)},
+                     {"faults", std::to_string(one.errors)},
+                     {"period_ms", fmt::format("{:.3f}", one.period_s * 1e3)},
+                     {"longest_call_ms", fmt::format("{:.3f}", one.longest_call_s * 1e3)}};
+  }
+  return all;
+}
+
+std::unique_ptr<ShownInRos2> ShownInRos2::of(Assembly& assembly, const Clock& clock) {
+  const std::optional<std::filesystem::path> folder = ros2_folder_in_use();
+  if (!folder) return nullptr;
+  std::unique_ptr<ShownInRos2> shown(new ShownInRos2(assembly, clock));
+  std::string error;
+  try {
+    const auto make = reinterpret_cast<Ros2NodesMaker>(ros2_function({*folder}, ros2_nodes_function));
+    shown->nodes_ = make(*shown, error);
+  } catch (const DriverError& problem) {
+    error = problem.what();
+  }
+  if (!error.empty())
+    console::print(LogLevel::warning, clock.now(), "tessera",
+                   fmt::format("ROS 2 sees no parameters and diagnostics of this run: {}", error));
+  return shown->nodes_ == nullptr ? nullptr : std::move(shown);
+}
+
+std::vector<Ros2Parameter> ShownInRos2::parameters() const {
+  return ros2_parameters(assembly_.changes->owners(), assembly_.changes->offered());
+}
+
+std::optional<std::string> ShownInRos2::set(std::span<const Change> changes) {
+  std::optional<Problem> wrong = assembly_.changes->ask_all(changes);
+  return wrong ? std::optional(std::move(wrong->text)) : std::nullopt;
+}
+
+std::vector<Ros2Status> ShownInRos2::statuses() { return statuses_.of(take_snapshot(assembly_, clock_)); }
+
+}  // namespace tessera

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "assembly/assembly.hpp"
+#include "tessera/control_messages.hpp"
+#include "tessera/ros2_nodes.hpp"
+
+namespace tessera {
+
+/// The parameters of ROS 2 for those of subsystems, with their values. Structures are left out: they cannot be given.
+/// values: as ParameterChanges::offered.
+[[nodiscard]] std::vector<Ros2Parameter> ros2_parameters(std::span<const ParameterOwner> owners,
+                                                         std::span<const Offered::Value> values);
+
+/// The states of the subsystems, as diagnostics show them. A warning about overruns ends when there is no new one.
+///
+/// Threads: one at a time.
+class Ros2Statuses {
+ public:
+  [[nodiscard]] std::vector<Ros2Status> of(const Snapshot& snapshot);
+
+ private:
+  std::map<std::string, std::uint64_t> overruns_;  ///< in the last snapshot
+};
+
+/// A run as nodes of ROS 2 show it.
+class ShownInRos2 final : public Ros2Host {
+ public:
+  /// nullptr: the run has no driver of ROS 2, or a warning says why it is not shown. The assembly must outlive it.
+  [[nodiscard]] static std::unique_ptr<ShownInRos2> of(Assembly& assembly, const Clock& clock);
+
+  [[nodiscard]] std::vector<Ros2Parameter> parameters() const override;
+  [[nodiscard]] std::optional<std::string> set(std::span<const Change> changes) override;
+  [[nodiscard]] std::vector<Ros2Status> statuses() override;
+  [[nodiscard]] std::string system() const override { return std::string(assembly_.system.name); }
+
+ private:
+  ShownInRos2(Assembly& assembly, const Clock& clock) : assembly_(assembly), clock_(clock) {}
+
+  Assembly& assembly_;
+  const Clock& clock_;
+  Ros2Statuses statuses_;
+  std::unique_ptr<Ros2Nodes> nodes_;  ///< the last member: it uses the others
+};
+
+}  // namespace tessera

@@ -68,10 +68,12 @@ std::vector<Ros2Status> Ros2Statuses::of(const Snapshot& snapshot) {
     Ros2Status& status = all.emplace_back();
     status.path = one.path;
     if (snapshot.emergency) worsen(status, Level::error, "emergency stop: " + *snapshot.emergency);
-    if (one.errors > 0) worsen(status, Level::error, fmt::format("{} faults", one.errors));
+    if (one.errors > 0)
+      worsen(status, Level::error, fmt::format("{} fault{}", one.errors, one.errors == 1 ? "" : "s"));
     const auto last = overruns_.find(one.path);
     if (const std::uint64_t before = last == overruns_.end() ? 0 : last->second; one.overruns > before)
-      worsen(status, Level::warn, fmt::format("{} new overruns", one.overruns - before));
+      worsen(status, Level::warn,
+             fmt::format("{} new overrun{}", one.overruns - before, one.overruns - before == 1 ? "" : "s"));
     overruns_[one.path] = one.overruns;
     for (const Snapshot::Wait& wait : snapshot.waits)  // may be what it should do
       if (wait.subsystem == one.path)

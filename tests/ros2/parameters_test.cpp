@@ -1,7 +1,10 @@
 // The parameters of a node of ROS 2 and its diagnostics as messages, without DDS.
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cstdint>
+#include <limits>
+#include <optional>
 #include <random>
 #include <span>
 #include <string>
@@ -16,7 +19,7 @@ namespace tessera::ros2 {
 namespace {
 
 using Bytes = std::vector<std::byte>;
-using Kind = Ros2Parameter::Kind;
+using ParameterKind = Ros2Parameter::Kind;
 
 class Robots final : public Ros2Host {
  public:
@@ -33,15 +36,16 @@ class Robots final : public Ros2Host {
   [[nodiscard]] std::string system() const override { return "depot"; }
 
   std::vector<Ros2Parameter> all{
-      {"robot.control.gain", Kind::real, "0.5", "m/s", 0, 10},
-      {"robot.control.level", Kind::integer, "-3", "", -8, 8},
-      {"robot.control.label", Kind::text, "red, [1]", "", 0, 0, 16},
-      {"robot.arm.points", Kind::reals, "[0.5, 2, -1e-05]", "m", -5, 5, 0, 3},
-      {"robot.arm.on", Kind::boolean, "true"},
-      {"robot.arm.used", Kind::booleans, "[true, false]", "", 0, 0, 0, 2},
-      {"robot.arm.steps", Kind::integers, "[1, -2]", "", -9, std::numeric_limits<double>::infinity(), 0, 2},
-      {"robot.arm.beyond", Kind::integer, "18446744073709551615"},
-      {"cart.drive.gain", Kind::real, "1"}};
+      {"robot.control.gain", ParameterKind::real, "0.5", "m/s", 0, 10},
+      {"robot.control.level", ParameterKind::integer, "-3", "", -8, 8},
+      {"robot.control.label", ParameterKind::text, "red, [1]", "", 0, 0, 16},
+      {"robot.arm.points", ParameterKind::reals, "[0.5, 2, -1e-05]", "m", -5, 5, 0, 3},
+      {"robot.arm.on", ParameterKind::boolean, "true"},
+      {"robot.arm.used", ParameterKind::booleans, "[true, false]", "", 0, 0, 0, 2},
+      {"robot.arm.steps", ParameterKind::integers, "[1, -2]", "", -9, std::numeric_limits<double>::infinity(),
+       0, 2},
+      {"robot.arm.beyond", ParameterKind::integer, "18446744073709551615"},
+      {"cart.drive.gain", ParameterKind::real, "1"}};
 };
 
 /// A message in words: "names: [a, b]". It is walked over by the definition that is shipped, an independent judge of
@@ -83,15 +87,16 @@ class Words {
     double real = 0;
     std::int64_t whole = 0;
     if (type.primitive == Primitive::float64 || type.primitive == Primitive::float32) {
-      convert(type.primitive, bytes.data(), false, Primitive::float64, reinterpret_cast<std::byte*>(&real),
-              1);
+      static_cast<void>(convert(type.primitive, bytes.data(), false, Primitive::float64,
+                                reinterpret_cast<std::byte*>(&real), 1));
       std::string text = std::to_string(real);
       while (text.ends_with('0')) text.pop_back();
       if (text.ends_with('.')) text.pop_back();
       return text;
     }
     const Primitive from = type.primitive == Primitive::boolean ? Primitive::uint8 : type.primitive;
-    convert(from, bytes.data(), false, Primitive::int64, reinterpret_cast<std::byte*>(&whole), 1);
+    static_cast<void>(
+        convert(from, bytes.data(), false, Primitive::int64, reinterpret_cast<std::byte*>(&whole), 1));
     return std::to_string(whole);
   }
   CdrReader& reader_;
@@ -234,7 +239,7 @@ TEST_F(ParametersOfANode, ArraysAndTextsAreSet) {
   writer.text("arm.used");
   value(writer, 6, [&] {
     writer.length(2);
-    for (const std::uint8_t flag : {0, 1}) writer.number(&flag, 1);
+    for (const std::uint8_t flag : std::array<std::uint8_t, 2>{0, 1}) writer.number(&flag, 1);
   });
   writer.finish();
   EXPECT_EQ(reply(ParameterService::set_all, bytes), "{result={successful=1}}");

@@ -110,7 +110,7 @@ TEST(ShownInRos2, StatusesTellOfFaultsNewOverrunsWaitsAndStops) {
   EXPECT_EQ(shown[0].message, "1 fault");
   EXPECT_EQ(shown[1].level, stale);
   snapshot.emergency = "an operator asks for it";
-  for (const Ros2Status& one : statuses.of(snapshot)) EXPECT_GE(one.level, error) << one.path;
+  for (const Ros2Status& one : statuses.of(snapshot)) EXPECT_EQ(one.level, error) << one.path;
 }
 
 }  // namespace

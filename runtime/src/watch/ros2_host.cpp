@@ -79,7 +79,7 @@ std::vector<Ros2Status> Ros2Statuses::of(const Snapshot& snapshot) {
       if (wait.subsystem == one.path)
         worsen(status, Level::ok,
                fmt::format("waits for {} ({:.1f} s)", wait.waits_for, snapshot.time_s - wait.since_s));
-    if (one.ended) worsen(status, Level::stale, "has ended");
+    if (one.ended) worsen(status, status.level == Level::ok ? Level::stale : status.level, "has ended");
     if (status.message.empty()) status.message = one.behaviour.value_or("has not begun");
     status.values = {{"behaviour", one.behaviour.value_or("")},
                      {"iterations", std::to_string(one.iterations)},

@@ -1,4 +1,4 @@
-// The example as its users run it: a generated controller, and a base of another implementation of DDS.
+// The example as its users run it: a generated controller, and a robot with another implementation of DDS.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -11,6 +11,7 @@
 #include <iterator>
 #include <map>
 #include <memory>
+#include <set>
 #include <string>
 
 #include "fast_peer.hpp"
@@ -22,14 +23,14 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The example in a folder of its own. Its run waits for the base, so the result does not depend on time.
+/// The example in a folder of its own. Its run waits for the robot, so the result does not depend on time.
 fs::path copy_of_example() {
-  fs::path folder = fs::path(testing::TempDir()) / ("ros2_base_" + std::to_string(getpid()));
-  fs::copy(fs::path(TESSERA_SOURCE_DIR) / "examples/10_ros2_base", folder, fs::copy_options::recursive);
+  fs::path folder = fs::path(testing::TempDir()) / ("ros2_patrol_" + std::to_string(getpid()));
+  fs::copy(fs::path(TESSERA_SOURCE_DIR) / "examples/10_patrol", folder, fs::copy_options::recursive);
   std::ifstream stream(folder / "spec.yaml");
   std::string text{std::istreambuf_iterator<char>(stream), {}};
-  for (const std::string end : {"qos: sensor", "angular.z: omega }"})
-    text.insert(text.find(end) + end.size(), ", wait: 100 s");
+  text.insert(text.find("qos: sensor") + 11, ", wait: 100 s");
+  text.insert(text.find("    frame_id: map\n"), "    wait: 100 s\n");
   std::ofstream(folder / "spec.yaml") << text;
   return folder;
 }
@@ -39,13 +40,13 @@ std::string content_of(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), {}};
 }
 
-/// The topics of the sensors alone, at the times of a wall clock.
+/// The topics of the battery and of the operator alone, at the times of a wall clock.
 void write_topics(const fs::path& bag, const fs::path& topics) {
   mcap::Writer writer("ros2", "another program");
   std::map<std::string, std::uint16_t> channels;
   mcap::read(content_of(bag), {.message = [&](const mcap::ReadMessage& one) {
                const std::string& topic = one.channel.topic;
-               if (topic != "/scan" && topic != "/odom") return;
+               if (topic != "/battery_state" && topic != "/patrol/pause") return;
                if (!channels.contains(topic))
                  channels[topic] = writer.add_channel(
                      {0,
@@ -61,29 +62,57 @@ void write_topics(const fs::path& bag, const fs::path& topics) {
   std::ofstream(topics, std::ios::binary) << writer.take();
 }
 
-TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
+/// What the robot says at its end.
+struct Summary {
+  int goals = 0, succeeded = 0, aborted = 0, canceled = 0, canceled_low = 0, charged = 0, under_way = -1;
+};
+
+Summary summary_of(FILE& output) {
+  Summary read;
+  EXPECT_EQ(std::fscanf(&output,
+                        "goals %d, succeeded %d, aborted %d, canceled %d, below 20 %%: %d, charged %d, "
+                        "under way %d",
+                        &read.goals, &read.succeeded, &read.aborted, &read.canceled, &read.canceled_low,
+                        &read.charged, &read.under_way),
+            7);
+  return read;
+}
+
+TEST(Example, PatrolsAndRecoversAndChargesAndCancelsAtTheEnd) {
   const fs::path project = copy_of_example();
   const std::string domain = std::to_string(10 + getpid() % 50);
-  const std::string base = std::string(TESSERA_ROS2_BASE) + " " + domain + " 200";
-  const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(base.c_str(), "r"), pclose);
+  const std::string robot = std::string(TESSERA_ROS2_NAVIGATOR) + " " + domain + " 200";
+  const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(robot.c_str(), "r"), pclose);
   ASSERT_NE(output, nullptr);
+  fast::Peer operators(static_cast<std::uint32_t>(std::stoi(domain)));
+  auto* const pauses = operators.writer<fast::Bool>("rt/patrol/pause");
+  auto* const reports = operators.reader<fast::Text>("rt/patrol/report");
   const std::string run = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera run " +
-                          project.string() + " --for 3s --mcap " + (project / "base.mcap").string() + " > " +
-                          (project / "run.log").string() + " 2>&1";
-  EXPECT_EQ(std::system(run.c_str()), 0);
-  std::ifstream log(project / "run.log");
-  int commands = 0;
-  double driven_m = 0, nearest_m = 0, last_v = -1;
-  EXPECT_EQ(std::fscanf(output.get(), "commands %d, driven %lf m, nearest wall %lf m, last v %lf", &commands,
-                        &driven_m, &nearest_m, &last_v),
-            4)
-      << std::string(std::istreambuf_iterator<char>(log), {});
-  EXPECT_GT(commands, 10);
-  EXPECT_GT(driven_m, 0.05);
-  EXPECT_EQ(last_v, 0) << "the safe command";
+                          project.string() + " --for 12s --mcap " + (project / "patrol.mcap").string() +
+                          " > " + (project / "run.log").string() + " 2>&1";
+  // The operator wants a pause as soon as the robot is on its way to the second station, until it stands.
+  std::set<std::string> said;
+  std::future<int> ran = std::async(std::launch::async, [&] { return std::system(run.c_str()); });
+  while (ran.wait_for(std::chrono::milliseconds(5)) != std::future_status::ready)
+    while (const auto report = fast::Peer::take<fast::Text>(*reports)) {
+      said.insert(report->data);
+      fast::Bool pause{said.contains("to station 1") && !said.contains("paused")};
+      pauses->write(&pause);
+    }
+  EXPECT_EQ(ran.get(), 0) << content_of(project / "run.log");
+  const Summary robot_did = summary_of(*output);
+  EXPECT_GE(robot_did.goals, 6) << content_of(project / "run.log");
+  EXPECT_GE(robot_did.succeeded, 4);
+  EXPECT_EQ(robot_did.aborted, 1) << "no goal is given up for another one";
+  EXPECT_GE(robot_did.canceled, 2) << "the operator and the battery";
+  EXPECT_EQ(robot_did.canceled_low, 1);
+  EXPECT_EQ(robot_did.charged, 1);
+  EXPECT_EQ(robot_did.under_way, 0) << "the safe command";
+  for (const char* words : {"to station 0", "to station 2", "recovers", "to the dock", "charges", "paused"})
+    EXPECT_TRUE(said.contains(words)) << words;
 
   // The same code on the topics of a bag that another program might have written, twice the same.
-  write_topics(project / "base.mcap", project / "topics.mcap");
+  write_topics(project / "patrol.mcap", project / "topics.mcap");
   for (const char* file : {"a.tsr", "b.tsr"}) {
     const std::string from = TESSERA_BINARY_DIR "/tessera simulate " + project.string() + " --from " +
                              (project / "topics.mcap").string() + " --record " + (project / file).string() +
@@ -96,10 +125,10 @@ TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
   // Once more in a simulated run, whose clock others follow.
   fast::Peer follower(static_cast<std::uint32_t>(std::stoi(domain)));
   auto* const clocks = follower.reader<fast::Clock>("rt/clock");
-  const std::unique_ptr<FILE, int (*)(FILE*)> again(popen(base.c_str(), "r"), pclose);
+  const std::unique_ptr<FILE, int (*)(FILE*)> again(popen(robot.c_str(), "r"), pclose);
   const std::string simulate = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera simulate " +
                                project.string() +
-                               " --hardware robot.laser --hardware robot.wheels --hardware robot.base"
+                               " --hardware robot.legs --hardware robot.eyes --hardware robot.gauge"
                                " --ros2-clock lo --for 2s >> " +
                                (project / "run.log").string() + " 2>&1";
   std::future<int> result = std::async(std::launch::async, [&] { return std::system(simulate.c_str()); });
@@ -120,6 +149,7 @@ TEST(Example, DrivesABaseOverTopicsAndStopsItAtTheEnd) {
   EXPECT_GT(ticks, 50);
   EXPECT_GT(last_s, 1);
   EXPECT_LE(last_s, 2.0);
+  EXPECT_GE(summary_of(*again).goals, 1);
   fs::remove_all(project);
 }
 

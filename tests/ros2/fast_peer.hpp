@@ -50,6 +50,14 @@ struct Text {
     all(data);
   }
 };
+struct Bool {
+  static constexpr const char* name = "std_msgs::msg::dds_::Bool_";
+  bool data = false;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(data);
+  }
+};
 struct Twist {
   static constexpr const char* name = "geometry_msgs::msg::dds_::Twist_";
   double linear_x = 0, linear_y = 0, linear_z = 0, angular_x = 0, angular_y = 0, angular_z = 0;

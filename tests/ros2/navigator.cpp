@@ -1,84 +1,225 @@
-// A robot base with ROS 2 over Fast DDS that also simulates its world: it drives in a room of 6 m x 6 m, and
-// sends scans and odometry. For examples/10_ros2_base.
+// A robot with the action /navigate_to_pose and a battery, with ROS 2 over Fast DDS, as Nav2 and a base would
+// have them. For examples/10_patrol.
 //
-//     ros2_base [DOMAIN [SECONDS]]
+//     ros2_navigator [DOMAIN [SECONDS]]
 //
-// It ends after that time, or when a controller has come and gone. At the end it prints a summary: "commands
-// 180, driven 2.31 m, nearest wall 0.62 m, last v 0.0".
+// It drives straight to its goal, and charges at (0, 0). Each metre costs 12.5 % of the battery; below 20 % it
+// creeps. Its second goal is aborted, as by something in the way. It ends after that time, or when a controller
+// has come and gone, and prints a summary: "goals 8, succeeded 5, aborted 1, canceled 2, below 20 %: 1, charged
+// 1, under way 0".
 #include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
-#include <numbers>
+#include <map>
+#include <optional>
+#include <string>
 #include <thread>
+#include <utility>
 
-#include "fast_peer.hpp"
+#include "fast_action.hpp"
 
 namespace {
 
-constexpr double half_room_m = 3, step_s = 0.02;
-constexpr int rays = 36;
+struct NavigateRequest {
+  static constexpr const char* name = "nav2_msgs::action::dds_::NavigateToPose_SendGoal_Request_";
+  std::uint64_t client = 0;
+  std::int64_t sequence = 0;
+  fast::Uuid uuid{};
+  fast::PoseStamped pose;
+  std::string behaviour_tree;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(client, sequence, uuid);
+    pose.header.fields(all);
+    for (double& number : pose.pose) all(number);
+    all(behaviour_tree);
+  }
+};
+struct NavigateResponse : fast::SendGoalResponse {
+  static constexpr const char* name = "nav2_msgs::action::dds_::NavigateToPose_SendGoal_Response_";
+};
+struct ResultRequest : fast::GetResultRequest {
+  static constexpr const char* name = "nav2_msgs::action::dds_::NavigateToPose_GetResult_Request_";
+};
+struct ResultResponse {
+  static constexpr const char* name = "nav2_msgs::action::dds_::NavigateToPose_GetResult_Response_";
+  std::uint64_t client = 0;
+  std::int64_t sequence = 0;
+  std::int8_t status = 0;
+  std::uint16_t error_code = 0;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(client, sequence, status, error_code);
+  }
+};
+struct NavigateFeedback {
+  static constexpr const char* name = "nav2_msgs::action::dds_::NavigateToPose_FeedbackMessage_";
+  fast::Uuid uuid{};
+  fast::PoseStamped current;
+  std::int32_t navigation_s = 0, remaining_s = 0;
+  std::uint32_t navigation_ns = 0, remaining_ns = 0;
+  std::int16_t recoveries = 0;
+  float distance_remaining = 0;
+  template <class Archive>
+  void fields(Archive& all) {
+    all(uuid);
+    current.header.fields(all);
+    for (double& number : current.pose) all(number);
+    all(navigation_s, navigation_ns, remaining_s, remaining_ns, recoveries, distance_remaining);
+  }
+};
+struct BatteryState {
+  static constexpr const char* name = "sensor_msgs::msg::dds_::BatteryState_";
+  fast::Header header;
+  float voltage = 24, temperature = NAN, current = NAN, charge = NAN, capacity = NAN, design_capacity = NAN,
+        percentage = 1;
+  std::uint8_t status = 0, health = 0, technology = 0;
+  bool present = true;
+  std::vector<float> cell_voltage, cell_temperature;
+  std::string location, serial_number;
+  template <class Archive>
+  void fields(Archive& all) {
+    header.fields(all);
+    all(voltage, temperature, current, charge, capacity, design_capacity, percentage, status, health,
+        technology, present, cell_voltage, cell_temperature, location, serial_number);
+  }
+};
 
-class Base {
+constexpr double step_s = 0.02, low = 0.2;
+constexpr std::int8_t executing = 2, canceling = 3, succeeded = 4, canceled = 5, aborted = 6, unknown = 0;
+
+/// One goal at a time, as Nav2 has it: a new one takes the place of the one before, which is aborted.
+class Navigator {
  public:
-  void obey(const fast::Twist& twist) {
-    v_ = twist.linear_x;
-    omega_ = twist.angular_z;
-    ++commands_;
-  }
+  explicit Navigator(fast::Peer& peer)
+      : goals_(peer.reader<NavigateRequest>("rq" + action + "send_goalRequest", false, id(1))),
+        answers_(peer.writer<NavigateResponse>("rr" + action + "send_goalReply", true, id(1))),
+        questions_(peer.reader<ResultRequest>("rq" + action + "get_resultRequest", false, id(2))),
+        results_(peer.writer<ResultResponse>("rr" + action + "get_resultReply", true, id(2))),
+        cancels_(peer.reader<fast::CancelGoalRequest>("rq" + action + "cancel_goalRequest", false, id(3))),
+        cancelled_(peer.writer<fast::CancelGoalResponse>("rr" + action + "cancel_goalReply", true, id(3))),
+        feedback_(peer.writer<NavigateFeedback>("rt" + action + "feedback")),
+        states_(peer.writer<fast::StatusArray>("rt" + action + "status", true, "", /*transient_local=*/true)),
+        battery_(peer.writer<BatteryState>("rt/battery_state", /*reliable=*/false)) {}
 
-  void move() {
-    heading_ += omega_ * step_s;
-    x_ = std::clamp(x_ + v_ * std::cos(heading_) * step_s, -half_room_m, half_room_m);
-    y_ = std::clamp(y_ + v_ * std::sin(heading_) * step_s, -half_room_m, half_room_m);
-    driven_ += std::abs(v_) * step_s;
-    nearest_ = std::min(nearest_, half_room_m - std::max(std::abs(x_), std::abs(y_)));
-  }
+  [[nodiscard]] bool has_client() const { return fast::Peer::is_matched(*goals_); }
 
-  [[nodiscard]] fast::LaserScan scan() const {
-    fast::LaserScan scan;
-    scan.header.frame_id = "laser";
-    scan.angle_min = -std::numbers::pi_v<float>;
-    scan.angle_increment = 2 * std::numbers::pi_v<float> / rays;
-    scan.range_max = 5;
-    for (int ray = 0; ray < rays; ++ray) {
-      const auto range = static_cast<float>(distance(heading_ + (2.0 * ray / rays - 1) * std::numbers::pi));
-      scan.ranges.push_back(range > scan.range_max ? std::numeric_limits<float>::infinity() : range);
-    }
-    return scan;
-  }
-
-  [[nodiscard]] fast::Odometry odometry() const {
-    fast::Odometry odometry;
-    odometry.header.frame_id = "odom";
-    odometry.child_frame_id = "base_link";
-    odometry.x = x_;
-    odometry.y = y_;
-    odometry.qz = std::sin(heading_ / 2);
-    odometry.qw = std::cos(heading_ / 2);
-    odometry.twist.linear_x = v_;
-    return odometry;
+  void step() {
+    while (const auto order = fast::Peer::take<NavigateRequest>(*goals_)) begin(*order);
+    while (const auto wish = fast::Peer::take<fast::CancelGoalRequest>(*cancels_)) cancel(*wish);
+    while (const auto question = fast::Peer::take<ResultRequest>(*questions_)) ask(*question);
+    if (status_ == executing) drive();
+    charge();
+    if (++steps_ % 5 != 0) return;
+    BatteryState battery;
+    battery.percentage = static_cast<float>(charge_);
+    battery_->write(&battery);
+    if (status_ != executing) return;
+    NavigateFeedback feedback{.uuid = goal_, .distance_remaining = static_cast<float>(distance())};
+    feedback_->write(&feedback);
   }
 
   void report() const {
-    std::printf("commands %d, driven %.2f m, nearest wall %.2f m, last v %.1f\n", commands_, driven_,
-                nearest_, v_);
+    std::printf(
+        "goals %d, succeeded %d, aborted %d, canceled %d, below 20 %%: %d, charged %d, under way %d\n",
+        ordered_, ended(succeeded), ended(aborted), ended(canceled), canceled_low_, charged_,
+        status_ == executing ? 1 : 0);
   }
 
  private:
-  /// To the walls of the room, in that direction.
-  [[nodiscard]] double distance(double angle) const {
-    const double dx = std::cos(angle), dy = std::sin(angle);
-    const double far = 100;
-    const double to_x = dx == 0 ? far : (std::copysign(half_room_m, dx) - x_) / dx;
-    const double to_y = dy == 0 ? far : (std::copysign(half_room_m, dy) - y_) / dy;
-    return std::min(to_x, to_y);
+  void begin(const NavigateRequest& order) {
+    if (status_ == executing) end(aborted);
+    goal_ = order.uuid;
+    goal_x_ = order.pose.pose[0];
+    goal_y_ = order.pose.pose[1];
+    NavigateResponse answer;
+    answer.client = order.client;
+    answer.sequence = order.sequence;
+    answer.accepted = order.pose.header.frame_id == "map";
+    answers_->write(&answer);
+    ++ordered_;
+    if (!answer.accepted) return;
+    status_ = executing;
+    publish();
+    if (ordered_ == 2) end(aborted);
+  }
+  void cancel(const fast::CancelGoalRequest& wish) {
+    const bool known = status_ == executing && (wish.uuid == goal_ || wish.uuid == fast::Uuid{});
+    fast::CancelGoalResponse answer{wish.client, wish.sequence, static_cast<std::int8_t>(known ? 0 : 2),
+                                    goal_};
+    cancelled_->write(&answer);
+    if (!known) return;
+    status_ = canceling;
+    publish();
+    if (charge_ < low) ++canceled_low_;
+    end(canceled);
+  }
+  /// The result of a goal under way is given at its end.
+  void ask(const ResultRequest& question) {
+    if (question.uuid == goal_ && status_ == executing) {
+      asked_ = question;
+      return;
+    }
+    const auto result = ends_.find(question.uuid);
+    answer(question, result == ends_.end() ? unknown : result->second);
+  }
+  void answer(const ResultRequest& question, std::int8_t status) {
+    ResultResponse response{question.client, question.sequence, status};
+    results_->write(&response);
+  }
+  void end(std::int8_t status) {
+    status_ = status;
+    ends_[goal_] = status;
+    publish();
+    if (asked_) answer(*asked_, status);
+    asked_.reset();
+  }
+  void publish() {
+    fast::StatusArray all;
+    all.goals.push_back({goal_, 0, 0, status_});
+    states_->write(&all);
   }
 
-  double x_ = 0, y_ = 0, heading_ = 0, v_ = 0, omega_ = 0, driven_ = 0, nearest_ = half_room_m;
-  int commands_ = 0;
+  [[nodiscard]] double distance() const { return std::hypot(goal_x_ - x_, goal_y_ - y_); }
+  void drive() {
+    const double far = distance(), step = std::min(far, (charge_ < low ? 1 : 4) * step_s);
+    if (far > 0) {
+      x_ += step * (goal_x_ - x_) / far;
+      y_ += step * (goal_y_ - y_) / far;
+    }
+    charge_ = std::max(0.0, charge_ - 0.125 * step);
+    if (distance() < 0.01) end(succeeded);
+  }
+  void charge() {
+    if (status_ == executing || ordered_ == 0 || std::hypot(x_, y_) > 0.02) return;
+    if (charge_ < low) ++charged_;
+    charge_ = std::min(1.0, std::max(low, charge_ + step_s));
+  }
+  [[nodiscard]] int ended(std::int8_t status) const {
+    return static_cast<int>(
+        std::ranges::count_if(ends_, [&](const auto& one) { return one.second == status; }));
+  }
+  static std::string id(int number) { return "serviceid=01.0f." + std::to_string(number) + ";"; }
+
+  const std::string action = "/navigate_to_pose/_action/";
+  eprosima::fastdds::dds::DataReader* goals_;
+  eprosima::fastdds::dds::DataWriter* answers_;
+  eprosima::fastdds::dds::DataReader* questions_;
+  eprosima::fastdds::dds::DataWriter* results_;
+  eprosima::fastdds::dds::DataReader* cancels_;
+  eprosima::fastdds::dds::DataWriter* cancelled_;
+  eprosima::fastdds::dds::DataWriter* feedback_;
+  eprosima::fastdds::dds::DataWriter* states_;
+  eprosima::fastdds::dds::DataWriter* battery_;
+
+  fast::Uuid goal_{};
+  std::int8_t status_ = unknown;
+  std::optional<ResultRequest> asked_;
+  std::map<fast::Uuid, std::int8_t> ends_;
+  double goal_x_ = 0, goal_y_ = 0, x_ = 0, y_ = 0, charge_ = 1;
+  int steps_ = 0, ordered_ = 0, canceled_low_ = 0, charged_ = 0;
 };
 
 }  // namespace
@@ -87,23 +228,15 @@ int main(int argc, char** argv) {
   const auto domain = static_cast<std::uint32_t>(argc > 1 ? std::atoi(argv[1]) : 0);
   const double seconds = argc > 2 ? std::atof(argv[2]) : 1e9;
   fast::Peer peer(domain);
-  auto* const commands = peer.reader<fast::Twist>("rt/cmd_vel");
-  auto* const scans = peer.writer<fast::LaserScan>("rt/scan", /*reliable=*/false);
-  auto* const odometry = peer.writer<fast::Odometry>("rt/odom");
-  Base base;
+  Navigator navigator(peer);
   bool met = false;
   const auto start = std::chrono::steady_clock::now();
   for (auto next = start; next - start < std::chrono::duration<double>(seconds);) {
-    const bool here = fast::Peer::is_matched(*commands);
+    const bool here = navigator.has_client();
     if (met && !here) break;
     met = met || here;
-    while (const auto twist = fast::Peer::take<fast::Twist>(*commands)) base.obey(*twist);
-    base.move();
-    auto scan = base.scan();
-    auto moved = base.odometry();
-    scans->write(&scan);
-    odometry->write(&moved);
+    navigator.step();
     std::this_thread::sleep_until(next += std::chrono::milliseconds(20));
   }
-  base.report();
+  navigator.report();
 }

@@ -1,42 +1,61 @@
 #include "robot/control.hpp"
 
-#include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstddef>
 #include <numbers>
 
-namespace roamer::robot::control {
+namespace patrol::robot::control {
 namespace {
 
-/// The nearest thing within 60 degrees of straight ahead; nothing is free without a scan, or with an old one.
-double free_ahead_m(const Inputs& in) {
-  if (!in.seen.valid || !in.seen.known || in.seen.age > std::chrono::milliseconds(300)) return 0;
-  const Scan& scan = in.seen.scan;
-  double free_m = scan.range_max;
-  for (std::size_t ray = 0; ray < scan.ranges.size(); ++ray) {
-    const double angle_rad =
-        (2 * static_cast<double>(ray) / static_cast<double>(scan.ranges.size()) - 1) * std::numbers::pi;
-    const double range_m = scan.ranges[ray];
-    // Rays that hit nothing are infinite.
-    if (std::abs(angle_rad) < std::numbers::pi / 3 && std::isfinite(range_m))
-      free_m = std::min(free_m, range_m);
-  }
-  return free_m;
+/// A place on the map, in metres and radians.
+struct Pose {
+  double x, y, heading;
+};
+
+constexpr std::array<Pose, 3> stations{
+    {{2, 0, 0}, {2, 1.5, std::numbers::pi / 2}, {0, 1.5, std::numbers::pi}}};
+constexpr std::array names{"to station 0", "to station 1", "to station 2"};
+constexpr Pose dock{0, 0, 0};
+
+/// The controller itself writes the number of the goal, and its cancel.
+void go_to(const Pose& pose, Outputs& out) {
+  out.goal.x = pose.x;
+  out.goal.y = pose.y;
+  out.goal.z = std::sin(pose.heading / 2);
+  out.goal.w = std::cos(pose.heading / 2);
 }
 
 }  // namespace
 
-/// Behaviour drive of robot.control: ahead, as long as there is room.
-void drive(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  memory.free = free_ahead_m(in);
-  const bool room = memory.free >= context.parameters.gap;
-  out.motion = {room ? double{context.parameters.speed} : 0.0, 0};
+/// Behaviour stand of robot.control.
+void stand(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  out.report.text = !in.battery.valid ? "waits for the battery" : in.wish.pause ? "paused" : "stands";
 }
 
-/// Behaviour turn of robot.control: on the spot, until there is room ahead. Without a scan the robot stands.
-void turn(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  memory.free = free_ahead_m(in);
-  out.motion = {0, memory.free > 0 ? 0.8 : 0.0};
+/// Behaviour to_station of robot.control.
+void to_station(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  go_to(stations[static_cast<std::size_t>(memory.station)], out);
+  out.report.text = names[static_cast<std::size_t>(memory.station)];
 }
 
-}  // namespace roamer::robot::control
+/// Behaviour next_station of robot.control.
+void next_station(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  context.log("station {}", memory.station);
+}
+
+/// Behaviour recover of robot.control: some time for what stood in the way.
+void recover(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  out.report.text = "recovers";
+}
+
+/// Behaviour to_dock of robot.control.
+void to_dock(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  go_to(dock, out);
+  out.report.text = "to the dock";
+}
+
+/// Behaviour charge of robot.control.
+void charge(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.report.text = "charges"; }
+
+}  // namespace patrol::robot::control

@@ -1,23 +1,26 @@
-#include "robot/base.hpp"
-#include "robot/laser.hpp"
-#include "robot/wheels.hpp"
+#include "robot/eyes.hpp"
+#include "robot/gauge.hpp"
+#include "robot/legs.hpp"
+#include "robot/panel.hpp"
+#include "robot/voice.hpp"
 
-namespace roamer::robot {
+namespace patrol::robot {
 
-/// Behaviour look of robot.laser: the last scan, and whether it is still true.
-void laser::look(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  out.seen.scan = in.scan;
-  out.seen.known = in.scan.valid && in.scan.age < std::chrono::milliseconds(300);
+/// Behaviour watch of robot.eyes: what the server says of the goal.
+void eyes::watch(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.progress = in.seen; }
+
+/// Behaviour watch of robot.gauge.
+void gauge::watch(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  out.battery = in.charge;
 }
 
-/// Behaviour look of robot.wheels.
-void wheels::look(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  out.odometry = in.odometry;
-}
+/// Behaviour watch of robot.panel: the last wish of the operator stays.
+void panel::watch(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.wish = in.button; }
 
-/// Behaviour drive of robot.base.
-void base::drive(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
-  out.command = in.motion;
-}
+/// Behaviour act of robot.legs.
+void legs::act(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.wanted = in.goal; }
 
-}  // namespace roamer::robot
+/// Behaviour act of robot.voice.
+void voice::act(Context& context, const Inputs& in, Memory& memory, Outputs& out) { out.said = in.report; }
+
+}  // namespace patrol::robot

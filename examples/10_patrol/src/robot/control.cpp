@@ -28,8 +28,9 @@ void go_to(const Pose& pose, Outputs& out) {
 
 }  // namespace
 
-/// Behaviour stand of robot.control.
+/// Behaviour stand of robot.control. It has no goal of its own.
 void stand(Context& context, const Inputs& in, Memory& memory, Outputs& out) {
+  out.goal = Goal{};
   out.report.text = !in.battery.valid ? "waits for the battery" : in.wish.pause ? "paused" : "stands";
 }
 

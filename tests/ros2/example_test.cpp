@@ -129,6 +129,7 @@ TEST(Example, PatrolsAndRecoversAndChargesAndCancelsAtTheEnd) {
   const std::string simulate = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera simulate " +
                                project.string() +
                                " --hardware robot.legs --hardware robot.eyes --hardware robot.gauge"
+                               " --hardware robot.panel --hardware robot.voice"
                                " --ros2-clock lo --for 2s >> " +
                                (project / "run.log").string() + " 2>&1";
   std::future<int> result = std::async(std::launch::async, [&] { return std::system(simulate.c_str()); });

@@ -5,8 +5,8 @@
 //
 // It drives straight to its goal, and charges at (0, 0). Each metre costs 12.5 % of the battery; below 20 % it
 // creeps. Its second goal is aborted, as by something in the way. It ends after that time, or when a controller
-// has come and gone, and prints a summary: "goals 8, succeeded 5, aborted 1, canceled 2, below 20 %: 1, charged
-// 1, under way 0".
+// has come and gone, and prints a summary: "goals 8, succeeded 5, aborted 1, given up 2, below 20 %: 1, charged 1,
+// under way 0". A goal is given up if it is cancelled, or another one comes.
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -107,8 +107,8 @@ class Navigator {
   [[nodiscard]] bool has_client() const { return fast::Peer::is_matched(*goals_); }
 
   void step() {
-    while (const auto order = fast::Peer::take<NavigateRequest>(*goals_)) begin(*order);
     while (const auto wish = fast::Peer::take<fast::CancelGoalRequest>(*cancels_)) cancel(*wish);
+    while (const auto order = fast::Peer::take<NavigateRequest>(*goals_)) begin(*order);
     while (const auto question = fast::Peer::take<ResultRequest>(*questions_)) ask(*question);
     if (status_ == executing) drive();
     charge();
@@ -123,14 +123,13 @@ class Navigator {
 
   void report() const {
     std::printf(
-        "goals %d, succeeded %d, aborted %d, canceled %d, below 20 %%: %d, charged %d, under way %d\n",
-        ordered_, ended(succeeded), ended(aborted), ended(canceled), canceled_low_, charged_,
-        status_ == executing ? 1 : 0);
+        "goals %d, succeeded %d, aborted %d, given up %d, below 20 %%: %d, charged %d, under way %d\n",
+        ordered_, succeeded_, aborted_, given_up_, given_up_low_, charged_, status_ == executing ? 1 : 0);
   }
 
  private:
   void begin(const NavigateRequest& order) {
-    if (status_ == executing) end(aborted);
+    give_up(aborted);
     goal_ = order.uuid;
     goal_x_ = order.pose.pose[0];
     goal_y_ = order.pose.pose[1];
@@ -143,7 +142,9 @@ class Navigator {
     if (!answer.accepted) return;
     status_ = executing;
     publish();
-    if (ordered_ == 2) end(aborted);
+    if (ordered_ != 2) return;
+    ++aborted_;
+    end(aborted);
   }
   void cancel(const fast::CancelGoalRequest& wish) {
     const bool known = status_ == executing && (wish.uuid == goal_ || wish.uuid == fast::Uuid{});
@@ -151,10 +152,17 @@ class Navigator {
                                     goal_};
     cancelled_->write(&answer);
     if (!known) return;
-    status_ = canceling;
-    publish();
-    if (charge_ < low) ++canceled_low_;
-    end(canceled);
+    give_up(canceled);
+  }
+  void give_up(std::int8_t status) {
+    if (status_ != executing) return;
+    ++given_up_;
+    if (charge_ < low) ++given_up_low_;
+    if (status == canceled) {
+      status_ = canceling;
+      publish();
+    }
+    end(status);
   }
   /// The result of a goal under way is given at its end.
   void ask(const ResultRequest& question) {
@@ -190,16 +198,14 @@ class Navigator {
       y_ += step * (goal_y_ - y_) / far;
     }
     charge_ = std::max(0.0, charge_ - 0.125 * step);
-    if (distance() < 0.01) end(succeeded);
+    if (distance() > 0.01) return;
+    ++succeeded_;
+    end(succeeded);
   }
   void charge() {
     if (status_ == executing || ordered_ == 0 || std::hypot(x_, y_) > 0.02) return;
     if (charge_ < low) ++charged_;
     charge_ = std::min(1.0, std::max(low, charge_ + step_s));
-  }
-  [[nodiscard]] int ended(std::int8_t status) const {
-    return static_cast<int>(
-        std::ranges::count_if(ends_, [&](const auto& one) { return one.second == status; }));
   }
   static std::string id(int number) { return "serviceid=01.0f." + std::to_string(number) + ";"; }
 
@@ -219,7 +225,7 @@ class Navigator {
   std::optional<ResultRequest> asked_;
   std::map<fast::Uuid, std::int8_t> ends_;
   double goal_x_ = 0, goal_y_ = 0, x_ = 0, y_ = 0, charge_ = 1;
-  int steps_ = 0, ordered_ = 0, canceled_low_ = 0, charged_ = 0;
+  int steps_ = 0, ordered_ = 0, succeeded_ = 0, aborted_ = 0, given_up_ = 0, given_up_low_ = 0, charged_ = 0;
 };
 
 }  // namespace

@@ -62,7 +62,7 @@ void write_topics(const fs::path& bag, const fs::path& topics) {
   std::ofstream(topics, std::ios::binary) << writer.take();
 }
 
-/// What the robot says at its end.
+/// The robot's count of its goals, at its end.
 struct Summary {
   int goals = 0, succeeded = 0, aborted = 0, given_up = 0, given_up_low = 0, charged = 0, under_way = -1;
 };

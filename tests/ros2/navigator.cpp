@@ -16,7 +16,7 @@
 #include <optional>
 #include <string>
 #include <thread>
-#include <utility>
+#include <vector>
 
 #include "fast_action.hpp"
 
@@ -117,7 +117,9 @@ class Navigator {
     battery.percentage = static_cast<float>(charge_);
     battery_->write(&battery);
     if (status_ != executing) return;
-    NavigateFeedback feedback{.uuid = goal_, .distance_remaining = static_cast<float>(distance())};
+    NavigateFeedback feedback;
+    feedback.uuid = goal_;
+    feedback.distance_remaining = static_cast<float>(distance());
     feedback_->write(&feedback);
   }
 

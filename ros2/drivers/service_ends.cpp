@@ -90,6 +90,7 @@ ServiceEnds::Replies ServiceEnds::take_replies() {
 
 ServiceEnds::Requests ServiceEnds::take_requests() {
   Requests requests;
+  look_for_fast_clients();
   for (Taken& one : take()) {
     if (one.beside) {
       if (cannot_answer_fast_clients()) continue;
@@ -121,6 +122,18 @@ ServiceEnds::Sending ServiceEnds::send_fast_reply(const Asker& asker, const std:
   if (fast == nullptr || !fast->is_heard_by(asker.fast->endpoint))
     return is_there(asker.writer) ? Sending::not_yet : Sending::gone;
   return fast->write(reply, *asker.fast) ? Sending::sent : Sending::refused;
+}
+
+void ServiceEnds::look_for_fast_clients() {
+  constexpr auto between_looks = std::chrono::milliseconds(100);
+  const auto now = std::chrono::steady_clock::now();
+  if (fast_begun_ || now < next_look_) return;
+  next_look_ = now + between_looks;
+  const auto others = reader_->others();
+  fast_begun_ = std::ranges::any_of(others, [](const Endpoint::Other& one) {
+    return is_fast(one.guid) && !value_of(one.user_data, client_key);
+  });
+  if (fast_begun_) fast_library_.begin(fast_setup_);
 }
 
 bool ServiceEnds::cannot_answer_fast_clients() {

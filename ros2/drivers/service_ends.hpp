@@ -115,6 +115,9 @@ class ServiceEnds {
   /// Whether that client receives a reply.
   [[nodiscard]] bool hears(const std::string& client) const;
 
+  /// Begins to load the library as soon as a client seems to run rmw_fastrtps_cpp: the client has to find its
+  /// writer before it can be answered.
+  void look_for_fast_clients();
   /// Begins to load the library for clients of rmw_fastrtps_cpp. Whether that has failed; a warning says so.
   [[nodiscard]] bool cannot_answer_fast_clients();
   [[nodiscard]] Sending send_fast_reply(const Asker& asker, const std::vector<std::byte>& reply);
@@ -124,7 +127,8 @@ class ServiceEnds {
   std::string path_;
   FastSetup fast_setup_;
   FastLibrary fast_library_;
-  bool fast_known_ = false;
+  bool fast_known_ = false, fast_begun_ = false;
+  std::chrono::steady_clock::time_point next_look_{};
   std::uint64_t unanswerable_ = 0;
 };
 

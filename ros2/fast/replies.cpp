@@ -9,6 +9,7 @@
 #include <netdb.h>
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -21,9 +22,12 @@
 #include <fastdds/dds/topic/Topic.hpp>
 #include <fastdds/dds/topic/TopicDataType.hpp>
 #include <functional>
+#include <map>
+#include <memory>
 #include <mutex>
-#include <set>
 #include <stdexcept>
+#include <string>
+#include <tuple>
 #include <vector>
 
 // Both sides of the call are C++; only the linkage is that of C.
@@ -163,6 +167,47 @@ rtps::GUID_t guid_of(const Guid& bytes) {
   return guid;
 }
 
+using Instant = std::chrono::steady_clock::time_point;
+/// A reader that has not found the writer yet, though the writer has found it, loses what is written.
+constexpr auto until_found_by_reader = std::chrono::milliseconds(100);
+
+/// A participant for all services of a network: each takes a second or more until the clients have found it, and has
+/// several threads.
+class FastParticipant {
+ public:
+  [[nodiscard]] static std::shared_ptr<FastParticipant> of(const FastSetup& setup) {
+    static std::mutex mutex;
+    static std::map<std::tuple<std::uint32_t, std::string, std::string>, std::weak_ptr<FastParticipant>>
+        known;
+    const std::lock_guard lock(mutex);
+    std::weak_ptr<FastParticipant>& one = known[{setup.domain, setup.interface, setup.peers}];
+    if (auto shared = one.lock()) return shared;
+    auto made = std::make_shared<FastParticipant>(setup);
+    one = made;
+    return made;
+  }
+  explicit FastParticipant(const FastSetup& setup)
+      : participant_(checked(dds::DomainParticipantFactory::get_instance()->create_participant(
+                                 setup.domain, participant_qos(setup)),
+                             "participant")) {}
+  ~FastParticipant() {
+    participant_->delete_contained_entities();
+    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+  }
+  FastParticipant(const FastParticipant&) = delete;
+  FastParticipant& operator=(const FastParticipant&) = delete;
+
+  [[nodiscard]] dds::DomainParticipant* operator->() const { return participant_; }
+  [[nodiscard]] dds::Topic* topic(const std::string& name, const std::string& type) {
+    dds::TypeSupport support(new BytesType(type));
+    support.register_type(participant_);
+    return checked(participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT), "topic");
+  }
+
+ private:
+  dds::DomainParticipant* participant_;
+};
+
 class Replies final : public FastReplies, private dds::DataWriterListener {
  public:
   explicit Replies(const FastSetup& setup) {
@@ -181,9 +226,13 @@ class Replies final : public FastReplies, private dds::DataWriterListener {
 
   [[nodiscard]] bool is_heard_by(const Guid& client) const override {
     const std::lock_guard lock(mutex_);
-    if ((client.back() & reader_bit) != 0) return readers_.contains(client);
-    return std::ranges::any_of(readers_, [&](const Guid& one) {
-      return std::equal(one.begin(), one.begin() + participant_bytes, client.begin());
+    const bool is_reader = (client.back() & reader_bit) != 0;
+    const Instant found_before = Instant::clock::now() - until_found_by_reader;
+    return std::ranges::any_of(readers_, [&](const auto& one) {
+      const auto& [reader, since] = one;
+      return since <= found_before &&
+             (is_reader ? reader == client
+                        : std::equal(reader.begin(), reader.begin() + participant_bytes, client.begin()));
     });
   }
 
@@ -207,17 +256,11 @@ class Replies final : public FastReplies, private dds::DataWriterListener {
 
  private:
   void open(const FastSetup& setup) {
-    participant_ = checked(dds::DomainParticipantFactory::get_instance()->create_participant(
-                               setup.domain, participant_qos(setup)),
-                           "participant");
-    const auto topic = [&](const std::string& name, const std::string& type) {
-      dds::TypeSupport support(new BytesType(type));
-      support.register_type(participant_);
-      return checked(participant_->create_topic(name, type, dds::TOPIC_QOS_DEFAULT), "topic");
-    };
-    dds::Topic* const replies = topic(setup.reply_topic, setup.reply_type);
-    dds::Topic* const requests = topic(setup.request_topic, setup.request_type);
-    auto* const publisher = checked(participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "publisher");
+    participant_ = FastParticipant::of(setup);
+    FastParticipant& participant = *participant_;
+    topics_[0] = participant.topic(setup.reply_topic, setup.reply_type);
+    topics_[1] = participant.topic(setup.request_topic, setup.request_type);
+    publisher_ = checked(participant->create_publisher(dds::PUBLISHER_QOS_DEFAULT), "publisher");
     dds::DataWriterQos offers;
     offers.user_data().data_vec({setup.user_data.begin(), setup.user_data.end()});
     offers.reliability().kind = dds::RELIABLE_RELIABILITY_QOS;
@@ -225,24 +268,33 @@ class Replies final : public FastReplies, private dds::DataWriterListener {
     offers.history().kind = dds::KEEP_LAST_HISTORY_QOS;
     offers.history().depth = 64;
     offers.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    writer_ = checked(publisher->create_datawriter(replies, offers, this), "writer");
+    writer_ = checked(publisher_->create_datawriter(topics_[0], offers, this), "writer");
     // Clients compare the number of a service's readers with that of its writers, so it has a reader too. It
     // is best-effort, and nobody reads it.
-    auto* const subscriber =
-        checked(participant_->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT), "subscriber");
+    subscriber_ = checked(participant->create_subscriber(dds::SUBSCRIBER_QOS_DEFAULT), "subscriber");
     dds::DataReaderQos asks;
     asks.user_data().data_vec({setup.user_data.begin(), setup.user_data.end()});
     asks.reliability().kind = dds::BEST_EFFORT_RELIABILITY_QOS;
     asks.history().depth = 1;
     asks.endpoint().history_memory_policy = rtps::PREALLOCATED_WITH_REALLOC_MEMORY_MODE;
-    checked(subscriber->create_datareader(requests, asks), "reader");
+    checked(subscriber_->create_datareader(topics_[1], asks), "reader");
   }
 
   void close() {
     if (participant_ == nullptr) return;
+    FastParticipant& participant = *participant_;
     if (writer_ != nullptr) writer_->set_listener(nullptr);
-    participant_->delete_contained_entities();
-    dds::DomainParticipantFactory::get_instance()->delete_participant(participant_);
+    if (publisher_ != nullptr) {
+      publisher_->delete_contained_entities();
+      participant->delete_publisher(publisher_);
+    }
+    if (subscriber_ != nullptr) {
+      subscriber_->delete_contained_entities();
+      participant->delete_subscriber(subscriber_);
+    }
+    for (dds::Topic* const one : topics_)
+      if (one != nullptr) participant->delete_topic(one);
+    participant_.reset();
   }
 
   void on_publication_matched(dds::DataWriter* /*writer*/,
@@ -251,15 +303,18 @@ class Replies final : public FastReplies, private dds::DataWriterListener {
     rtps::iHandle2GUID(guid, status.last_subscription_handle);
     const std::lock_guard lock(mutex_);
     if (status.current_count_change > 0)
-      readers_.insert(guid_of(guid));
+      readers_[guid_of(guid)] = Instant::clock::now();
     else
       readers_.erase(guid_of(guid));
   }
 
-  dds::DomainParticipant* participant_ = nullptr;
+  std::shared_ptr<FastParticipant> participant_;
+  std::array<dds::Topic*, 2> topics_{};  // of replies and of requests
+  dds::Publisher* publisher_ = nullptr;
+  dds::Subscriber* subscriber_ = nullptr;
   dds::DataWriter* writer_ = nullptr;
   mutable std::mutex mutex_;
-  std::set<Guid> readers_;
+  std::map<Guid, Instant> readers_;  // and since when they are matched
 };
 
 }  // namespace

@@ -44,8 +44,9 @@ class ServedNode {
       servers_.back().server->open();
     }
   }
+  /// The end of the run does not wait for clients, which may have been killed.
   ~ServedNode() {
-    for (const Served& one : servers_) one.server->close();
+    for (const Served& one : servers_) one.server->close(Duration::zero());
   }
   ServedNode(const ServedNode&) = delete;
   ServedNode& operator=(const ServedNode&) = delete;

@@ -11,11 +11,11 @@ constexpr std::size_t most_waiting = 64;
 
 }  // namespace
 
-void ServiceServer::close() {
+void ServiceServer::close(Duration goodbye) {
   const std::lock_guard lock(mutex_);
   if (!is_last_to_close()) return;
   progress();
-  static_cast<void>(ends_->await_receipt(longest_goodbye));
+  if (goodbye > Duration::zero()) static_cast<void>(ends_->await_receipt(goodbye));
   current_.reset();
   reply_.clear();
   waiting_.clear();

@@ -18,8 +18,8 @@ class ServiceServer : public SharedService {
  public:
   explicit ServiceServer(const ServiceSetup& setup) : SharedService(setup, std::chrono::seconds(10)) {}
 
-  /// The close of the last driver waits up to half a second until the client has received the last reply.
-  void close();
+  /// The close of the last driver waits that long until the client has received the last reply.
+  void close(Duration goodbye = longest_goodbye);
 
   struct Request {
     std::uint64_t number = 0;  ///< 1, 2, 3 ...

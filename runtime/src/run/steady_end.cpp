@@ -104,8 +104,8 @@ void SteadyRun::say_waiting(const Assembly& assembly, const Securing& securing, 
 }
 
 void SteadyRun::end_threads(Assembly& assembly, Securing& securing) {
-  shown_.reset();
   liveness_.reset();  // a world may take long for its last step
+  shown_.reset();
   for (std::thread& thread : beside_) thread.join();
   for (std::uint32_t instance = 0; instance < threads_.size(); ++instance)
     if (!has_given_up() || has_ended(instance))

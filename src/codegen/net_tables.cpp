@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
 #include <span>
+#include <utility>
 
 #include "codegen/cpp_text.hpp"
 
@@ -108,11 +110,20 @@ std::string packed(const std::vector<Row>& rows) {
   return out;
 }
 
+/// In the order of the rows, since others name them by number.
 std::string group_lines(Rows rows) {
-  std::vector<Row> full, bare;
-  for (const Row& each : rows) (cells_used(each) > 1 ? full : bare).push_back(each);
+  std::vector<Row> full;
+  std::ranges::copy_if(rows, std::back_inserter(full), [](const Row& each) { return cells_used(each) > 1; });
+  const Widths widths = widths_of(full);
   std::string out;
-  for (const Row& each : full) out += line(each, widths_of(full));
+  std::vector<Row> bare;
+  for (const Row& each : rows) {
+    if (cells_used(each) == 1) {
+      bare.push_back(each);
+      continue;
+    }
+    out += packed(std::exchange(bare, {})) + line(each, widths);
+  }
   return out + packed(bare);
 }
 

@@ -48,6 +48,28 @@ TEST(LocalNet, TheEndsOfARowDiffer) {
   EXPECT_EQ(count(generated["system.cpp"], "&units::walker::control::net_2, "), 5U);
 }
 
+/// The net calls behaviours by their number, so the table keeps their order, however wide it is.
+TEST(LocalNet, BehavioursThatTakeTimeKeepTheirNumbers) {
+  const std::vector<std::string> names{"at_the_beginning", "a_while",           "in_between",
+                                       "another_while",    "nearly_at_the_end", "at_the_end"};
+  std::string behaviours;
+  for (std::size_t at = 0; at < names.size(); ++at)
+    behaviours += "        " + names[at] + ": { " + (names[at].ends_with("while") ? "takes: 10 ms, " : "") +
+                  "terminal: true, next: " + names[(at + 1) % names.size()] + " }\n";
+  const Generated generated = generate(
+      "tessera: 1\nsystem: table\nagents:\n  robot:\n    control:\n      rate: 10 Hz\n"
+      "      behaviours:\n" +
+      behaviours);
+  const std::string& source = generated["robot.control.cpp"];
+  std::size_t at = source.find("tessera::Behaviour behaviours[]");
+  const std::size_t end = source.find("};", source.find('\n', at));
+  ASSERT_NE(at, std::string::npos);
+  for (const std::string& name : names) {
+    at = source.find("{\"" + name + '"', at);
+    EXPECT_LT(at, end) << name << " in\n" << source.substr(source.find("behaviours[]"), 400);
+  }
+}
+
 TEST(LocalNet, AnInputAndAnOutputOfOneNameAreDifferentPorts) {
   const Generated generated = generate(fleet(3, true));
   EXPECT_THAT(generated["walker.control.cpp"],

@@ -83,7 +83,7 @@ std::map<std::string, std::map<std::string, std::string>> units_of(const spec::M
     const std::string path = model.instance_path(instance) + ".";
     const auto note = [&](const auto& fields, const std::string& prefix) {
       for (const spec::Field& field : fields)
-        note_units(model, field.type, "", units[path + prefix + field.name]);
+        if (!field.few) note_units(model, field.type, "", units[path + prefix + field.name]);
     };
     note(subsystem.inputs, "");
     note(subsystem.outputs, "");

@@ -138,7 +138,8 @@ void ServedGoals::say(std::uint64_t number, State state, const MessageBytes& fee
     goal->state = State::executing;
     tell_states();
   }
-  if (is_under_way(goal->state) && goal->state >= State::executing && feedback != goal->feedback) {
+  // A value that accepts with state 1, or ends the goal, has no feedback to tell.
+  if (state == State::executing && is_under_way(goal->state) && feedback != goal->feedback) {
     goal->feedback = feedback;
     deeds_.push_back({Deed::Kind::feedback, 0, with_goal_id(goal->info.id, feedback)});
   }

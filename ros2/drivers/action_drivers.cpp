@@ -143,29 +143,16 @@ class ProgressEffector final : public SharedDriver<RealEffector, ActionServer> {
   ProgressType type_;
 };
 
-template <class Driver, class ClientSide, class ServerSide>
-std::unique_ptr<Driver> made_for_action(const Ros2Binding& binding, Direction direction, std::string& error) {
-  try {
-    if (binding.role != "client" && binding.role != "server")
-      throw std::runtime_error("'" + binding.role + "' is no role of an action");
-    if (!full_action_name(binding.type)) throw std::runtime_error("'" + binding.type + "' is no action");
-    Prepared prepared = prepare(binding, direction);
-    if (binding.role == "client") return std::make_unique<ClientSide>(std::move(prepared), binding);
-    return std::make_unique<ServerSide>(std::move(prepared), binding);
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::unique_ptr<RealReceptor> make_action_receptor(const Ros2Binding& binding, std::string& error) {
-  return made_for_action<RealReceptor, ProgressReceptor, GoalReceptor>(binding, Direction::receive, error);
+  return made_for_role<RealReceptor, ProgressReceptor, GoalReceptor>(
+      binding, Direction::receive, "action", full_action_name(binding.type).has_value(), error);
 }
 
 std::unique_ptr<RealEffector> make_action_effector(const Ros2Binding& binding, std::string& error) {
-  return made_for_action<RealEffector, GoalEffector, ProgressEffector>(binding, Direction::send, error);
+  return made_for_role<RealEffector, GoalEffector, ProgressEffector>(
+      binding, Direction::send, "action", full_action_name(binding.type).has_value(), error);
 }
 
 }  // namespace tessera::ros2

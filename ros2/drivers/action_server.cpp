@@ -104,11 +104,7 @@ void ActionServer::progress() {
 template <class Take>
 void ActionServer::take_from(Part part, Take take) {
   ServiceEnds::Requests requests = service(part).take_requests();
-  for (; requests.foreign > 0; --requests.foreign)
-    warn(
-        foreign_,
-        "a request was dropped: its client is not one of rmw_cyclonedds_cpp or rmw_fastrtps_cpp, see \"Which "
-        "ROS 2\" in docs/use/ros2.md");
+  for (; requests.foreign > 0; --requests.foreign) warn(foreign_, foreign_request);
   for (ServiceEnds::Request& one : requests.all) {
     if (asked_.size() >= most_questions) {
       warn(crowded_, "a request was dropped: too many wait");

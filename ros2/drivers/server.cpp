@@ -75,11 +75,7 @@ void ServiceServer::progress() {
 
 void ServiceServer::take_requests() {
   ServiceEnds::Requests requests = ends_->take_requests();
-  for (; requests.foreign > 0; --requests.foreign)
-    warn(
-        foreign_,
-        "a request was dropped: its client is not one of rmw_cyclonedds_cpp or rmw_fastrtps_cpp, see \"Which "
-        "ROS 2\" in docs/use/ros2.md");
+  for (; requests.foreign > 0; --requests.foreign) warn(foreign_, foreign_request);
   for (ServiceEnds::Request& one : requests.all) {
     if (waiting_.size() >= most_waiting)
       warn(crowded_, "a request was dropped: too many wait");

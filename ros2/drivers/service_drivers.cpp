@@ -110,30 +110,16 @@ class ReplyEffector final : public SharedDriver<RealEffector, ServiceServer> {
   OutgoingMessage outgoing_;
 };
 
-template <class Driver, class ClientSide, class ServerSide>
-std::unique_ptr<Driver> made_for_service(const Ros2Binding& binding, Direction direction,
-                                         std::string& error) {
-  try {
-    if (binding.role != "client" && binding.role != "server")
-      throw std::runtime_error("'" + binding.role + "' is no role of a service");
-    if (!full_service_name(binding.type)) throw std::runtime_error("'" + binding.type + "' is no service");
-    Prepared prepared = prepare(binding, direction);
-    if (binding.role == "client") return std::make_unique<ClientSide>(std::move(prepared), binding);
-    return std::make_unique<ServerSide>(std::move(prepared), binding);
-  } catch (const std::exception& exception) {
-    error = exception.what();
-  }
-  return nullptr;
-}
-
 }  // namespace
 
 std::unique_ptr<RealReceptor> make_service_receptor(const Ros2Binding& binding, std::string& error) {
-  return made_for_service<RealReceptor, ReplyReceptor, RequestReceptor>(binding, Direction::receive, error);
+  return made_for_role<RealReceptor, ReplyReceptor, RequestReceptor>(
+      binding, Direction::receive, "service", full_service_name(binding.type).has_value(), error);
 }
 
 std::unique_ptr<RealEffector> make_service_effector(const Ros2Binding& binding, std::string& error) {
-  return made_for_service<RealEffector, RequestEffector, ReplyEffector>(binding, Direction::send, error);
+  return made_for_role<RealEffector, RequestEffector, ReplyEffector>(
+      binding, Direction::send, "service", full_service_name(binding.type).has_value(), error);
 }
 
 }  // namespace tessera::ros2

@@ -17,6 +17,12 @@
 
 namespace tessera::ros2 {
 
+/// The warning about a request whose asker cannot be told from its datagram.
+inline constexpr const char* foreign_request =
+    "a request was dropped: its client is not one of rmw_cyclonedds_cpp or rmw_fastrtps_cpp, see \"Which ROS "
+    "2\" in "
+    "docs/use/ros2.md";
+
 /// The longest time that the end of a run waits until the other side has received the last message.
 inline constexpr Duration longest_goodbye = std::chrono::milliseconds(500);
 

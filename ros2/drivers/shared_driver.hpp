@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 #include <stdexcept>
+#include <string>
 #include <utility>
 #include <vector>
 
@@ -41,6 +42,24 @@ class SharedDriver : public Driver {
   Prepared prepared_;
   std::shared_ptr<Side> side_;
 };
+
+/// Makes the driver of the side that the binding's role names. kind: "service" or "action". nullptr and `error`: the
+/// binding is wrong.
+template <class Driver, class ClientSide, class ServerSide>
+std::unique_ptr<Driver> made_for_role(const Ros2Binding& binding, Direction direction,
+                                      const std::string& kind, bool has_type, std::string& error) {
+  try {
+    if (binding.role != "client" && binding.role != "server")
+      throw std::runtime_error("'" + binding.role + "' is the role of no " + kind);
+    if (!has_type) throw std::runtime_error("'" + binding.type + "' is no " + kind);
+    Prepared prepared = prepare(binding, direction);
+    if (binding.role == "client") return std::make_unique<ClientSide>(std::move(prepared), binding);
+    return std::make_unique<ServerSide>(std::move(prepared), binding);
+  } catch (const std::exception& exception) {
+    error = exception.what();
+  }
+  return nullptr;
+}
 
 /// The value of an effector, as bytes and as a message.
 class OutgoingMessage {

@@ -67,6 +67,24 @@ struct Life {
   GoalId newest{};
 };
 
+TEST(GoalStates, ThatAReaderMayBeToldAreThoseOfSeveralSteps) {
+  for (std::uint8_t from = 0; from < goal_state_count; ++from) {
+    std::set<GoalState> reached{static_cast<GoalState>(from)};
+    for (std::size_t before = 0; before != reached.size();) {
+      before = reached.size();
+      for (std::uint8_t to = 0; to < goal_state_count; ++to)
+        for (const GoalState one : std::set<GoalState>(reached))
+          // An order begins another life.
+          if (static_cast<GoalState>(to) != ordered && may_follow(one, static_cast<GoalState>(to)))
+            reached.insert(static_cast<GoalState>(to));
+    }
+    for (std::uint8_t to = 0; to < goal_state_count; ++to)
+      EXPECT_EQ(can_follow(static_cast<GoalState>(from), static_cast<GoalState>(to)),
+                reached.contains(static_cast<GoalState>(to)))
+          << goal_state_names[from] << " and " << goal_state_names[to];
+  }
+}
+
 TEST(GoalLife, SucceedsInItsOrder) {
   Life one;
   one.accept();

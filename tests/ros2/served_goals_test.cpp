@@ -94,7 +94,7 @@ TEST(ServedGoals, AreGivenOneAfterTheOtherAndRunTogether) {
   one.goals.hear_result_question(++one.question, named(9));
   EXPECT_EQ(one.deeds(), "result 4, result 0");
   one.say(2, aborted);
-  EXPECT_EQ(one.deeds(), "states 4 2, feedback, states 4 6");
+  EXPECT_EQ(one.deeds(), "states 4 2, states 4 6") << "a value that ends a goal has no feedback";
   one.say(2, executing);
   one.say(7, accepted);
   EXPECT_EQ(one.goals.counts().useless, 2U);
@@ -152,7 +152,7 @@ TEST(ServedGoals, AreCancelledByNameByTimeOrAll) {
   static_cast<void>(deaf.deeds());
   EXPECT_EQ(deaf.cancel(named(1)), CancelCode::refused);
   deaf.say(1, canceled);
-  EXPECT_EQ(deaf.deeds(), "states 2, feedback, states 6") << "nobody had asked for it";
+  EXPECT_EQ(deaf.deeds(), "states 2, states 6") << "nobody had asked for it";
   EXPECT_EQ(deaf.goals.counts().uncancelled, 1U);
 }
 

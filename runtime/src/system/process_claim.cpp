@@ -51,7 +51,8 @@ ProcessClaim::ProcessClaim(std::span<const std::string> parts)
   const auto size = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + name.size());
   if (socket_ < 0) return;
   if (bind(socket_, reinterpret_cast<const sockaddr*>(&address), size) == 0)
-    static_cast<void>(listen(socket_, 4));
+    // Whoever asks for the owner stays in the queue, since nobody accepts. The kernel limits the number.
+    static_cast<void>(listen(socket_, SOMAXCONN));
   else if (errno == EADDRINUSE)
     other_ = owner_of(address, size);
 }

@@ -29,37 +29,65 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// nullopt: the driver is none of a topic.
-std::optional<bag::RosBuffer> topic_of(const spec::Model& model, const spec::Driver& driver) {
-  if (driver.kind != "ros2" || !driver.real.valid() || project::has_role(driver)) return std::nullopt;
+bag::RosBuffer ros_buffer_of(const spec::Model& model, const spec::Driver& driver) {
   const auto text = [&](const char* option) { return project::text_option(driver, option); };
   const std::string& topic = driver.target();
-  return bag::RosBuffer{model.driver_path(driver),
-                        topic.starts_with('/') ? topic : "/" + topic,
-                        text("type"),
-                        text("definition"),
-                        text("fields"),
-                        text("names"),
-                        text("frame_id")};
+  return {model.driver_path(driver),
+          topic.starts_with('/') ? topic : "/" + topic,
+          text("type"),
+          text("definition"),
+          text("fields"),
+          text("names"),
+          text("frame_id")};
 }
 
-/// Real inputs with a topic, and the paths of the others.
-std::vector<bag::WantedInput> wanted_inputs(const spec::Model& model, std::vector<std::string>& without) {
+bool is_ros(const spec::Driver& driver) { return driver.kind == "ros2" && driver.real.valid(); }
+
+/// nullopt: the driver is none of a topic.
+std::optional<bag::RosBuffer> topic_of(const spec::Model& model, const spec::Driver& driver) {
+  if (!is_ros(driver) || project::has_role(driver)) return std::nullopt;
+  return ros_buffer_of(model, driver);
+}
+
+/// The real inputs that can get values from a bag.
+struct WantedInputs {
   std::vector<bag::WantedInput> wanted;
+  std::vector<std::string> without;  ///< why the others get none
+};
+
+/// Requests and replies are in no topic; of the messages of an action, state and feedback are.
+std::string why_without(const std::string& path, const spec::Driver* driver) {
+  if (driver == nullptr || !is_ros(*driver)) return path + " has no topic in `drivers`, so it gets no value";
+  const bool is_client = project::text_option(*driver, "role") == "client";
+  return fmt::format("{} is on the side of the {} of the {} {}, and no bag has its {}, so it gets no value",
+                     path, is_client ? "client" : "server",
+                     project::is_action(*driver) ? "action" : "service", driver->target(),
+                     is_client                     ? "replies"
+                     : project::is_action(*driver) ? "goals"
+                                                   : "requests");
+}
+
+WantedInputs wanted_inputs(const spec::Model& model) {
+  WantedInputs inputs;
   for (const spec::InstanceId instance : model.instances.ids()) {
     const spec::Subsystem& subsystem = model.subsystem(instance);
     if (subsystem.kind != spec::SubsystemKind::receptor) continue;
     for (const spec::RealId real : subsystem.real.ids()) {
-      std::optional<bag::RosBuffer> topic;
-      for (const spec::Driver& driver : model.drivers)
-        if (driver.instance == instance && driver.real == real) topic = topic_of(model, driver);
-      if (topic)
-        wanted.push_back({*std::move(topic), model.layout_of(subsystem.real[real].type)});
+      const auto driver = std::ranges::find_if(model.drivers, [&](const spec::Driver& one) {
+        return one.instance == instance && one.real == real;
+      });
+      const spec::Driver* const its = driver == model.drivers.end() ? nullptr : &*driver;
+      const bool is_goal = its != nullptr && is_ros(*its) && project::is_action(*its) &&
+                           project::text_option(*its, "role") == "client";
+      if (is_goal || (its != nullptr && topic_of(model, *its)))
+        inputs.wanted.push_back(
+            {ros_buffer_of(model, *its), model.layout_of(subsystem.real[real].type), is_goal});
       else
-        without.push_back(model.instance_path(instance) + "." + subsystem.real[real].name);
+        inputs.without.push_back(
+            why_without(model.instance_path(instance) + "." + subsystem.real[real].name, its));
     }
   }
-  return wanted;
+  return inputs;
 }
 
 std::string duration_up_to(std::int64_t time_ns) {
@@ -224,14 +252,12 @@ RunInputs inputs_of_run(const project::Specification& specification, const std::
     if (!read) throw std::runtime_error(error);
     return {recording, end_of(*read)};
   }
-  std::vector<std::string> without;
-  const std::vector<bag::WantedInput> wanted = wanted_inputs(specification.model, without);
+  const WantedInputs real = wanted_inputs(specification.model);
   const std::optional<bag::BagInputs> inputs =
-      bag::inputs_of(*bytes, specification.model.system, wanted, error);
+      bag::inputs_of(*bytes, specification.model.system, real.wanted, error);
   if (!inputs) throw std::runtime_error(file + " " + error);
   for (const std::string& note : inputs->notes) fmt::print(stderr, "note: {}: {}\n", file, note);
-  for (const std::string& path : without)
-    fmt::print(stderr, "note: {} has no topic in `drivers`, so it gets no value\n", path);
+  for (const std::string& why : real.without) fmt::print(stderr, "note: {}\n", why);
   const std::string name = (fs::path(folder) / "inputs.tsr").string();
   std::ofstream stream(name, std::ios::binary);
   if (!(stream << inputs->recording << std::flush)) throw std::runtime_error("cannot write " + name);

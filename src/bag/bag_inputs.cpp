@@ -5,11 +5,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <limits>
+#include <memory>
 #include <nlohmann/json.hpp>
-#include <span>
 #include <utility>
 
-#include "bag/buffer_channel.hpp"
+#include "bag/feed.hpp"
 #include "bag/raw_channel.hpp"
 #include "mcap/reader.hpp"
 #include "tessera/recording.hpp"
@@ -19,16 +19,10 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// A topic of the bag that feeds an input.
-struct Feed {
-  std::optional<ros2::Translator> translator;
-  std::uint64_t messages = 0, misfits = 0;
-};
-
 class Extraction {
  public:
   Extraction(const std::string& system, const std::vector<WantedInput>& wanted)
-      : system_(system), wanted_(wanted), feeds_(wanted.size()) {}
+      : system_(system), wanted_(wanted), values_(wanted.size()) {}
 
   std::optional<BagInputs> run(std::string_view bag, std::string& error) {
     const mcap::Condition found = mcap::read(bag, {.message = [this](const mcap::ReadMessage& one) {
@@ -38,8 +32,14 @@ class Extraction {
       error = "is no MCAP file";
       return std::nullopt;
     }
+    for (const WantedInput& input : wanted_) {
+      feeds_.push_back(make_feed(input, error));
+      if (feeds_.back() == nullptr) return std::nullopt;
+    }
     inputs_.recording = file_start(header());
     static_cast<void>(mcap::read(bag, {.message = [this](const mcap::ReadMessage& one) { take(one); }}));
+    for (std::size_t number = 0; number < feeds_.size() && problem_.empty(); ++number)
+      feeds_[number]->finish([this, number](const Feed::Value& value) { put(number, value); });
     if (problem_.empty() && inputs_.values == 0) problem_ = "has no value for any real input";
     if (!problem_.empty()) {
       error = problem_;
@@ -47,7 +47,8 @@ class Extraction {
     }
     inputs_.recording += raw_end(inputs_.end_ns, 0);
     if (const std::string told = found.told(); !told.empty()) inputs_.notes.push_back(told);
-    tell();
+    for (const auto& feed : feeds_)
+      for (std::string& note : feed->notes()) inputs_.notes.push_back(std::move(note));
     return std::move(inputs_);
   }
 
@@ -73,66 +74,31 @@ class Extraction {
   }
 
   void take(const mcap::ReadMessage& one) {
-    for (std::size_t number = 0; number < wanted_.size() && problem_.empty(); ++number)
-      if (wanted_[number].ros.topic == one.channel.topic) take(one, number);
+    for (std::size_t number = 0; number < feeds_.size() && problem_.empty(); ++number)
+      if (feeds_[number]->reads(one.channel.topic))
+        problem_ =
+            feeds_[number]->take(one, [this, number](const Feed::Value& value) { put(number, value); });
   }
 
-  void take(const mcap::ReadMessage& one, std::size_t number) {
-    const WantedInput& wanted = wanted_[number];
-    const std::string type = one.schema == nullptr ? "an unknown type" : one.schema->name;
-    if (one.channel.encoding != "cdr" || type != wanted.ros.type) {
-      problem_ = fmt::format("has {} messages of {} on {}, and the driver of {} wants cdr messages of {}",
-                             one.channel.encoding, type, wanted.ros.topic, wanted.ros.path, wanted.ros.type);
-      return;
-    }
-    Feed& feed = feeds_[number];
-    if (!feed.translator) {
-      RosBuffer ros = wanted.ros;
-      if (one.schema->encoding == "ros2msg") ros.definition = one.schema->data;
-      std::string why;
-      feed.translator = translator_of(ros, wanted.type, ros2::Direction::receive, why);
-      if (!feed.translator) {
-        problem_ = fmt::format("has messages of {} that {} cannot take: {}", type, wanted.ros.path, why);
-        return;
-      }
-    }
-    ++feed.messages;
-    std::vector<std::byte> value;
-    if (feed.translator->decode(std::as_bytes(std::span(one.message.data)), value) !=
-        ros2::Translator::Outcome::good)
-      ++feed.misfits;
-    else
-      put(number, one.message.log_ns, {reinterpret_cast<const char*>(value.data()), value.size()});
-  }
-
-  void put(std::size_t number, std::uint64_t log_ns, std::string_view value) {
+  void put(std::size_t number, const Feed::Value& value) {
     Event event;
     event.time_ns = static_cast<std::int64_t>(
-        std::min<std::uint64_t>(log_ns - first_ns_, std::numeric_limits<std::int64_t>::max()));
-    event.subject = static_cast<std::uint32_t>(value.size());
-    event.version = static_cast<std::uint32_t>(number) | ValueFlags::fresh << 24U;
-    event.sequence = static_cast<std::uint32_t>(feeds_[number].messages - feeds_[number].misfits - 1);
+        std::min<std::uint64_t>(value.log_ns - first_ns_, std::numeric_limits<std::int64_t>::max()));
+    event.subject = static_cast<std::uint32_t>(value.bytes.size());
+    const std::uint32_t flags = ValueFlags::fresh | (value.is_queued ? ValueFlags::queued : 0);
+    event.version = static_cast<std::uint32_t>(number) | flags << 24U;
+    event.sequence = values_[number]++;
     event.origin = static_cast<std::uint32_t>(number) << 8U | static_cast<std::uint32_t>(Event::Kind::value);
-    inputs_.recording += file_bytes(raw_of({event, std::string(value)}));
+    const std::string text(reinterpret_cast<const char*>(value.bytes.data()), value.bytes.size());
+    inputs_.recording += file_bytes(raw_of({event, text}));
     inputs_.end_ns = std::max(inputs_.end_ns, event.time_ns);
     ++inputs_.values;
   }
 
-  void tell() {
-    for (std::size_t number = 0; number < wanted_.size(); ++number) {
-      const RosBuffer& ros = wanted_[number].ros;
-      if (feeds_[number].messages == 0)
-        inputs_.notes.push_back(fmt::format("has no message on {}: {} gets no value", ros.topic, ros.path));
-      else if (feeds_[number].misfits > 0)
-        inputs_.notes.push_back(fmt::format("{} of {} messages on {} do not fit into {} and are left out",
-                                            feeds_[number].misfits, feeds_[number].messages, ros.topic,
-                                            ros.path));
-    }
-  }
-
   const std::string& system_;
   const std::vector<WantedInput>& wanted_;
-  std::vector<Feed> feeds_;
+  std::vector<std::unique_ptr<Feed>> feeds_;
+  std::vector<std::uint32_t> values_;  // given to each
   std::uint64_t first_ns_ = std::numeric_limits<std::uint64_t>::max();
   BagInputs inputs_;
   std::string problem_;

@@ -103,6 +103,16 @@ TEST_F(BagInputsOfTest, MessageIsNewOnceAndTheNewestCounts) {
   EXPECT_EQ(at(31), "-");
 }
 
+TEST_F(BagInputsOfTest, QueuedMessageComesBeforeAnyLaterOne) {
+  add(10, ValueFlags::fresh, 5);
+  add(20, ValueFlags::fresh | ValueFlags::queued, 6);
+  add(20, ValueFlags::fresh | ValueFlags::queued, 7);
+  add(20, ValueFlags::fresh, 8);
+  add(30, ValueFlags::fresh, 9);
+  read();
+  for (const char* wanted : {"6", "7", "9", "-"}) EXPECT_EQ(at(40), wanted);
+}
+
 TEST_F(RecordedInputsOfTest, OtherTypesAreRefused) {
   add(10, ValueFlags::fresh, 5);
   read();

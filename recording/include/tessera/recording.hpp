@@ -119,12 +119,13 @@ static_assert(sizeof(Event) == 24);
 /// memory.
 struct ValueFlags {
   static constexpr std::uint32_t same = 1,  ///< as at the last event of this buffer; no bytes
-      hashed = 2,   ///< more than "limit" bytes: their number and a hash, a uint64 each, replace them
-      stamped = 4,  ///< input: an int64 before the bytes says when the sender wrote the value
-      valid = 8,    ///< input: as in Arrival
-      fresh = 16,   ///< input: newer than all before
-      silent = 32,  ///< real input: the device has no value, until the next event of the buffer; no bytes
-      failed = 64;  ///< real input: the device has thrown; no bytes
+      hashed = 2,    ///< more than "limit" bytes: their number and a hash, a uint64 each, replace them
+      stamped = 4,   ///< input: an int64 before the bytes says when the sender wrote the value
+      valid = 8,     ///< input: as in Arrival
+      fresh = 16,    ///< input: newer than all before
+      silent = 32,   ///< real input: the device has no value, until the next event of the buffer; no bytes
+      failed = 64,   ///< real input: the device has thrown; no bytes
+      queued = 128;  ///< real input out of a bag: it is read before any later value
 };
 
 /// A decoded value event of a buffer.

@@ -50,7 +50,7 @@ std::unique_ptr<RecordedInputs> RecordedInputs::read(const std::string& file, st
           fmt::format("the values of {} are too large and not in it: record with --record-values all",
                       recording->buffers[value.buffer].path));
     Value one{entry.event.time_ns, std::string(value.bytes), value.has(ValueFlags::silent),
-              value.has(ValueFlags::failed)};
+              value.has(ValueFlags::failed), value.has(ValueFlags::queued)};
     if (value.has(ValueFlags::same))
       for (auto before = input->values.rbegin(); before != input->values.rend(); ++before)
         if (!before->silent && !before->failed) {
@@ -92,7 +92,8 @@ std::optional<Problem> RecordedReceptor::follow(const Clock& clock, const std::s
 bool RecordedReceptor::read(std::span<std::byte> value) {
   const std::size_t before = next_;
   const std::int64_t now_ns = clock_->now().time_since_epoch().count();
-  while (next_ < input_->values.size() && input_->values[next_].time_ns <= now_ns) ++next_;
+  while (next_ < input_->values.size() && input_->values[next_].time_ns <= now_ns)
+    if (input_->values[next_++].queued) break;
   if (next_ == 0 || (input_->are_messages && next_ == before)) return false;
   const RecordedInputs::Value& newest = input_->values[next_ - 1];
   if (newest.failed && next_ != before) throw std::runtime_error("it threw in the recorded run");

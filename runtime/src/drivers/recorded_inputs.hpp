@@ -22,7 +22,8 @@ namespace tessera {
 /// simulated run. A real input without values has none. Commands go nowhere.
 ///
 /// In a file with the clock "bag", a value is a message: it is new once, when it is read for the first time, as the
-/// driver of a topic of ROS 2 gives it. In a recording, a value stays until the next one, as it was read.
+/// driver of a topic of ROS 2 gives it. One that is queued, such as the state of a goal, is read before any later one.
+/// In a recording, a value stays until the next one, as it was read.
 ///
 /// Threads: as Substitutes.
 class RecordedInputs final : public Substitutes {
@@ -30,7 +31,7 @@ class RecordedInputs final : public Substitutes {
   struct Value {
     std::int64_t time_ns = 0;
     std::string bytes;
-    bool silent = false, failed = false;
+    bool silent = false, failed = false, queued = false;
   };
   struct Input {
     std::string type;  ///< as tessera/value_encoding.hpp describes

@@ -74,7 +74,11 @@ std::string configuration_of(const Network& network) {
   text +=
       "<ParticipantIndex>auto</ParticipantIndex><MaxAutoParticipantIndex>32</MaxAutoParticipantIndex><Peers>";
   for (const std::string& peer : peers) text += "<Peer Address=\"" + peer + "\"/>";
-  return text + "</Peers></Discovery></Domain></CycloneDDS>";
+  text += "</Peers></Discovery>";
+  // Whoever closes a writer waits for the receipts that matter (`Endpoint::await_receipt`). By default Cyclone DDS
+  // itself waits up to 1 s for each writer, so that some writers with a dead subscriber hold the end of a run.
+  text += "<Internal><WriterLingerDuration>0 s</WriterLingerDuration></Internal>";
+  return text + "</Domain></CycloneDDS>";
 }
 
 std::uint32_t domain_of_environment() {

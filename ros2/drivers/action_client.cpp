@@ -119,8 +119,6 @@ void ActionClient::look_for_servers(GoalLife::Instant now) {
          "no goal is sent: somebody who reads goals would misunderstand it. Start all servers with the same "
          "RMW_IMPLEMENTATION, see \"Which ROS 2\" in docs/use/ros2.md");
   ready_ = servers.foreign ? 0 : servers.ready;
-  if (ready_ > 1 && life_.state() == GoalState::ordered)
-    warn(several_, "several servers get this goal, and the first answer counts");
 }
 
 template <class Hear>
@@ -187,6 +185,7 @@ void ActionClient::act() {
     const auto number = service.send_request(deed.kind == Kind::send_goal ? with_goal_id(id, deed.goal)
                                              : deed.kind == Kind::cancel  ? cancel_request({id, {}})
                                                                           : result_request(id));
+    if (deed.kind == Kind::send_goal && ready_ > 1) warn(several_, several_servers);
     refused_ = refused_ || (!number && !probe);
     probes_ = probes_ || probe;
     if (!number || probe) continue;

@@ -116,7 +116,7 @@ void ServiceClient::try_to_send() {
     return;
   }
   if (servers.ready == 0) return;
-  if (servers.ready > 1) warn(several_, "several servers get this request, and the first reply counts");
+  if (servers.ready > 1) warn(several_, several_servers);
   const auto sequence = ends_->send_request(std::move(pending_->request));
   pending_->sequence = sequence.value_or(0);
   pending_->sent = true;

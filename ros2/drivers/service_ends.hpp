@@ -35,6 +35,10 @@ struct ServiceSetup {
   Duration timeout{};
   const char* kind = "service";  ///< for messages: "service", "action"
 };
+/// DDS takes a process that was killed for alive until its lease ends (10 s in Cyclone DDS, 20 s in Fast DDS).
+inline constexpr const char* several_servers =
+    "several servers are known: each that is alive executes this, and the first answer counts; one that was "
+    "killed is forgotten after 20 s";
 /// Counts an event and prints a warning the 1st, 10th, 100th time and so on.
 void warn_of(const ServiceSetup& setup, std::uint64_t& count, const char* text);
 

@@ -155,6 +155,8 @@ ordered_json schema_of(const Node& type, const std::string& path,
       break;
     case Node::Kind::real:
       schema["type"] = "number";
+      // A list of types would make viewers refuse the whole topic.
+      schema["nullable"] = true;
       break;
     default:
       schema["type"] = "integer";

@@ -41,6 +41,7 @@ TEST(ValueJson, SchemaHasTheUnits) {
   const json schema = json::parse(schema_of(*layout, "robot.v", {{"v", "m/s"}, {"points.x", "m"}}));
   EXPECT_EQ(schema["title"], "robot.v");
   EXPECT_EQ(schema["properties"]["v"]["type"], "number");
+  EXPECT_EQ(schema["properties"]["v"]["nullable"], true);
   EXPECT_EQ(schema["properties"]["v"]["description"], "in m/s");
   EXPECT_EQ(schema["properties"]["points"]["items"]["properties"]["x"]["description"], "in m");
 }

@@ -8,6 +8,7 @@ import { after, test } from "node:test";
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
 import { McapIndexedReader, McapStreamReader, McapWriter } from "@mcap/core";
+import Ajv from "ajv";
 import { decompress } from "fzstd";
 
 const folder = mkdtempSync(join(tmpdir(), "bags-"));
@@ -106,7 +107,24 @@ test("a file that was cut off is read as far as it goes", () => {
   assert.ok(messages > 10, `${messages}`);
 });
 
-test("bags of another program are read as they were written", async () => {
+test("values in JSON are as their schema says", async () => {
+  const { reader, topics } = await contents();
+  const ajv = new Ajv({ strict: true });
+  let values = 0;
+  for (const channel of reader.channelsById.values()) {
+    if (channel.messageEncoding !== "json") continue;
+    const schema = reader.schemasById.get(channel.schemaId);
+    const isRight = ajv.compile(JSON.parse(new TextDecoder().decode(schema.data)));
+    for (const { value } of topics.get(channel.topic)) {
+      assert.ok(isRight(value), `${channel.topic} ${JSON.stringify(isRight.errors)}`);
+      values += 1;
+    }
+  }
+  assert.equal(values, 40);
+});
+
+/** A writer of another program, and the bytes that it has written. */
+async function otherWriter() {
   const parts = [];
   let position = 0n;
   const writer = new McapWriter({
@@ -119,12 +137,20 @@ test("bags of another program are read as they were written", async () => {
     },
     chunkSize: 300,
   });
+  await writer.start({ profile: "ros2", library: "a test" });
+  const add = async (topic, name, definition) => {
+    const schemaId = await writer.registerSchema({ name, encoding: definition === "" ? "" : "ros2msg",
+      data: new TextEncoder().encode(definition) });
+    return await writer.registerChannel({ schemaId, topic, messageEncoding: "cdr", metadata: new Map() });
+  };
+  return { writer, add, bytes: () => Buffer.concat(parts) };
+}
+
+test("bags of another program are read as they were written", async () => {
+  const { writer, add, bytes: written } = await otherWriter();
   const definition = "float64 x\nstring name\nint16[] list\n";
   const encoder = new MessageWriter(parse(definition, { ros2: true }));
-  await writer.start({ profile: "ros2", library: "a test" });
-  const schemaId = await writer.registerSchema({ name: "test_msgs/msg/Some", encoding: "ros2msg",
-    data: new TextEncoder().encode(definition) });
-  const channelId = await writer.registerChannel({ schemaId, topic: "/some", messageEncoding: "cdr", metadata: new Map() });
+  const channelId = await add("/some", "test_msgs/msg/Some", definition);
   const wanted = [];
   for (let n = 0; n < 20; ++n) {
     const data = encoder.writeMessage({ x: n / 3, name: "n".repeat(n), list: [n, -n] });
@@ -133,6 +159,41 @@ test("bags of another program are read as they were written", async () => {
   }
   await writer.end();
   const other = join(folder, "other.mcap");
-  writeFileSync(other, Buffer.concat(parts));
+  writeFileSync(other, written());
   assert.deepEqual(bags("read", other).trim().split("\n"), wanted);
+});
+
+test("goals in a bag of another program are the calls of an action", async () => {
+  const line = `\n${"=".repeat(80)}\nMSG: `;
+  const uuid = `${line}unique_identifier_msgs/UUID\nuint8[16] uuid`;
+  const statusText = `GoalStatus[] status_list${line}action_msgs/GoalStatus\nGoalInfo goal_info\nint8 status` +
+    `${line}action_msgs/GoalInfo\nunique_identifier_msgs/UUID goal_id\nbuiltin_interfaces/Time stamp${uuid}` +
+    `${line}builtin_interfaces/Time\nint32 sec\nuint32 nanosec\n`;
+  const feedbackText = `unique_identifier_msgs/UUID goal_id\nGo_Feedback feedback${uuid}${line}demo/Go_Feedback\nfloat32 left\n`;
+  const statuses = new MessageWriter(parse(statusText, { ros2: true }));
+  const feedbacks = new MessageWriter(parse(feedbackText.replace("\nGo_", "\ndemo/Go_"), { ros2: true }));
+  for (const isDefined of [true, false]) {
+    const { writer, add, bytes: written } = await otherWriter();
+    const feedback = await add("/go/_action/feedback", "demo/action/Go_FeedbackMessage", isDefined ? feedbackText : "");
+    const status = await add("/go/_action/status", "action_msgs/msg/GoalStatusArray", statusText);
+    const put = (channelId, time, data) =>
+      writer.addMessage({ channelId, sequence: 0, logTime: 1_700_000_000_000_000_000n + time, publishTime: 0n, data });
+    const goal = (id) => ({ uuid: Array(16).fill(id) });
+    const list = (...all) => statuses.writeMessage({ status_list: all.map(([id, state]) => ({ goal_info: { goal_id: goal(id) }, status: state })) });
+    await put(status, 0n, list([9, 4]));
+    await put(status, 10n, list([9, 4], [1, 2]));
+    await put(feedback, 20n, feedbacks.writeMessage({ goal_id: goal(1), feedback: { left: 1 } }));
+    await put(status, 30n, list([9, 4], [1, 6], [2, 1]));
+    await writer.end();
+    const other = join(folder, "goals.mcap");
+    writeFileSync(other, written());
+    assert.deepEqual(bags("inputs", other).trim().split("\n"), [
+      "10 010000000100000000",
+      "10 010000000200000000",
+      "20 01000000020000803f",
+      "30 01000000060000803f",
+      "30 020000000100000000",
+      "robot.eyes.seen takes the 2 goals of /go for its calls 1 to 2; results and rejections are in no topic",
+    ]);
+  }
 });

@@ -47,15 +47,22 @@ class Reading {
     if (record.is(Opcode::message_index)) return is_message_index(record.content);
     if (record.is(Opcode::attachment)) return take_attachment(record.content);
     if (record.is(Opcode::metadata)) return take_metadata(record.content);
-    if (record.is(Opcode::data_end)) {
-      is_after_data_ = record.content.size() == sizeof(std::uint32_t);
-      return is_after_data_;
-    }
+    if (record.is(Opcode::data_end)) return take_data_end(record.content);
     if (record.is(Opcode::footer)) {
       condition_.is_complete = record.rest == magic;
+      if ((known_.is_damaged || !is_after_data_) && condition_.damaged == 0) ++condition_.damaged;
       return condition_.is_complete;
     }
     return take_message_or_definition(record);
+  }
+
+  /// Records beside chunks have no check sum of their own, but all bytes up to here have one.
+  bool take_data_end(std::string_view content) {
+    is_after_data_ = content.size() == sizeof(std::uint32_t);
+    const auto crc = Cursor(content).number<std::uint32_t>();
+    const bool is_changed = is_after_data_ && crc != 0 && crc != crc32(file_.substr(0, at_));
+    if (is_changed && condition_.damaged == 0) ++condition_.damaged;
+    return is_after_data_;
   }
 
   bool take_message_or_definition(const Record& record) {

@@ -107,9 +107,11 @@ Definitions summary_of(std::string_view file) {
   const auto start = cursor.number<std::uint64_t>();
   static_cast<void>(cursor.number<std::uint64_t>());
   const auto crc = cursor.number<std::uint32_t>();
-  if (!cursor.ok() || start == 0 || start > footer_at) return definitions;
-  if (crc != 0 && crc != crc32(file.substr(start, footer_at + footer_size - sizeof crc - start)))
-    return definitions;
+  if (!cursor.ok() || start == 0) return definitions;
+  definitions.is_damaged =
+      start > footer_at ||
+      (crc != 0 && crc != crc32(file.substr(start, footer_at + footer_size - sizeof crc - start)));
+  if (definitions.is_damaged) return definitions;
   std::string_view rest = file.substr(start, footer_at - start);
   for (auto record = next_record(rest); record; record = next_record(rest = record->rest)) {
     if (record->is(Opcode::schema)) {

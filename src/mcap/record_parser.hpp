@@ -41,6 +41,7 @@ struct Definitions {
   std::map<std::uint16_t, Schema> schemas;
   std::map<std::uint16_t, Channel> channels;
   bool is_complete = false;  ///< the file ends as the format demands
+  bool is_damaged = false;   ///< its check sum is wrong
 };
 /// The definitions in the summary of a whole file; empty: it has none, or one that is damaged.
 [[nodiscard]] Definitions summary_of(std::string_view file);

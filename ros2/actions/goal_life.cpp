@@ -91,7 +91,10 @@ void GoalLife::hear_of_server(bool is_there, Instant now) {
 void GoalLife::hear_answer(const GoalId& id, bool accepted, Instant now) {
   if (id != id_ || state_ != GoalState::ordered || !is_sent_) {
     Former* const one = former(id);
-    if (one == nullptr) {
+    if (one == nullptr && accepted && (id != id_ || is_end(state_))) {
+      ++counts_.repeated;
+      do_it(Deed::Kind::cancel, id);
+    } else if (one == nullptr) {
       ++(id == id_ && state_ != GoalState::none ? counts_.disorder : counts_.unknown);
     } else if (!accepted) {
       std::erase_if(formers_, [&](const Former& each) { return each.id == id; });

@@ -87,11 +87,12 @@ class GoalLife {
     std::uint64_t given_up = 0;         ///< words about goals that were given up
     std::uint64_t unknown = 0;          ///< words about goals of others
     std::uint64_t late_acceptance = 0;  ///< goals that are cancelled since they were accepted too late
-    std::uint64_t unserved = 0;         ///< goals that were not sent: no server was there
-    std::uint64_t unanswered = 0;       ///< goals and cancels without an answer
-    std::uint64_t lost = 0;             ///< goals whose server vanished
-    std::uint64_t uncancelled = 0;      ///< cancels that the server refused
-    std::uint64_t unreadable = 0;       ///< results without a state that an end can have
+    std::uint64_t repeated = 0;  ///< goals that are cancelled since they were accepted again after their end
+    std::uint64_t unserved = 0;  ///< goals that were not sent: no server was there
+    std::uint64_t unanswered = 0;   ///< goals and cancels without an answer
+    std::uint64_t lost = 0;         ///< goals whose server vanished
+    std::uint64_t uncancelled = 0;  ///< cancels that the server refused
+    std::uint64_t unreadable = 0;   ///< results without a state that an end can have
   };
   [[nodiscard]] const Counts& counts() const { return counts_; }
 

@@ -25,6 +25,7 @@ dds_qos_t* new_qos(const Qos& qos, const std::string& user_data) {
   dds_qset_durability(made, qos.transient_local ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
   dds_qset_history(made, DDS_HISTORY_KEEP_LAST, qos.depth);
   dds_qset_writer_data_lifecycle(made, false);
+  if (qos.lifespan > Duration::zero()) dds_qset_lifespan(made, dds_time_of(qos.lifespan));
   if (!user_data.empty()) dds_qset_userdata(made, user_data.data(), user_data.size());
   return made;
 }

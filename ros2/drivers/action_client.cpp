@@ -24,6 +24,7 @@ struct Loss {
 constexpr std::array losses = std::to_array<Loss>(
     {{&GoalLife::Counts::disorder, "a message was dropped: it is out of the order of a goal's life"},
      {&GoalLife::Counts::late_acceptance, "a goal is cancelled: it was accepted after it was given up"},
+     {&GoalLife::Counts::repeated, "a goal is cancelled: a server accepts it again after its end"},
      {&GoalLife::Counts::unserved, "a goal was not sent: no server is there"},
      {&GoalLife::Counts::unanswered, "a goal was given up: the server does not answer in time"},
      {&GoalLife::Counts::lost, "a goal was given up: its server has gone, or does not know it any more"},

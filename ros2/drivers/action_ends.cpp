@@ -15,17 +15,23 @@ ServiceSetup part_of(const ServiceSetup& action, const std::string& name, const 
   return part;
 }
 
+/// Requests about several goals may be on their way.
+ServiceSetup of_many(ServiceSetup part) {
+  part.one_at_a_time = false;
+  return part;
+}
+
 ServiceSetup goal_service(const ServiceSetup& action) {
   const ActionNames names = names_of_action(action.endpoint.topic, action.type);
   return part_of(action, names.send_goal, names.send_goal_type);
 }
 ServiceSetup result_service(const ServiceSetup& action) {
   const ActionNames names = names_of_action(action.endpoint.topic, action.type);
-  return part_of(action, names.get_result, names.get_result_type);
+  return of_many(part_of(action, names.get_result, names.get_result_type));
 }
 ServiceSetup cancel_service(const ServiceSetup& action) {
   const ActionNames names = names_of_action(action.endpoint.topic, action.type);
-  return part_of(action, names.cancel_goal, names.cancel_goal_type);
+  return of_many(part_of(action, names.cancel_goal, names.cancel_goal_type));
 }
 
 EndpointSetup topic_of(const ServiceSetup& action, const std::string& name, const std::string& type) {

@@ -49,6 +49,12 @@ ServiceEnds::ServiceEnds(const ServiceSetup& setup) : path_(setup.endpoint.path)
   replies.dds_topic = dds_reply_name(replies.topic);
   replies.dds_type = dds_type_name(response_type(setup.type));
   replies.sole_writer = !setup.is_client;
+  if (setup.is_client) {
+    // While a server that was killed counts as alive, DDS keeps the requests that it has not confirmed, and gives
+    // them to a reader of Fast DDS that is started meanwhile. That server would execute them again.
+    requests.qos.lifespan = setup.timeout;
+    if (setup.one_at_a_time) requests.qos.depth = 1;
+  }
   const Network& network = requests.network;
   fast_setup_ = {network.domain,    network.interface, network.peers,    requests.dds_topic,
                  requests.dds_type, replies.dds_topic, replies.dds_type, requests.user_data};

@@ -34,6 +34,7 @@ struct ServiceSetup {
   bool is_client = false;
   Duration timeout{};
   const char* kind = "service";  ///< for messages: "service", "action"
+  bool one_at_a_time = true;     ///< whether a new request of a client takes the place of the one before it
 };
 /// DDS takes a process that was killed for alive until its lease ends (10 s in Cyclone DDS, 20 s in Fast DDS).
 inline constexpr const char* several_servers =
@@ -156,7 +157,11 @@ class Shared {
   /// Opens it; for the second driver, it is open already. Throws std::runtime_error.
   void open() {
     const std::lock_guard lock(mutex_);
-    if (!ends_) ends_.emplace(setup_);
+    if (!ends_) {
+      ServiceSetup setup = setup_;
+      setup.timeout = timeout_;
+      ends_.emplace(setup);
+    }
     ++users_;
   }
 

@@ -4,6 +4,8 @@
 #include <string>
 #include <string_view>
 
+#include "tessera/time.hpp"
+
 /// The DDS names and qualities of service that ROS 2 uses.
 namespace tessera::ros2 {
 
@@ -53,6 +55,7 @@ struct Qos {
   bool reliable = true;
   bool transient_local = false;
   int depth = 10;
+  Duration lifespan{};  ///< how long a message that is not confirmed may still be sent; zero: for ever
 };
 /// Reads "default", "sensor", or their parts: "best_effort, transient_local, depth 5". nullopt and `error`:
 /// any other text.

@@ -255,6 +255,26 @@ TEST(GoalLife, GoalThatIsAcceptedTooLateIsCancelled) {
   EXPECT_TRUE(one.states().empty());
 }
 
+TEST(GoalLife, GoalThatIsAcceptedAgainAfterItsEndIsCancelled) {
+  Life one;
+  one.accept();
+  one.end(succeeded);
+  EXPECT_EQ(one.states(), std::vector{succeeded});
+  static_cast<void>(one.deeds());
+  one.life.hear_answer(id_of(1), true, one.now);
+  EXPECT_EQ(one.deeds(), std::vector{Kind::cancel});
+  EXPECT_EQ(one.life.counts().repeated, 1U);
+  EXPECT_TRUE(one.states().empty());
+  one.order(2);
+  static_cast<void>(one.deeds());
+  one.life.hear_answer(id_of(1), true, one.now);
+  EXPECT_EQ(one.deeds(), std::vector{Kind::cancel}) << "a goal long ago";
+  one.life.hear_answer(id_of(2), true, one.now);
+  EXPECT_EQ(one.states(), (std::vector{ordered, accepted}));
+  one.life.hear_answer(id_of(2), true, one.now);
+  EXPECT_EQ(one.deeds(), std::vector{Kind::ask_result}) << "a second server is no reason to cancel";
+}
+
 TEST(GoalLife, GoalOfAServerThatComesBackIsCancelled) {
   Life one;
   one.accept();

@@ -10,11 +10,15 @@
 #include <chrono>
 #include <cstdlib>
 #include <memory>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "eventually.hpp"
+#include "fast_peer.hpp"
 #include "ros2/dds/endpoint.hpp"
+#include "service_sides.hpp"
 
 extern char** environ;
 
@@ -47,25 +51,82 @@ TEST(KilledPeer, DISABLED_Subscribes) {
   for (;;) pause();
 }
 
+TEST(KilledPeer, DISABLED_Serves) {
+  const char* const domain = std::getenv(domain_variable);
+  ASSERT_NE(domain, nullptr);
+  fast::Peer peer(static_cast<std::uint32_t>(std::stoul(domain)));
+  const char* const identity = "serviceid=01.0f.7;";
+  ASSERT_NE(peer.reader<fast::SetBoolRequest>("rq/enableRequest", false, identity), nullptr);
+  ASSERT_NE(peer.writer<fast::SetBoolResponse>("rr/enableReply", true, identity), nullptr);
+  for (;;) pause();
+}
+
+/// A process that runs one of the tests above, until it is killed.
+class Peer {
+ public:
+  Peer(std::string test, std::uint32_t domain) {
+    std::array<std::string, 3> words{"/proc/self/exe", "--gtest_also_run_disabled_tests",
+                                     "--gtest_filter=KilledPeer.DISABLED_" + std::move(test)};
+    std::array<char*, 4> arguments{words[0].data(), words[1].data(), words[2].data(), nullptr};
+    EXPECT_EQ(setenv(domain_variable, std::to_string(domain).c_str(), 1), 0);
+    EXPECT_EQ(posix_spawn(&process_, arguments[0], nullptr, nullptr, arguments.data(), environ), 0);
+  }
+  ~Peer() { die(); }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+  void die() {
+    if (process_ <= 0) return;
+    kill(process_, SIGKILL);
+    waitpid(process_, nullptr, 0);
+    process_ = 0;
+  }
+
+ private:
+  pid_t process_ = 0;
+};
+
 /// Cyclone DDS by itself waits up to 1 s for each writer whose subscriber has not confirmed everything.
 TEST(KilledPeer, DoesNotHoldTheEndOfARun) {
   const std::uint32_t domain = 60 + static_cast<std::uint32_t>(getpid() + 40) % 150;
-  std::array<std::string, 3> words{"/proc/self/exe", "--gtest_also_run_disabled_tests",
-                                   "--gtest_filter=KilledPeer.DISABLED_Subscribes"};
-  std::array<char*, 4> arguments{words[0].data(), words[1].data(), words[2].data(), nullptr};
-  ASSERT_EQ(setenv(domain_variable, std::to_string(domain).c_str(), 1), 0);
-  pid_t subscriber = 0;
-  ASSERT_EQ(posix_spawn(&subscriber, arguments[0], nullptr, nullptr, arguments.data(), environ), 0);
+  Peer subscriber("Subscribes", domain);
   auto writers = endpoints(domain, /*write=*/true);
   const bool found = eventually(
       [&] { return std::ranges::all_of(writers, [](const auto& one) { return one->has_other_side(); }); });
-  kill(subscriber, SIGKILL);
-  waitpid(subscriber, nullptr, 0);
+  subscriber.die();
   ASSERT_TRUE(found);
   for (const auto& one : writers) EXPECT_TRUE(one->write(message));
   const auto begin = std::chrono::steady_clock::now();
   writers.clear();
   EXPECT_LT(std::chrono::steady_clock::now() - begin, std::chrono::seconds(topics / 2));
+}
+
+/// DDS repeats what a server that was killed has not confirmed, to the server that takes its place.
+TEST(KilledPeer, LeavesNoOldRequestToTheNextServer) {
+  Peer killed("Serves", service_domain());
+  Client client(std::chrono::milliseconds(200));
+  std::uint32_t number = 0;
+  const auto outcome_of_next_call = [&] {
+    EXPECT_TRUE(client.call(++number, true));
+    EXPECT_TRUE(eventually([&] { return client.read(); }));
+    return client.reply.outcome;
+  };
+  ASSERT_TRUE(eventually([&] { return outcome_of_next_call() == no_reply; }));
+  killed.die();
+  EXPECT_EQ(outcome_of_next_call(), no_reply) << "it still counts as alive";
+
+  fast::Peer next(service_domain());
+  const char* const identity = "serviceid=01.0f.8;";
+  auto* const requests = next.reader<fast::SetBoolRequest>("rq/enableRequest", false, identity);
+  auto* const replies = next.writer<fast::SetBoolResponse>("rr/enableReply", true, identity);
+  ASSERT_TRUE(
+      eventually([&] { return fast::Peer::is_matched(*requests) && fast::Peer::is_matched(*replies); }));
+  const std::uint32_t before = number;
+  std::optional<fast::SetBoolRequest> got;
+  ASSERT_TRUE(eventually([&] {
+    EXPECT_EQ(outcome_of_next_call(), no_reply);
+    return (got = fast::Peer::take<fast::SetBoolRequest>(*requests)).has_value();
+  }));
+  EXPECT_GT(got->sequence, before) << "an old request";
 }
 
 }  // namespace

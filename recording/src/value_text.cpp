@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <string>
@@ -228,7 +229,16 @@ std::vector<std::string> ValueLayout::sequences() const {
   return sequences;
 }
 
-bool ValueLayout::has_sequences() const { return !sequences().empty(); }
+namespace {
+
+bool holds_sequences(const auto& type) {
+  return type.bounded || (type.element != nullptr && holds_sequences(*type.element)) ||
+         std::ranges::any_of(type.fields, [](const auto& field) { return holds_sequences(*field.type); });
+}
+
+}  // namespace
+
+bool ValueLayout::has_sequences() const { return holds_sequences(*root_); }
 
 std::vector<std::string> ValueLayout::paths() const {
   std::vector<std::string> paths;

@@ -38,7 +38,11 @@ void BufferBlocks::add(const ValueType& type, const std::string& path, const Ele
   std::optional<std::size_t> length;
   if (type.is_sequence) {
     length = blocks_.size();
-    add_block(length_path(path), {.primitive = Primitive::uint32, .capacity = type.count, .is_length = true});
+    add_block(length_path(path), {.primitive = Primitive::uint32,
+                                  .capacity = type.count,
+                                  .is_length = true,
+                                  .sequence = element.sequence,
+                                  .element = element.number});
   }
   for (std::uint32_t index = 0; index < std::max(type.count, 1U); ++index)
     for (const ValueType::Member& member : type.members)

@@ -26,7 +26,7 @@ class BufferBlocks {
   [[nodiscard]] std::size_t length_at(const std::string& path) const;
 
  private:
-  /// The element of a sequence in which a part of the buffer lies, if it lies in one.
+  /// The element of a sequence in which a part of the buffer lies, if it lies in one; of several, the innermost.
   struct Element {
     std::optional<std::size_t> sequence{};  ///< the block of its length
     std::uint32_t number = 0;

@@ -16,11 +16,17 @@ std::vector<std::string> split_path(std::string_view path) {
 }
 
 std::string member_path(const std::string& path, const std::string& name) {
-  return path.empty() ? name : path + "." + name;
+  return path.empty() ? name : name.empty() ? path : path + "." + name;
 }
 
 std::string element_path(const std::string& path, const ValueType& type, std::uint32_t index) {
   return type.count == 0 ? path : path + "[" + std::to_string(index) + "]";
+}
+
+std::string without_numbers(std::string path) {
+  for (std::size_t open = 0; (open = path.find('[')) != std::string::npos;)
+    path.erase(open, path.find(']') + 1 - open + (open == 0 ? 1 : 0));
+  return path;
 }
 
 std::string in_quotes(std::string_view text) { return "'" + std::string(text) + "'"; }

@@ -73,11 +73,8 @@ Hint missing_member_hint(const ValueType::Member& member, const std::string& val
   if (found.empty()) found = find_inside(member, structure, /*by_name=*/false, direction, proposed);
   if (found.empty()) return hint_of(member.name, field_names(structure), structure.name);
   proposed.insert(found);
-  std::string of_value = member_path(value_path, member.name);
-  for (std::size_t open = 0; (open = of_value.find('[')) != std::string::npos;)
-    of_value.erase(open, of_value.find(']') + 1 - open + (open == 0 ? 1 : 0));
-  return "say which fields correspond: fields: { " + member_path(message_path, found) + ": " + of_value +
-         " }";
+  return "say which fields correspond: fields: { " + member_path(message_path, found) + ": " +
+         without_numbers(member_path(value_path, member.name)) + " }";
 }
 
 std::string fields_of_elements(const ValueType& value, const std::string& value_path,

@@ -63,6 +63,49 @@ void fill_header(Translator::Step& header) {
     if (nanosec->type.primitive == Primitive::uint32) nanosec->fill = Translator::Fill::stamp_nanosec;
 }
 
+namespace {
+
+bool are_names(const Field& field) {
+  return (field.name == "name" || field.name == "joint_names") && field.type.primitive == Primitive::string &&
+         field.type.repeat == Type::Repeat::sequence;
+}
+
+/// Sequences of numbers and texts are in the order of names.
+void order_by_name(std::vector<Translator::Step>& steps, bool also_in_points) {
+  for (Translator::Step& step : steps) {
+    if (step.type.primitive != Primitive::structure)
+      step.by_name = step.type.repeat == Type::Repeat::sequence;
+    else if (also_in_points && step.type.refers == "trajectory_msgs/msg/JointTrajectoryPoint")
+      order_by_name(step.members, /*also_in_points=*/false);
+  }
+}
+
+}  // namespace
+
+std::optional<std::string> use_names_of_joints(std::vector<Translator::Step>& steps,
+                                               const Structure& message) {
+  struct Part {
+    std::vector<Translator::Step>* steps;
+    const Structure* structure;
+    std::string path;
+  };
+  std::vector<Part> parts{{&steps, &message, ""}};
+  for (std::size_t at = 0; at < parts.size(); ++at) {  // those further inside come later
+    const Part part = parts[at];
+    const auto names = std::ranges::find_if(part.structure->fields, are_names);
+    if (names != part.structure->fields.end()) {
+      order_by_name(*part.steps, /*also_in_points=*/true);
+      find_step(*part.steps, *part.structure, names->name)->fill = Translator::Fill::names;
+      return member_path(part.path, names->name);
+    }
+    for (const Field& field : part.structure->fields)
+      if (field.type.structure != nullptr && field.type.repeat == Type::Repeat::once)
+        parts.push_back({&find_step(*part.steps, *part.structure, field.name)->members,
+                         field.type.structure.get(), member_path(part.path, field.name)});
+  }
+  return std::nullopt;
+}
+
 std::optional<ArrayOfMessage> array_in(const std::string& path, std::vector<Translator::Step>& first,
                                        const Structure& message) {
   std::vector<Translator::Step>* steps = &first;

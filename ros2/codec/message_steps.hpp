@@ -24,6 +24,15 @@ void fill_header(Translator::Step& header);
 /// there is no header.
 bool fill_frames(std::vector<Translator::Step>& steps);
 
+/// Finds the field with the names of joints: `name` or `joint_names`, a sequence of strings in the message itself
+/// or, if it has none, in a structure inside that is no array. Lets the translator send the names in it, and
+/// take the sequences in their order: those beside the names, and those of a trajectory_msgs/JointTrajectoryPoint
+/// beside them.
+///
+/// The path of the field; nullopt: there is none.
+std::optional<std::string> use_names_of_joints(std::vector<Translator::Step>& steps,
+                                               const Structure& message);
+
 struct ArrayOfMessage {
   Translator::Step* step;
   std::string path, rest;  ///< of the array; inside its elements

@@ -9,15 +9,6 @@
 namespace tessera::ros2 {
 namespace {
 
-/// The array of the buffer whose elements these are; empty: it is not known.
-std::string array_of(const Translator::Step& step, const std::vector<Translator::Block>& blocks) {
-  if (step.length) return blocks[*step.length].path;
-  if (step.block) return blocks[*step.block].path.substr(0, blocks[*step.block].path.find('['));
-  for (const Translator::Step& member : step.members)
-    if (std::string path = array_of(member, blocks); !path.empty()) return path;
-  return "";
-}
-
 /// The number that begins a sequence of the buffer.
 std::uint32_t length_of(std::span<const std::byte> part) {
   std::uint32_t length = 0;
@@ -203,7 +194,7 @@ Translator::Outcome Translator::decode(std::span<const std::byte> message, std::
   finder.walk(steps_);
   if (!reader->ok() || reader->left() > most_padding) return Outcome::malformed;
   if (const PartFinder::Found* const found = finder.misfit()) {
-    why = {array_of(*found->step, blocks_), found->count, found->step->members.size()};
+    why = {found->step->array, found->count, found->step->members.size()};
     return Outcome::other_length;
   }
   std::vector<std::size_t> order;
@@ -219,11 +210,11 @@ Translator::Outcome Translator::decode(std::span<const std::byte> message, std::
       continue;
     }
     const Block& one = blocks_[block];
+    if (one.sequence && one.element >= finder.blocks()[*one.sequence].count) continue;
     if (one.is_length) {
       writer.add_length(finder.blocks()[block].count);
       continue;
     }
-    if (one.sequence && one.element >= finder.blocks()[*one.sequence].count) continue;
     const Outcome outcome = writer.add(finder.blocks()[block], one, order, finder.names().count);
     if (outcome != Outcome::good) return outcome;
   }

@@ -32,8 +32,10 @@ struct Mapping {
   /// buffer. If the list is empty, fields of equal names correspond; a buffer that is no structure
   /// corresponds to the only field of the message, or to its field `data`.
   std::vector<std::pair<std::string, std::string>> fields{};
-  /// With names, the message has a field `name` (sensor_msgs/JointState). Its sequences are received in the
-  /// order of these names, whatever order the sender uses; they are sent with these names.
+  /// With names, the message has a field `name` (sensor_msgs/JointState) or `joint_names`
+  /// (trajectory_msgs/JointTrajectory), itself or in a structure. The sequences beside it, and those of the
+  /// points of trajectories beside it, are received in the order of these names, whatever order the sender
+  /// uses; they are sent with these names.
   std::vector<std::string> names{};
   /// The value of `header.frame_id` in sent messages; without a field `header`, that of all headers inside.
   std::string frame_id{};
@@ -119,6 +121,7 @@ class Translator {
     Fill fill = Fill::nothing;
     bool by_name = false;      ///< its elements are in the order of Mapping::names
     bool per_element = false;  ///< `members` has one step for each element of an array of messages
+    std::string array{};       ///< per element: the array of the buffer whose elements these are
     std::optional<std::size_t>
         length{};               ///< per element of a sequence of the buffer: the block of its length
     std::vector<Step> members;  ///< for a message

@@ -1,6 +1,7 @@
 #include <algorithm>
-#include <map>
+#include <optional>
 #include <set>
+#include <string>
 #include <utility>
 
 #include "ros2/codec/buffer_blocks.hpp"
@@ -108,10 +109,10 @@ class TranslatorBuilder {
   }
 
   bool use_names() {
-    Translator::Step* const names = find_step(translator_.steps_, *translator_.message_, "name");
-    if (names == nullptr || names->type.primitive != Primitive::string ||
-        names->type.repeat != Type::Repeat::sequence) {
-      wrong(in_quotes(translator_.message_->name) + " has no field 'name' of type string[]",
+    if (const auto field = use_names_of_joints(translator_.steps_, *translator_.message_)) {
+      field_of_names_ = *field;
+    } else {
+      wrong(in_quotes(translator_.message_->name) + " has no field 'name' or 'joint_names' of type string[]",
             "names are for messages such as sensor_msgs/JointState");
       return false;
     }
@@ -120,7 +121,6 @@ class TranslatorBuilder {
       wrong("a name is empty, or there twice");
       return false;
     }
-    names->fill = Translator::Fill::names;
     return true;
   }
 
@@ -140,44 +140,48 @@ class TranslatorBuilder {
   void map_as_told() {
     for (const auto& [of_message, of_value] : mapping_.fields) {
       subject_ = of_message;
-      if (!match_in_elements(of_message, of_value)) match_whole(of_message, of_value);
+      match_path({of_message, "", translator_.steps_, *translator_.message_}, {of_value, "", value_});
     }
     subject_.clear();
   }
 
-  void match_whole(const std::string& of_message, const std::string& of_value) {
-    Translator::Step* const step = step_at(of_message, translator_.steps_, *translator_.message_);
-    const ValueType* const value = step == nullptr ? nullptr : value_at(of_value, value_);
-    if (value != nullptr) match(*value, of_value, *step, of_message);
-  }
+  /// A path inside a message, or inside an element of an array of messages.
+  struct MessagePath {
+    std::string path, around;  ///< inside of it; that of the element, without numbers
+    std::vector<Translator::Step>& steps;
+    const Structure& structure;
+  };
+  struct ValuePath {
+    std::string path, around;
+    const ValueType& type;
+  };
 
-  /// A path through an array of messages, and one through an array of the buffer: "boxes.center.x" and "x".
-  /// The field is that of every element. false: the path of the message leads through no array.
-  bool match_in_elements(const std::string& of_message, const std::string& of_value) {
-    const auto array = array_in(of_message, translator_.steps_, *translator_.message_);
-    if (!array) return false;
-    const auto elements = elements_in(of_value, value_);
-    if (!elements) {
-      wrong("the field " + in_quotes(of_message) + " lies in the array " + in_quotes(array->path) + ", and " +
-                shown(of_value) + " in none",
-            "give the buffer an array of structures, such as Element<=16, for the whole array");
-      return true;
+  /// A path through arrays of messages, and one through as many arrays of the buffer: "boxes.center.x" and "x".
+  /// The field is that of every element.
+  void match_path(const MessagePath& message, const ValuePath& value) {
+    const auto array = array_in(message.path, message.steps, message.structure);
+    const std::string whole = member_path(message.around, message.path);
+    if (!array) {
+      Translator::Step* const step = step_at(message.path, message.steps, message.structure);
+      const ValueType* const part = step == nullptr ? nullptr : value_at(value.path, value.type);
+      if (part != nullptr) match(*part, member_path(value.around, value.path), *step, whole);
+      return;
     }
-    if (!divide(*elements->type, elements->path, *array->step, array->path)) return true;
+    const std::string array_path = member_path(message.around, array->path);
+    const auto elements = elements_in(value.path, value.type);
+    if (!elements)
+      return wrong("the field " + in_quotes(whole) + " lies in the array " + in_quotes(array_path) +
+                       ", and " + shown(without_numbers(member_path(value.around, value.path))) + " in none",
+                   "give the buffer an array of structures, such as Element<=16, for the whole array");
+    const std::string elements_path = member_path(value.around, elements->path);
+    if (!divide(*elements->type, elements_path, *array->step, array_path)) return;
     ValueType element = *elements->type;
     element.count = 0;
     element.is_sequence = false;
     const std::size_t before = problems_.size();
-    for (std::uint32_t index = 0; index < elements->type->count && problems_.size() == before; ++index) {
-      Translator::Step* const step =
-          step_at(array->rest, array->step->members[index].members, *array->step->type.structure);
-      const ValueType* const value = step == nullptr ? nullptr : value_at(elements->rest, element);
-      if (value == nullptr) break;
-      std::string path = element_path(elements->path, *elements->type, index);
-      if (!elements->rest.empty()) path = member_path(path, elements->rest);
-      match(*value, path, *step, of_message);
-    }
-    return true;
+    for (std::uint32_t index = 0; index < elements->type->count && problems_.size() == before; ++index)
+      match_path({array->rest, array_path, array->step->members[index].members, *array->step->type.structure},
+                 {elements->rest, element_path(elements_path, *elements->type, index), element});
   }
 
   /// Gives an array of messages a step for each element of the array of the buffer. false: they do not fit,
@@ -185,14 +189,14 @@ class TranslatorBuilder {
   bool divide(const ValueType& value, const std::string& value_path, Translator::Step& step,
               const std::string& message_path) {
     if (step.per_element) {
-      if (divided_.at(&step) == value_path) return true;
-      wrong(in_quotes(message_path) + " corresponds to " + shown(divided_.at(&step)) + " and to " +
+      if (step.array == value_path) return true;
+      wrong(in_quotes(message_path) + " corresponds to " + shown(step.array) + " and to " +
             shown(value_path));
       return false;
     }
     if (!same_shape(value, value_path, step, message_path)) return false;
     step.per_element = true;
-    divided_.emplace(&step, value_path);
+    step.array = value_path;
     Translator::Step one;
     one.type = step.type;
     one.members = std::move(step.members);
@@ -214,11 +218,8 @@ class TranslatorBuilder {
     Translator::Step* step = nullptr;
     for (const std::string& part : split_path(path)) {
       if (structure == nullptr) {
-        wrong("the field " + in_quotes(path) +
-                  (step->type.structure == nullptr ? " lies in a number or text"
-                                                   : " lies in an array that is inside of another"),
-              step->type.structure == nullptr ? "leave out what stands behind it"
-                                              : "a buffer cannot hold arrays of arrays");
+        wrong("the field " + in_quotes(path) + " lies in a number or text",
+              "leave out what stands behind it");
         return nullptr;
       }
       step = find_step(*steps, *structure, part);
@@ -228,7 +229,7 @@ class TranslatorBuilder {
         return nullptr;
       }
       steps = &step->members;
-      structure = step->type.repeat == Type::Repeat::once ? step->type.structure.get() : nullptr;
+      structure = step->type.structure.get();  // none of which is an array, as array_in has found
     }
     if (step == nullptr) wrong("a field of the message needs a name");
     return step;
@@ -305,14 +306,12 @@ class TranslatorBuilder {
         step.type.string_bound < value.capacity)
       return differ(value, value_path, step, message_path);
     if (step.fill == Translator::Fill::names)
-      return wrong("'name' is compared with the names and has no place in the buffer");
+      return wrong(in_quotes(field_of_names_) + " is compared with the names and has no place in the buffer");
     const std::size_t block = blocks_.at(value_path);
     if (!used_.insert(block).second && receives_)
       return wrong("two fields of the message for " + shown(value_path));
     step.block = block;
-    step.by_name = !mapping_.names.empty() && step.type.repeat == Type::Repeat::sequence &&
-                   message_path.find('.') == std::string::npos;
-    if (step.by_name && (value.is_sequence || value.count != mapping_.names.size()))
+    if (step.by_name && value.count != mapping_.names.size())
       wrong("there are " + std::to_string(mapping_.names.size()) + " names, and " + shown(value_path) +
             " is " + value.text());
   }
@@ -355,8 +354,7 @@ class TranslatorBuilder {
   Translator translator_;
   std::string subject_;
   BufferBlocks blocks_;
-  std::map<const Translator::Step*, std::string>
-      divided_;  ///< the array of the buffer for an array of messages
+  std::string field_of_names_;  ///< the path in the message; empty: no names are used
   std::set<std::size_t> used_;
 };
 

@@ -59,16 +59,19 @@ std::optional<std::vector<std::size_t>> order_of(CdrReader& reader, const PartFi
 
 Translator::Outcome ValueWriter::add(const PartFinder::Found& found, const Translator::Block& block,
                                      const std::vector<std::size_t>& order, std::size_t names) {
-  const bool by_name = found.step->by_name;
+  // A trajectory may leave out all velocities: such a sequence of the buffer is empty.
+  const bool by_name = found.step->by_name && !order.empty() && !(block.is_sequence && found.count == 0);
   const std::size_t room = by_name ? names : block.count;
-  if (block.is_sequence ? found.count > block.count : found.count != room) {
+  if (block.is_sequence && !by_name ? found.count > room : found.count != room) {
     misfit_ = {block.path, found.count, room};
     return Translator::Outcome::other_length;
   }
-  if (block.is_sequence) add_length(found.count);
+  const std::size_t count = by_name || !block.is_sequence ? block.count : found.count;
+  if (block.is_sequence) add_length(count);
   reader_.go_to(found.at);
-  if (block.primitive == Primitive::string) return add_texts(found, block, by_name ? &order : nullptr);
-  return add_numbers(found, block, by_name ? &order : nullptr);
+  const std::vector<std::size_t>* const used = by_name ? &order : nullptr;
+  return block.primitive == Primitive::string ? add_texts(found, block, count, used)
+                                              : add_numbers(found, block, count, used);
 }
 
 void ValueWriter::add_length(std::size_t count) {
@@ -77,16 +80,15 @@ void ValueWriter::add_length(std::size_t count) {
 }
 
 Translator::Outcome ValueWriter::add_numbers(const PartFinder::Found& found, const Translator::Block& block,
-                                             const std::vector<std::size_t>* order) {
+                                             std::size_t count, const std::vector<std::size_t>* order) {
   const Primitive source = found.step->type.primitive;
   const auto bytes = reader_.numbers(size_of(source), found.count);
   const std::size_t first = value_.size(), size = size_of(block.primitive);
-  const std::size_t count = block.is_sequence ? found.count : block.count;
   value_.resize(first + size * count);
   bool good = true;
   if (order == nullptr && count > 0)
     good = convert(source, bytes.data(), reader_.swapped(), block.primitive, value_.data() + first, count);
-  for (std::size_t index = 0; order != nullptr && index < block.count; ++index)
+  for (std::size_t index = 0; order != nullptr && index < count; ++index)
     good = convert(source, bytes.data() + (*order)[index] * size_of(source), reader_.swapped(),
                    block.primitive, value_.data() + first + index * size, 1) &&
            good;
@@ -94,10 +96,9 @@ Translator::Outcome ValueWriter::add_numbers(const PartFinder::Found& found, con
 }
 
 Translator::Outcome ValueWriter::add_texts(const PartFinder::Found& found, const Translator::Block& block,
-                                           const std::vector<std::size_t>* order) {
+                                           std::size_t count, const std::vector<std::size_t>* order) {
   std::vector<std::string_view> texts(found.count);
   for (std::string_view& text : texts) text = reader_.text();
-  const std::size_t count = block.is_sequence ? found.count : block.count;
   for (std::size_t index = 0; index < count; ++index) {
     const std::string_view text = texts[order == nullptr ? index : (*order)[index]];
     if (text.size() > block.capacity) {

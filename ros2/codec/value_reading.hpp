@@ -64,10 +64,11 @@ class ValueWriter {
   std::vector<std::byte>& value() { return value_; }
 
  private:
+  /// count: elements of the buffer. order: the index of each in the message; nullptr: the same.
   Translator::Outcome add_numbers(const PartFinder::Found& found, const Translator::Block& block,
-                                  const std::vector<std::size_t>* order);
+                                  std::size_t count, const std::vector<std::size_t>* order);
   Translator::Outcome add_texts(const PartFinder::Found& found, const Translator::Block& block,
-                                const std::vector<std::size_t>* order);
+                                std::size_t count, const std::vector<std::size_t>* order);
   void put(const void* bytes, std::size_t count);
 
   CdrReader& reader_;

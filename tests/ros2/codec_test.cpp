@@ -286,6 +286,136 @@ TEST(Mapping, OfSequencesNeedsASequence) {
       "does: it has 0 to 16 elements\n");
 }
 
+const std::string detections_definition = R"(Detection[] detections
+================================================================================
+MSG: pkg/Detection
+string id
+Result[] results
+float32[] mask
+Point[2] corners
+================================================================================
+MSG: pkg/Result
+Hypothesis hypothesis
+================================================================================
+MSG: pkg/Hypothesis
+string class_id
+float64 score
+================================================================================
+MSG: pkg/Point
+int16 x
+int16 y
+)";
+const std::string detections_value =
+    "{results: {score: float64, class_id: string(8)}[<=3], mask: float64[<=4], y: {y: int16}[2]}[<=4]";
+const std::string detections_fields =
+    "detections.results.hypothesis.class_id=results.class_id, detections.mask=mask, "
+    "detections.results.hypothesis.score=results.score, detections.corners.y=y.y";
+
+/// A value with so many detections: the first has `results` of them, and each further one less by one.
+Bytes detections_of(std::uint32_t count, std::uint32_t results, bool singles = false) {
+  Bytes value = bytes_of(count);
+  for (std::uint32_t index = 0; index < count; ++index) {
+    append(value, &results, sizeof results);
+    for (std::uint32_t result = 0; result < results; ++result) {
+      const Bytes score = bytes_of(index + 0.25 * result, std::uint32_t{2});
+      append(value, score.data(), score.size());
+      append(value, "ab", 2);
+    }
+    const Bytes mask = singles ? sequence_of(0.5F, static_cast<float>(index)) : sequence_of(0.5, 1.0 * index);
+    append(value, mask.data(), mask.size());
+    const Bytes corners = bytes_of(static_cast<std::int16_t>(index), std::int16_t{-2});
+    append(value, corners.data(), corners.size());
+    if (results > 0) --results;
+  }
+  return value;
+}
+
+TEST(Codec, SequencesInTheElementsOfSequencesHaveLengthsOfTheirOwn) {
+  const std::string& fields = detections_fields;
+  const std::string singles =
+      std::string(detections_value).replace(detections_value.find("float64[<=4]"), 7, "float32");
+  const Translator receives =
+      translator_of({detections_definition, detections_value, fields}, Direction::receive);
+  const Translator sends = translator_of({detections_definition, singles, fields}, Direction::send);
+  Bytes message, back;
+  for (std::uint32_t count = 0; count <= 4; ++count)
+    for (std::uint32_t results = 0; results <= 3; ++results) {
+      ASSERT_TRUE(sends.encode(detections_of(count, results, true), {}, message));
+      ASSERT_EQ(receives.decode(message, back), Translator::Outcome::good) << count << " " << results;
+      EXPECT_EQ(hex(back), hex(detections_of(count, results))) << count << " " << results;
+    }
+  EXPECT_FALSE(sends.encode(detections_of(2, 4, true), {}, message)) << "no value of the buffer";
+  const std::string more = std::string(singles).replace(singles.find("[<=3]"), 5, "[<=9]");
+  ASSERT_TRUE(translator_of({detections_definition, more, fields}, Direction::send)
+                  .encode(detections_of(3, 5, true), {}, message));
+  Translator::Misfit misfit;
+  EXPECT_EQ(receives.decode(message, back, {}, &misfit), Translator::Outcome::other_length);
+  EXPECT_EQ(misfit.field, "[0].results");
+  EXPECT_EQ(misfit.came, 5);
+  EXPECT_EQ(misfit.room, 3);
+  EXPECT_EQ(receives.empty_value({}), bytes_of(std::uint32_t{0}));
+  const Translator same = translator_of({detections_definition, singles, fields}, Direction::receive);
+  Bytes whole;
+  ASSERT_TRUE(sends.encode(detections_of(4, 3, true), {}, whole));
+  std::mt19937 random(1);
+  for (int time = 0; time < 20'000; ++time) {
+    Bytes damaged = whole;
+    if (time % 3 == 0) damaged.resize(random() % damaged.size());
+    for (std::uint32_t change = random() % 3 + 1; change > 0 && !damaged.empty(); --change)
+      damaged[random() % damaged.size()] = static_cast<std::byte>(random() % 6);
+    if (same.decode(damaged, back) == Translator::Outcome::good) {
+      EXPECT_TRUE(sends.encode(back, {}, message)) << "it is a value of the buffer";
+    }
+  }
+}
+
+TEST(Mapping, OfArraysInElementsNamesTheFieldsOfTheInnerOnes) {
+  const auto problems = [](const std::string& value, const std::string& fields) {
+    return problems_of({detections_definition, value, fields}, Direction::receive);
+  };
+  EXPECT_EQ(problems("{results: {score: float64}[<=3]}[<=4]", "detections.results.hypothesis=results"), "");
+  EXPECT_EQ(problems("{mask: float32[<=4], results: {hypothesis: {score: float64}}[<=3]}[<=4]", ""), "");
+  EXPECT_EQ(problems("{score: float64}[<=4]", "detections.results.hypothesis.score=score"),
+            "detections.results.hypothesis.score|the field 'detections.results.hypothesis.score' lies in the "
+            "array 'detections.results', and the buffer's 'score' in none|give the buffer an array of "
+            "structures, such as Element<=16, for the whole array\n");
+  EXPECT_EQ(
+      problems("{results: {score: float64}[<=3]}[<=4]", "detections.results.hypothesis.scor=results.score"),
+      "detections.results.hypothesis.scor|'pkg/msg/Hypothesis' has no field 'scor'|did you mean 'score'?\n");
+  EXPECT_EQ(
+      problems(
+          "{a: {score: float64}[<=3], b: {class_id: string(4)}[<=3]}[<=4]",
+          "detections.results.hypothesis.score=a.score, detections.results.hypothesis.class_id=b.class_id"),
+      "detections.results.hypothesis.class_id|'detections.results' corresponds to the buffer's '[0].a' and "
+      "to the buffer's '[0].b'|\n");
+}
+
+TEST(Codec, PutsJointsOfTrajectoriesInTheOrderOfTheirNames) {
+  const std::string value = "{positions: float64[2], velocities: float64[<=2], sec: int32}[<=3]";
+  Wanted wanted{"trajectory_msgs/msg/JointTrajectory", value,
+                "points.positions=positions, points.velocities=velocities, points.time_from_start.sec=sec",
+                "left, right"};
+  Bytes points = bytes_of(std::uint32_t{2}, 1.0, 2.0);
+  for (const Bytes& part :
+       {sequence_of(3.0, 4.0), bytes_of(std::int32_t{1}, 5.0, 6.0), sequence_of(), bytes_of(std::int32_t{2})})
+    append(points, part.data(), part.size());
+  Bytes message, back;
+  ASSERT_TRUE(translator_of(wanted, Direction::send).encode(points, {}, message));
+  ASSERT_EQ(translator_of(wanted, Direction::receive).decode(message, back), Translator::Outcome::good);
+  EXPECT_EQ(hex(back), hex(points));
+  wanted.names = "right, left";
+  ASSERT_EQ(translator_of(wanted, Direction::receive).decode(message, back), Translator::Outcome::good);
+  Bytes turned = bytes_of(std::uint32_t{2}, 2.0, 1.0);
+  for (const Bytes& part :
+       {sequence_of(4.0, 3.0), bytes_of(std::int32_t{1}, 6.0, 5.0), sequence_of(), bytes_of(std::int32_t{2})})
+    append(turned, part.data(), part.size());
+  EXPECT_EQ(hex(back), hex(turned));
+  wanted.names = "left";
+  EXPECT_EQ(problems_of(wanted, Direction::send),
+            "points.positions|there are 1 names, and the buffer's '[0].positions' is float64[2]|\n"
+            "points.velocities|there are 1 names, and the buffer's '[0].velocities' is float64<=2|\n");
+}
+
 TEST(Codec, ReadsBothOrdersOfBytes) {
   const Translator translator =
       translator_of({"uint8 a\nint32 b\nfloat64[] c\nstring d", "{b: int64, c: float64[1], d: string(3)}"},
@@ -484,9 +614,10 @@ TEST(Mapping, MistakesAreTold) {
   EXPECT_EQ(problems_of({"wstring a", "string(8)"}, Direction::send),
             "|'pkg/msg/Some' has the wstring 'a'|implementations of DDS disagree on wide strings; let a node "
             "copy the message into one that has a string instead\n");
-  EXPECT_EQ(problems_of({twist, "float64", "linear.x", "a, b"}, Direction::receive),
-            "names|'geometry_msgs/msg/Twist' has no field 'name' of type string[]|names are for messages "
-            "such as sensor_msgs/JointState\n");
+  EXPECT_EQ(
+      problems_of({twist, "float64", "linear.x", "a, b"}, Direction::receive),
+      "names|'geometry_msgs/msg/Twist' has no field 'name' or 'joint_names' of type string[]|names are for "
+      "messages such as sensor_msgs/JointState\n");
 }
 
 TEST(RelatedIdentity, IsFoundAmongTheParametersOfADatagram) {

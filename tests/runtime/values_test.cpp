@@ -184,6 +184,38 @@ TEST(ValueEncoding, SequencesGoThereAndBackWithTheirLength) {
   EXPECT_EQ(layout->paths().size(), layout->scalars());
 }
 
+struct Track {
+  BoundedSequence<Detections, 2> views;
+  TESSERA_FIELDS(Track, views)
+};
+
+TEST(ValueEncoding, SequencesInTheElementsOfSequencesGoThereAndBack) {
+  using Tracks = BoundedSequence<Track, 3>;
+  const ValueEncoding& encoding = *value_encoding_of<Tracks>();
+  const auto layout = ValueLayout::parse(encoding.type());
+  ASSERT_TRUE(layout);
+  EXPECT_TRUE(layout->has_sequences());
+  EXPECT_EQ(layout->sequences().size(), 1U + 3U * (1U + 2U * 3U));
+  Tracks value, back;
+  value.resize(2);
+  value[1].views.resize(2);
+  value[1].views[1].boxes = {{1, 2}};
+  value[1].views[1].names = {"ab"};
+  EXPECT_EQ(layout->shown(encoded(value)),
+            "{[0].views: [], [1].views[0].boxes: [], [1].views[0].names: [], [1].views[0].ranges: [], "
+            "[1].views[1].boxes[0].x: 1, [1].views[1].boxes[0].y: 2, [1].views[1].names[0]: \"ab\", "
+            "[1].views[1].ranges: []}");
+  const std::string bytes = encoded(value);
+  back.resize(3);
+  back[2].views.resize(1);
+  ASSERT_TRUE(encoding.take(&back, std::as_bytes(std::span(bytes))));
+  EXPECT_EQ(encoded(back), bytes);
+  back.resize(3);
+  EXPECT_TRUE(back[2].views.empty()) << "nothing of a former element";
+  for (std::size_t size = 0; size < bytes.size(); ++size)
+    EXPECT_FALSE(encoding.take(&back, std::as_bytes(std::span(bytes).first(size)))) << size;
+}
+
 TEST(ValueEncoding, OfSequencesRefusesLengthsThatAreTooGreat) {
   std::string bytes("\4\0\0\0", 4);
   bytes.append(4 * sizeof(double), '\0');

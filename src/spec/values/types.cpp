@@ -94,7 +94,6 @@ void Types::read(const Entry* section, Diagnostics& out) {
   for (std::size_t i = 0; i < entries.size(); ++i) read_fields(entries[i], structures_[i], out);
   if (!sort(out)) return;
   check_size(out);
-  check_sequences(out);
 }
 
 void Types::read_fields(const Entry& entry, Structure& structure, Diagnostics& out) const {
@@ -148,31 +147,6 @@ void Types::check_size(Diagnostics& out) const {
   }
 }
 
-/// Precondition: the structures are sorted.
-void Types::check_sequences(Diagnostics& out) {
-  for (const StructureId id : structures_.ids()) {
-    bool holds = false;
-    for (const Field& field : structures_[id].fields) {
-      const bool inner = field.type.kind == Type::Kind::structure && holds_sequences(field.type.structure);
-      if (inner && field.type.is_sequence) refuse_nested(field.type, field.span, out);
-      holds = holds || inner || field.type.is_sequence;
-    }
-    holds_sequences_.push_back(holds);
-  }
-}
-
-bool Types::holds_sequences(StructureId structure) const {
-  return holds_sequences_.has(structure) && holds_sequences_[structure];
-}
-
-/// Recordings and messages could hold them, but every reader of a value would need a way into the inner one.
-void Types::refuse_nested(const Type& type, Span at, Diagnostics& out) const {
-  out.error(
-      "E217", at,
-      "a sequence of " + in_quotes(structures_[type.structure].name) + ", which holds a sequence itself",
-      "give the inner one a fixed length, such as float64[4]");
-}
-
 Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
   const Node* text = text_of(node, at, "a type", out, "for example float64 m/s");
   if (text == nullptr) return unknown();
@@ -200,9 +174,7 @@ Type Types::parse(const Node& node, Span at, Diagnostics& out) const {
     }
     type.structure = found->second;
   }
-  if (type.is_sequence && holds_sequences(type.structure)) {
-    refuse_nested(type, text->span, out);
-  } else if (!type.unit.empty() && !has_unit(type)) {
+  if (!type.unit.empty() && !has_unit(type)) {
     out.error("E201", parts->unit_span, "unit " + in_quotes(type.unit) + " on a type that is no number");
   } else if (bytes_of(type, {}) > largest_type) {
     out.error("E204", text->span, "an array larger than 256 MB");

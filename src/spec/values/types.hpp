@@ -16,7 +16,7 @@ class Types {
   /// Reads the section `types`; null: there is none.
   ///
   /// Errors: E101 unknown type, E105/E106/E107 names, E201 no type, E202 a structure
-  ///         contains itself, E204 too large, E217 a sequence in a sequence.
+  ///         contains itself, E204 too large.
   void read(const Entry* section, Diagnostics& out);
 
   /// The type that a scalar names: "float64 m/s", "string<=64", "Point[8]", "Point<=8". After
@@ -46,14 +46,9 @@ class Types {
   /// Returns false if there are cycles.
   bool sort(Diagnostics& out);
   void check_size(Diagnostics& out) const;
-  void check_sequences(Diagnostics& out);
-  /// Whether values of the structure have sequences, at any depth.
-  [[nodiscard]] bool holds_sequences(StructureId structure) const;
-  void refuse_nested(const Type& type, Span at, Diagnostics& out) const;
 
   Numbered<StructureId, Structure> structures_;
   std::unordered_map<std::string, StructureId> by_name_;
-  Numbered<StructureId, bool> holds_sequences_;
   std::vector<std::string> known_names_;  ///< built-in ones first, for hints
 };
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <limits>
 #include <sstream>
+#include <string_view>
 #include <type_traits>
 #include <utility>
 
@@ -110,6 +111,12 @@ Option Subcommand::flag(const std::string& name, std::string& value, const std::
   return Option(*app_->add_flag(name + "{" + given + "}", value, help));
 }
 
+void Subcommand::words(const std::string& flag, std::optional<std::vector<std::string>>& words,
+                       const std::string& help) {
+  app_->add_flag(flag, help);
+  words_->push_back({app_->get_name(), flag, &words});
+}
+
 Option Subcommand::declared(const std::string& name) const { return Option(*app_->get_option(name)); }
 
 void Subcommand::footer(const std::string& text) { app_->footer(text); }
@@ -129,7 +136,7 @@ CommandLine::CommandLine(const std::string& program, const std::string& version,
 CommandLine::~CommandLine() = default;
 
 Subcommand CommandLine::add(const std::string& name, const std::string& about) {
-  return {*app_->add_subcommand(name, about), exit_code_};
+  return {*app_->add_subcommand(name, about), exit_code_, taken_};
 }
 
 void CommandLine::option(const std::string& name, const std::string& value,
@@ -199,6 +206,28 @@ void CommandLine::tell_unexpected() const {
   fmt::print(stderr, "`{} --help` shows its options\n", command);
 }
 
+std::vector<char*> CommandLine::without_taken(int argc, char** argv) const {
+  std::vector<char*> left;
+  const Subcommand::Words* within = nullptr;
+  for (char** at = argv; at != argv + argc; ++at) {
+    const std::string_view word = *at;
+    const auto begins = std::find_if(taken_.begin(), taken_.end(), [&](const Subcommand::Words& one) {
+      return word == one.flag && std::find(left.begin(), left.end(), one.command) != left.end();
+    });
+    if (within == nullptr && begins != taken_.end()) {
+      within = &*begins;
+      if (!*within->words) within->words->emplace();
+    } else if (within != nullptr && word == "--") {
+      within = nullptr;
+    } else if (within != nullptr) {
+      (*within->words)->emplace_back(word);
+    } else {
+      left.push_back(*at);
+    }
+  }
+  return left;
+}
+
 int CommandLine::read(int argc, char** argv) {
   if (argc > 1)
     if (const auto hidden = hidden_.find(argv[1]); hidden != hidden_.end()) {
@@ -207,7 +236,8 @@ int CommandLine::read(int argc, char** argv) {
     }
   if (const std::optional<int> wrong = unknown_command(argc, argv)) return *wrong;
   try {
-    app_->parse(argc, argv);
+    std::vector<char*> left = without_taken(argc, argv);
+    app_->parse(static_cast<int>(left.size()), left.data());
     return exit_code_;
   } catch (const CLI::ExtrasError&) {
     tell_unexpected();

@@ -49,7 +49,13 @@ class Option {
 /// long as the `CommandLine`.
 class Subcommand {
  public:
-  Subcommand(CLI::App& app, int& exit_code) : app_(&app), exit_code_(&exit_code) {}
+  /// The words behind a flag of a command, which are taken away before the rest is read.
+  struct Words {
+    std::string command, flag;
+    std::optional<std::vector<std::string>>* words;
+  };
+  Subcommand(CLI::App& app, int& exit_code, std::vector<Words>& words)
+      : app_(&app), exit_code_(&exit_code), words_(&words) {}
 
   /// names: "--for", "-o,--output". A name without dashes, such as "spec", is a positional argument.
   Option option(const std::string& names, std::string& value, const std::string& help);
@@ -61,6 +67,9 @@ class Subcommand {
   Option flag(const std::string& names, bool& value, const std::string& help);
   /// A flag that may have a value: --values, --values=TEXT. Without a value it is `given`.
   Option flag(const std::string& name, std::string& value, const std::string& given, const std::string& help);
+  /// A flag whose words go from it to `--`, or to the end of the line, whatever they are. Without the flag, nullopt.
+  void words(const std::string& flag, std::optional<std::vector<std::string>>& words,
+             const std::string& help);
   /// An option that was declared before. Throws if there is none.
   [[nodiscard]] Option declared(const std::string& name) const;
   /// Text below the options in the help.
@@ -78,6 +87,7 @@ class Subcommand {
  private:
   CLI::App* app_;
   int* exit_code_;
+  std::vector<Words>* words_;
 };
 
 /// The command line of the program. For one thread.
@@ -116,12 +126,15 @@ class CommandLine {
   void add_hidden(const std::string& name, std::function<void(std::vector<std::string>)> run);
 
  private:
+  /// Takes the words of such flags away.
+  [[nodiscard]] std::vector<char*> without_taken(int argc, char** argv) const;
   /// nullopt: it is a command, or it does not exist.
   [[nodiscard]] std::optional<int> unknown_command(int argc, char** argv) const;
   void tell_unexpected() const;
 
   std::unique_ptr<CLI::App> app_;
   int exit_code_ = 0;
+  std::vector<Subcommand::Words> taken_;
   std::map<std::string, std::function<void(std::vector<std::string>)>> hidden_;
 };
 

@@ -135,6 +135,8 @@ int run_command(RunCommandOptions options) {
   if ((options.deploy.asked || !options.process.empty()) && options.world)
     return complain("a simulated world is in one process: `tessera simulate` runs all processes in it"),
            usage;
+  if (options.deploy.asked && options.ros2_arguments)
+    return complain("--ros-args is for one process: start it with --process NAME"), usage;
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (const int code = check_run(options, options.world); code != ok) return code;
@@ -247,6 +249,10 @@ void add_run(CommandLine& app) {
   command.flag("--no-monitor", options.no_monitor,
                "Without a control socket: `tessera emergency-stop`, `set` and `top` cannot reach this run");
   declare_deployment_options(command, options);
+  command.words(
+      "--ros-args", options.ros2_arguments,
+      "Names and parameters as ROS 2 gives them, up to -- or the end: -r FROM:=TO, -r __node:=NAME, "
+      "-r __ns:=/SPACE, -p NAME:=VALUE, --params-file FILE (docs/use/ros2.md)");
   command.footer(
       "Examples:\n  tessera run\n  tessera run --world --for 10s\n"
       "  tessera run --deploy --restart on-failure       every process of this machine (docs/use/fleets.md)");

@@ -55,7 +55,7 @@ std::unique_ptr<Ros2Clock> make_clock(const std::string& interface, std::string&
     setup.topic = "/clock";
     setup.dds_topic = dds_topic_name(setup.topic);
     setup.dds_type = dds_type_name("rosgraph_msgs/msg/Clock");
-    setup.node = "tessera_clock";
+    setup.node = "/tessera_clock";
     setup.qos = Qos{.depth = 1};
     setup.network = {domain_of_environment(), interface, ""};
     return std::make_unique<Publication>(setup);

@@ -52,7 +52,7 @@ class Participant {
   /// The nodes of this process in this domain.
   [[nodiscard]] Graph& graph() { return *graph_; }
   [[nodiscard]] const Network& network() const { return network_; }
-  /// Notes that an agent has drivers in that node.
+  /// Notes that an agent has drivers in that node. node: its full name.
   void note(const std::string& node, const std::string& agent);
   /// The nodes that had drivers, and their agents.
   [[nodiscard]] std::map<std::string, std::set<std::string>> nodes();

@@ -24,7 +24,7 @@ struct EndpointSetup {
   std::string topic;                ///< "/cmd_vel"
   std::string dds_topic, dds_type;  ///< as DDS names them
   std::string user_data{};          ///< the text about the endpoint that the other side receives
-  std::string node;
+  std::string node;                 ///< its full name: "/robot", "/left/robot"
   Qos qos;
   Network network;
   bool sole_writer = false;  ///< whether a writer looks for others of its topic

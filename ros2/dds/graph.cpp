@@ -6,6 +6,7 @@
 #include <stdexcept>
 #include <string_view>
 
+#include "ros2/arguments/rules.hpp"
 #include "ros2/codec/cdr.hpp"
 
 namespace tessera::ros2 {
@@ -154,9 +155,10 @@ void Graph::announce() {
   CdrWriter writer(message);
   put_identifier(writer, participant_);
   writer.length(static_cast<std::uint32_t>(nodes.size()));
-  for (const auto& [name, endpoints] : nodes) {
-    writer.text("/");
-    writer.text(name);
+  for (const auto& [full, endpoints] : nodes) {
+    const NodeName node = node_name_in(full);
+    writer.text(node.name_space);
+    writer.text(node.name);
     for (const bool writes : {false, true}) {
       const auto belongs = [&](const Endpoint* one) { return one->writes == writes; };
       writer.length(static_cast<std::uint32_t>(std::ranges::count_if(endpoints, belongs)));

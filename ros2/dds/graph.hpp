@@ -36,6 +36,7 @@ class Graph {
   Graph(const Graph&) = delete;
   Graph& operator=(const Graph&) = delete;
 
+  /// node: its full name, "/left/robot".
   void add(const std::string& node, dds_entity_t endpoint, bool writes);
   void remove(dds_entity_t endpoint);
 

@@ -1,4 +1,7 @@
 // The exported functions of the library. Controllers load it at run time, so they need no DDS to build.
+#include <optional>
+
+#include "ros2/arguments/arguments.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/drivers.hpp"
 #include "ros2/drivers/nodes.hpp"
@@ -28,5 +31,12 @@ __attribute__((visibility("default"))) std::unique_ptr<tessera::Ros2Clock> tesse
 __attribute__((visibility("default"))) std::unique_ptr<tessera::Ros2Nodes> tessera_ros2_nodes_1(
     tessera::Ros2Host& host, std::string& error) {
   return tessera::ros2::make_nodes(host, error);
+}
+
+__attribute__((visibility("default"))) bool tessera_ros2_arguments_1(tessera::Ros2Arguments& arguments,
+                                                                     std::string& error) {
+  const std::optional<tessera::Problem> wrong = tessera::ros2::apply_arguments(arguments);
+  if (wrong) error = wrong->text;
+  return !wrong;
 }
 }

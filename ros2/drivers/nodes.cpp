@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros2/arguments/rules.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/server.hpp"
 #include "ros2/parameters/node_parameters.hpp"
@@ -38,7 +39,8 @@ class ServedNode {
         diagnostics_(topic("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray", 10), /*writes=*/true) {
     for (const ParameterServiceName& one : parameter_services) {
       EndpointSetup endpoint = setup_;
-      endpoint.topic = "/" + node + "/" + one.name;
+      endpoint.topic =
+          rules_of_process().name(Rules::Kind::service, std::string("~/") + one.name, node_name_in(node_));
       servers_.push_back({one.service, std::make_unique<ServiceServer>(
                                            ServiceSetup{.endpoint = endpoint, .type = one.type})});
       servers_.back().server->open();
@@ -76,7 +78,7 @@ class ServedNode {
         own.push_back(one);
         own.back().path = *name;
       }
-    static_cast<void>(diagnostics_.write(diagnostics_message(stamp_now(), node_, system, own)));
+    static_cast<void>(diagnostics_.write(diagnostics_message(stamp_now(), node_.substr(1), system, own)));
   }
 
  private:
@@ -95,8 +97,8 @@ class ServedNode {
   }
   [[nodiscard]] EndpointSetup topic(const char* name, const char* type, int depth) const {
     EndpointSetup setup = setup_;
-    setup.topic = name;
-    setup.dds_topic = dds_topic_name(name);
+    setup.topic = rules_of_process().name(Rules::Kind::topic, name, node_name_in(node_));
+    setup.dds_topic = dds_topic_name(setup.topic);
     setup.dds_type = dds_type_name(type);
     setup.qos = Qos{.depth = depth};
     return setup;

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros2/arguments/rules.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
 
@@ -55,6 +56,23 @@ Translator translator_of(const Ros2Binding& binding, Direction direction,
   return given(std::move(translator), problems.empty() ? "no mapping" : problems.front().text);
 }
 
+/// Sets the final names of the topic and the node, after the rules of the process.
+void name(EndpointSetup& endpoint, const Ros2Binding& binding) {
+  const std::string written =
+      binding.node.empty() ? node_name_of(binding.path.substr(0, binding.path.find('.'))) : binding.node;
+  if (!is_node_name(written)) throw std::runtime_error("'" + written + "' is no name of a node");
+  const Rules rules = rules_of_process();
+  const NodeName node = rules.node(written);
+  const bool is_topic = binding.role.empty() && !is_action_type(binding.type);
+  std::string error;
+  endpoint.node = node.full();
+  endpoint.topic = full_topic_name(binding.topic, error);
+  if (!endpoint.topic.empty())
+    endpoint.topic = full_topic_name(
+        rules.name(is_topic ? Rules::Kind::topic : Rules::Kind::service, binding.topic, node), error);
+  if (endpoint.topic.empty()) throw std::runtime_error(error);
+}
+
 }  // namespace
 
 Prepared prepare(const Ros2Binding& binding, Direction direction) {
@@ -65,16 +83,12 @@ Prepared prepare(const Ros2Binding& binding, Direction direction) {
                     binding.wait, binding.one_publisher};
   EndpointSetup& endpoint = prepared.endpoint;
   endpoint.path = binding.path;
-  endpoint.topic = full_topic_name(binding.topic, error);
-  if (endpoint.topic.empty()) throw std::runtime_error(error);
+  name(endpoint, binding);
   if (binding.role.empty()) {
     endpoint.dds_topic = dds_topic_name(endpoint.topic);
     endpoint.dds_type = dds_type_name(binding.type);
   }
   endpoint.qos = given(parse_qos(binding.qos, error), error);
-  endpoint.node =
-      binding.node.empty() ? node_name_of(binding.path.substr(0, binding.path.find('.'))) : binding.node;
-  if (!is_node_name(endpoint.node)) throw std::runtime_error("'" + endpoint.node + "' is no name of a node");
   endpoint.network = {binding.domain ? *binding.domain : domain_of_environment(), binding.interface,
                       binding.peers};
   static_cast<void>(configuration_of(endpoint.network));  // finds mistakes before a device is opened

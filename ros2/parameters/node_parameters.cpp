@@ -44,11 +44,11 @@ std::vector<std::byte> listed(const All& all, const ListRequest& request) {
 NodeParameters::NodeParameters(Ros2Host& host, std::string node, std::set<std::string> agents)
     : host_(host), node_(std::move(node)), agents_(std::move(agents)) {}
 
-std::optional<std::string> NodeParameters::name_of(std::string_view path) const {
+std::optional<std::string> name_in_node(const std::set<std::string>& agents, std::string_view path) {
   const std::size_t dot = path.find(separator);
-  if (dot == std::string_view::npos || !agents_.contains(std::string(path.substr(0, dot))))
+  if (dot == std::string_view::npos || !agents.contains(std::string(path.substr(0, dot))))
     return std::nullopt;
-  return std::string(agents_.size() == 1 ? path.substr(dot + 1) : path);
+  return std::string(agents.size() == 1 ? path.substr(dot + 1) : path);
 }
 
 std::vector<NodeParameters::Known> NodeParameters::known() const {
@@ -111,7 +111,7 @@ std::vector<std::byte> NodeParameters::set(std::span<const NamedValue> values, b
 
 std::optional<std::vector<std::byte>> NodeParameters::event(const Stamp& stamp) {
   const std::vector<Known> all = known();
-  ParameterEvent event{stamp, "/" + node_};
+  ParameterEvent event{stamp, node_};
   std::vector<std::string> values;
   for (std::size_t index = 0; index < all.size(); ++index) {
     const auto& [name, parameter] = all[index];

@@ -30,17 +30,22 @@ inline constexpr std::array<ParameterServiceName, 6> parameter_services{
      {ParameterService::set, "set_parameters", "rcl_interfaces/srv/SetParameters"},
      {ParameterService::set_all, "set_parameters_atomically", "rcl_interfaces/srv/SetParametersAtomically"}}};
 
+/// The name in a node with these agents of something with that path; nullopt: it belongs to another node.
+[[nodiscard]] std::optional<std::string> name_in_node(const std::set<std::string>& agents,
+                                                      std::string_view path);
+
 /// The parameters of the agents of one node. A parameter is named after its subsystem: "control.v"; if the node has
 /// several agents: "robot.control.v".
 ///
 /// Threads: one at a time.
 class NodeParameters {
  public:
-  /// node: its name. host: must outlive this.
+  /// node: its full name. host: must outlive this.
   NodeParameters(Ros2Host& host, std::string node, std::set<std::string> agents);
 
-  /// The name in the node of something with that path; nullopt: it belongs to another node.
-  [[nodiscard]] std::optional<std::string> name_of(std::string_view path) const;
+  [[nodiscard]] std::optional<std::string> name_of(std::string_view path) const {
+    return name_in_node(agents_, path);
+  }
   /// The reply to a request; nullopt: that is no such request.
   [[nodiscard]] std::optional<std::vector<std::byte>> answer(ParameterService service,
                                                              std::span<const std::byte> request);

@@ -223,6 +223,11 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
   if (!options.network.empty() && mode == "simulate") append(command, {"--network", options.network});
   if (simulated && mode == "run") command.push_back("--simulated");
   if (simulated && specification.model.simulation) add_world(command, specification, options);
+  if (options.ros2_arguments && mode == "run") {
+    command.push_back("--ros-args");
+    command.insert(command.end(), options.ros2_arguments->begin(), options.ros2_arguments->end());
+    command.push_back("--");
+  }
   return command;
 }
 

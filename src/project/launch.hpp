@@ -26,6 +26,7 @@ struct LaunchOptions {
   bool accept_stuck = false;  ///< a subsystem that is stuck for good at the end is not a failure
   /// paths of the subsystems and buffers with real drivers in a simulated run
   std::vector<std::string> hardware;
+  std::optional<std::vector<std::string>> ros2_arguments;  ///< in real time: the words behind `--ros-args`
   bool also = false;        ///< start although another run uses the same real devices
   bool no_monitor = false;  ///< in real time: without a control socket
   bool debug = false;

@@ -474,7 +474,7 @@ TEST(Actions, GoalsOfARunAreCancelledByTheirNamesAndNoOthers) {
   EndpointSetup endpoint;
   endpoint.path = "guardian";
   endpoint.topic = "/fibonacci";
-  endpoint.node = "guardian";
+  endpoint.node = "/guardian";
   endpoint.network = {action_domain(), "lo", ""};
   ActionClient guardian({endpoint, "action_tutorials_interfaces/action/Fibonacci", true, {}, "action"});
   guardian.open();

@@ -85,11 +85,19 @@ TEST(Example, PatrolsAndRecoversAndChargesAndCancelsAtTheEnd) {
   const std::unique_ptr<FILE, int (*)(FILE*)> output(popen(robot.c_str(), "r"), pclose);
   ASSERT_NE(output, nullptr);
   fast::Peer operators(static_cast<std::uint32_t>(std::stoi(domain)));
-  auto* const pauses = operators.writer<fast::Bool>("rt/patrol/pause");
-  auto* const reports = operators.reader<fast::Text>("rt/patrol/report");
+  auto* const pauses = operators.writer<fast::Bool>("rt/site/pause");
+  auto* const reports = operators.reader<fast::Text>("rt/site/report");
+  // As a launch file starts it.
+  const std::string parameters = (project / "site.yaml").string();
+  std::ofstream(parameters) << "/site/robot:\n  ros__parameters:\n    control: { low: 0.3 }\n";
+  const std::string arguments =
+      " --ros-args -r __ns:=/site -r /patrol/report:=report -r robot:/patrol/pause:=/site/pause "
+      "--params-file " +
+      parameters + " -- ";
   const std::string run = "ROS_DOMAIN_ID=" + domain + " " TESSERA_BINARY_DIR "/tessera run " +
-                          project.string() + " --for 12s --mcap " + (project / "patrol.mcap").string() +
-                          " > " + (project / "run.log").string() + " 2>&1";
+                          project.string() + arguments + " --for 12s --mcap " +
+                          (project / "patrol.mcap").string() + " > " + (project / "run.log").string() +
+                          " 2>&1";
   // The operator wants a pause as soon as the robot is on its way to the last station, until it stands.
   std::set<std::string> said;
   std::future<int> ran = std::async(std::launch::async, [&] { return std::system(run.c_str()); });
@@ -100,6 +108,8 @@ TEST(Example, PatrolsAndRecoversAndChargesAndCancelsAtTheEnd) {
       pauses->write(&pause);
     }
   EXPECT_EQ(ran.get(), 0) << content_of(project / "run.log");
+  for (const char* words : {"the node /robot is /site/robot", "/patrol/report is /site/report"})
+    EXPECT_NE(content_of(project / "run.log").find(words), std::string::npos) << words;
   const Summary robot_did = summary_of(*output);
   EXPECT_GE(robot_did.goals, 5) << content_of(project / "run.log");
   EXPECT_GE(robot_did.succeeded, 3);

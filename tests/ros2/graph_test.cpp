@@ -125,7 +125,7 @@ TEST_F(GraphWithFastDds, TellsOfAPublisherWithAnotherType) {
   setup.topic = "/words";
   setup.dds_topic = "rt/words";
   setup.dds_type = "std_msgs::msg::dds_::String_";
-  setup.node = "robot";
+  setup.node = "/robot";
   setup.network.domain = test_domain();
   const Endpoint ear(setup, /*writes=*/false);
   EXPECT_TRUE(eventually([&] { return ear.tell_of_misfits(); }));

@@ -15,6 +15,7 @@
 #include "bindings.hpp"
 #include "eventually.hpp"
 #include "fast_peer.hpp"
+#include "ros2/arguments/rules.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -174,6 +175,37 @@ TEST(NodesOfRos2, SetParametersTellOfThemAndPublishDiagnostics) {
   EXPECT_EQ(shown->hardware, "depot");
   nodes.reset();
   effector->close();
+}
+
+TEST(NodesOfRos2, HaveTheNamesThatALaunchFileGives) {
+  set_rules_of_process(Rules({{.of = Rule::Of::node, .to = "base"},
+                              {.of = Rule::Of::name_space, .to = "/left"},
+                              {.of = Rule::Of::any, .from = "/cmd_vel", .to = "cmd"},
+                              {.of = Rule::Of::topic, .from = "/parameter_events", .to = "/events"}}));
+  const auto effector =
+      opened_effector(binding<Motion>("/cmd_vel", "geometry_msgs/msg/Twist", "linear.x=v, angular.z=omega"));
+  fast::Peer peer(test_domain());
+  auto* const twists = peer.reader<fast::Twist>("rt/left/cmd");
+  auto* const events = peer.reader<WireEvent>("rt/events");
+  auto* const requests =
+      peer.writer<SetRequest>("rq/left/base/set_parametersRequest", true, "clientid=01.0f.9;");
+  OneGain host;
+  std::string error;
+  const auto nodes = make_nodes(host, error);
+  set_rules_of_process({});
+  ASSERT_NE(nodes, nullptr) << error;
+  EXPECT_TRUE(eventually([&] { return fast::Peer::is_matched(*requests); }));
+  EXPECT_TRUE(eventually([&] {
+    return write(*effector, Motion{0.25, 0}) && fast::Peer::take<fast::Twist>(*twists).has_value();
+  }));
+  std::optional<WireEvent> event;
+  double gain = 1.25;
+  ASSERT_TRUE(eventually([&] {
+    const Ros2Host::Change change{"robot.part.gain", std::to_string(gain += 0.25)};
+    EXPECT_EQ(host.set({&change, 1}), std::nullopt);
+    return (event = fast::Peer::take<WireEvent>(*events)).has_value();
+  }));
+  EXPECT_EQ(event->node, "/left/base");
 }
 
 }  // namespace

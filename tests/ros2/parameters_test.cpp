@@ -106,7 +106,7 @@ class ParametersOfANode : public testing::Test {
  protected:
   const DefinitionFolders folders{{std::string(TESSERA_SOURCE_DIR) + "/share/tessera/ros2"}};
   Robots robots;
-  NodeParameters node{robots, "robot", {"robot"}};
+  NodeParameters node{robots, "/robot", {"robot"}};
 
   std::string reply(ParameterService service, const Bytes& request) {
     const auto bytes = node.answer(service, request);
@@ -205,7 +205,8 @@ TEST_F(ParametersOfANode, AreSetOneByOneOrRefusedWithTheReason) {
       reply(ParameterService::set,
             set_reals({{"control.gain", 0.1}, {"control.gain", 11.5}, {"control.level", 2}, {"gain", 1}})),
       "{results=[{successful=1}, {reason=robot.control.gain is out of range}, {reason=parameter "
-      "robot.control.level is of type integer, not double}, {reason=the node robot has no parameter gain}]}");
+      "robot.control.level is of type integer, not double}, {reason=the node /robot has no parameter "
+      "gain}]}");
   EXPECT_EQ(robots.all[0].value, "0.1");
   EXPECT_EQ(robots.all[1].value, "-3");
   EXPECT_EQ(
@@ -219,7 +220,7 @@ TEST_F(ParametersOfANode, AreSetTogetherOrNotAtAll) {
   EXPECT_EQ(reply(ParameterService::set_all, set_reals({{"control.gain", 2}, {"control.gain", 11.5}})),
             "{result={reason=robot.control.gain is out of range}}");
   EXPECT_EQ(reply(ParameterService::set_all, set_reals({{"control.gain", 2}, {"nothing", 3}})),
-            "{result={reason=the node robot has no parameter nothing}}");
+            "{result={reason=the node /robot has no parameter nothing}}");
   EXPECT_EQ(robots.all[0].value, "0.5");
   EXPECT_EQ(reply(ParameterService::set_all, set_reals({{"control.gain", 2}})), "{result={successful=1}}");
   EXPECT_EQ(robots.all[0].value, "2");
@@ -250,7 +251,7 @@ TEST_F(ParametersOfANode, ArraysAndTextsAreSet) {
 
 TEST_F(ParametersOfANode, EventsTellOfEachChangeOnce) {
   const std::string event = "rcl_interfaces/msg/ParameterEvent";
-  NodeParameters carts{robots, "carts", {"cart", "tug"}};
+  NodeParameters carts{robots, "/carts", {"cart", "tug"}};
   ASSERT_EQ(message(carts.event({3, 4}).value(), event),
             "{stamp={sec=3 nanosec=4} node=/carts new_parameters=[{name=cart.drive.gain value={type=3 "
             "double_value=1}}]}");

@@ -84,6 +84,20 @@ TEST_F(CommandLineOf, WhatCannotStartIsOne) {
   EXPECT_EQ(control(system, {"simulate", "--for", "10ms", "--summary", "/nonexistent/summary"}), 1);
 }
 
+TEST_F(CommandLineOf, ArgumentsOfRos2GoToTheEndOrToTwoDashes) {
+  std::vector<std::string> words{"controller", "--ros-args", "-r",         "a:=b", "--",    "run",
+                                 "--for",      "1s",         "--ros-args", "-p",   "x:=--y"};
+  std::vector<char*> argv;
+  for (std::string& word : words) argv.push_back(word.data());
+  const auto parsed = parse_command_line(system.system(), static_cast<int>(argv.size()), argv.data());
+  ASSERT_TRUE(std::holds_alternative<CommandLine>(parsed));
+  const RunOptions& options = std::get<CommandLine>(parsed).options;
+  EXPECT_EQ(options.ros2_arguments, (std::vector<std::string>{"-r", "a:=b", "-p", "x:=--y"}));
+  EXPECT_EQ(options.duration, Duration(1s));
+  EXPECT_EQ(control(system, {"simulate", "--for", "1s", "--ros-args"}), 2);
+  EXPECT_EQ(control(system, {"run", "--for", "1s", "-r", "a:=b"}), 2);
+}
+
 TEST_F(CommandLineOf, HelpIsZero) { EXPECT_EQ(control(system, {"simulate", "--help"}), 0); }
 
 TEST(CommandLine, FailedRunIsOne) {

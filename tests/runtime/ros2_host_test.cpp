@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "parameters/parameter_changes.hpp"
+#include "parameters/ros2_parameters.hpp"
 #include "tessera/bounded_string.hpp"
 
 namespace tessera {

@@ -46,6 +46,9 @@ struct RunOptions {
     std::uint32_t segments = 0;
   } record_limit;
   std::vector<std::pair<std::string, std::string>> parameters;  ///< as given by --set PATH=VALUE, in order
+  /// Real time: the arguments of ROS 2, as behind `--ros-args` (docs/use/ros2.md); their parameters come after the
+  /// others. nullopt: there are none, as in a run that no launch file started.
+  std::optional<std::vector<std::string>> ros2_arguments;
   std::vector<DriverRequest> drivers;  ///< of the simulated world; C++ drivers come with the System
   /// Steady clock without a world: uses the simulated C++ drivers of the System in place of the real ones.
   /// Runs with the simulated clock or with a world always do.

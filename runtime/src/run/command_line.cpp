@@ -22,6 +22,7 @@ namespace tessera {
 namespace {
 
 constexpr unsigned most_jobs = 4096;
+constexpr const char* ros2_flag = "--ros-args";
 
 /// The options as the user wrote them, before they are interpreted.
 struct Words {
@@ -183,6 +184,28 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
   return std::nullopt;
 }
 
+/// Takes the arguments of ROS 2 out of the command line: from each `--ros-args` to `--`, or to the end.
+[[nodiscard]] std::optional<std::vector<std::string>> take_ros2_words(std::vector<char*>& words) {
+  std::optional<std::vector<std::string>> taken;
+  std::vector<char*> left;
+  bool within = false;
+  for (char* const word : words) {
+    const std::string_view text = word;
+    if (!within && text == ros2_flag) {
+      within = true;
+      if (!taken) taken.emplace();
+    } else if (within && text == "--") {
+      within = false;
+    } else if (within) {
+      taken->emplace_back(text);
+    } else {
+      left.push_back(word);
+    }
+  }
+  words = std::move(left);
+  return taken;
+}
+
 /// The net and the verdicts from which the controller was made.
 [[nodiscard]] std::string about(const System& system) {
   std::string text =
@@ -271,6 +294,11 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
                 "No guardian process, for debuggers that stop the controller (docs/reference/safety.md)");
   run->add_flag("--simulated", line.options.simulated_drivers,
                 "Simulated drivers in place of the real ones; a --world implies it");
+  bool unused = false;  // the words are taken away before
+  run->add_flag(
+      ros2_flag, unused,
+      "Names and parameters as a launch file of ROS 2 gives them, up to -- or the end: -r FROM:=TO, "
+      "-r __node:=NAME, -r __ns:=/SPACE, -p NAME:=VALUE, --params-file FILE (docs/use/ros2.md)");
   simulate->add_option("--scenario", line.options.scenario,
                        "Follow this run first (tessera verify --scenario), then run on freely");
   simulate->add_flag("--interleave", line.options.interleave,
@@ -300,11 +328,17 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
   simulate->add_option("--skip-to", words.skip_to,
                        "With --controlled: as fast as possible up to this time; --speed and --paused count "
                        "from then on");
+  std::vector<char*> argued(argv, argv + argc);
+  line.options.ros2_arguments = take_ros2_words(argued);
   try {
-    app.parse(argc, argv);
+    app.parse(static_cast<int>(argued.size()), argued.data());
   } catch (const CLI::ParseError& error) {
     const bool unreadable = dynamic_cast<const CLI::FileError*>(&error) != nullptr;
     return app.exit(error) == 0 ? 0 : unreadable ? 1 : 2;
+  }
+  if (line.options.ros2_arguments && !run->parsed()) {
+    fmt::print(stderr, "error: {} is for `run`: a simulated run has no nodes of ROS 2\n", ros2_flag);
+    return 2;
   }
   line.options.monitor = run->parsed() ? !words.unwatched : words.controlled;
   line.options.clock = run->parsed() ? RunOptions::Clock::steady : RunOptions::Clock::simulated;

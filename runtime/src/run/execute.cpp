@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "assembly/planted_faults.hpp"
+#include "assembly/ros2_arguments.hpp"
 #include "assembly/upper_layers.hpp"
 #include "drivers/devices.hpp"
 #include "drivers/driver_watch.hpp"
@@ -312,7 +314,9 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
                                   const GiveUp& give_up, std::string& error) {
   std::optional<ProcessPart> part = part_to_run(system, given, error);
   if (!part) return std::nullopt;
-  const RunOptions options = options_of(*part, given);
+  RunOptions options = options_of(*part, given);
+  Ros2ArgumentNotes ros2;
+  if (!take_ros2_arguments(*part, options, ros2, error)) return std::nullopt;
   const auto instances = static_cast<std::uint32_t>(part->system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
@@ -339,6 +343,9 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   // No real device waits for a slow reader of the output.
   using Overflow = console::Session::Overflow;
   console::Session session(nothing_real ? Overflow::waits : Overflow::loses);
+  for (const std::string& note : ros2.notes) console::print(LogLevel::info, Time{}, "tessera", note);
+  for (const std::string& warning : ros2.warnings)
+    console::print(LogLevel::warning, Time{}, "tessera", warning);
   companions.watch_parent();
   KnownRun known;
   std::optional<DriverWatch> driver_watch;

@@ -7,30 +7,13 @@
 #include <utility>
 
 #include "drivers/ros2_library.hpp"
+#include "parameters/ros2_parameters.hpp"
 #include "system/console.hpp"
 #include "tessera/device.hpp"
 #include "watch/snapshot.hpp"
 
 namespace tessera {
 namespace {
-
-using OfferedKind = Ros2Parameter::Kind;
-
-/// nullopt: a structure.
-std::optional<OfferedKind> ros2_kind_of(const Bindings::Parameter& parameter) {
-  if (parameter.capacity > 0) return OfferedKind::text;
-  if (!parameter.scalar) return std::nullopt;
-  const bool array = parameter.elements > 0;
-  switch (*parameter.scalar) {
-    case Scalar::boolean:
-      return array ? OfferedKind::booleans : OfferedKind::boolean;
-    case Scalar::float32:
-    case Scalar::float64:
-      return array ? OfferedKind::reals : OfferedKind::real;
-    default:
-      return array ? OfferedKind::integers : OfferedKind::integer;
-  }
-}
 
 /// Raises the level of a status and adds a reason.
 void worsen(Ros2Status& status, Ros2Status::Level level, const std::string& why) {
@@ -39,27 +22,6 @@ void worsen(Ros2Status& status, Ros2Status::Level level, const std::string& why)
 }
 
 }  // namespace
-
-std::vector<Ros2Parameter> ros2_parameters(std::span<const ParameterOwner> owners,
-                                           std::span<const Offered::Value> values) {
-  std::vector<Ros2Parameter> all;
-  std::size_t next = 0;
-  for (const ParameterOwner& owner : owners)
-    for (const Bindings::Parameter& one : owner.parameters) {
-      const Offered::Value& offered = values[next++];
-      const std::optional<OfferedKind> kind = ros2_kind_of(one);
-      if (kind)
-        all.push_back({.path = offered.path,
-                       .kind = *kind,
-                       .value = offered.value,
-                       .unit = offered.unit,
-                       .minimum = one.minimum,
-                       .maximum = one.maximum,
-                       .longest = one.capacity,
-                       .elements = one.elements});
-    }
-  return all;
-}
 
 std::vector<Ros2Status> Ros2Statuses::of(const Snapshot& snapshot) {
   using Level = Ros2Status::Level;

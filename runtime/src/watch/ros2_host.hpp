@@ -14,11 +14,6 @@
 
 namespace tessera {
 
-/// The parameters of ROS 2 for those of subsystems, with their values. Structures are left out: they cannot be given.
-/// values: as ParameterChanges::offered.
-[[nodiscard]] std::vector<Ros2Parameter> ros2_parameters(std::span<const ParameterOwner> owners,
-                                                         std::span<const Offered::Value> values);
-
 /// The states of the subsystems, as diagnostics show them. A warning about overruns ends when there is no new one.
 ///
 /// Threads: one at a time.

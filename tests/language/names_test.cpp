@@ -46,6 +46,8 @@ TEST(Rename, NamesOfEveryExampleCanBeChangedAndChangedBack) {
       const Position at = document.lines().position(symbol.definition.begin);
       if (!renameable(document, nullptr, at)) continue;
       const Renaming there = rename(document, nullptr, at, {}, "quite_another");
+      // A goal needs fields of certain names.
+      if (there.problem && there.problem->find("(E363)") != std::string::npos) continue;
       ASSERT_EQ(there.problem, std::nullopt) << folder << " " << symbol.path;
       const std::string changed = applied(text, there.edits, "");
       EXPECT_EQ(codes(changed), before) << folder << " " << symbol.path << "\n" << changed;

@@ -123,8 +123,7 @@ class Resolver {
     Hint hint = did_you_mean(short_name(name), names);
     if (name.ends_with("/msg/Header"))
       hint = "a definition of ROS 2 has std_msgs/Header; that of ROS 1 has Header";
-    if (hint.empty())
-      hint = "write its definition into msg/" + name + "." + kind.ending + " beside the specification";
+    if (hint.empty()) hint = definitions_.remedy(name + "." + kind.ending);
     return wrong(used_by, std::string("there is no ") + kind.word + " '" + short_name(name) + "'", hint);
   }
 
@@ -135,6 +134,50 @@ class Resolver {
 };
 
 }  // namespace
+
+std::string Definitions::remedy(const std::string& file) const {
+  return "write its definition into msg/" + file + " beside the specification";
+}
+
+std::string DefinitionFolders::remedy(const std::string& file) const {
+  const DefinitionFolders installations = of_installations();
+  const std::string begin = Definitions::remedy(file);
+  if (installations.empty()) return begin + ", or source a ROS 2 installation that has it";
+  constexpr std::size_t most = 3;
+  std::string list;
+  for (std::size_t at = 0; at < installations.folders_.size() && at < most; ++at)
+    list += (at == 0 ? "" : ", ") + installations.folders_[at].string();
+  if (installations.folders_.size() > most)
+    list += " and " + std::to_string(installations.folders_.size() - most) + " more";
+  return begin + ", or source a ROS 2 installation that has it; looked in msg, " + list +
+         ", and Tessera's own";
+}
+
+DefinitionFolders DefinitionFolders::of_installations() const {
+  if (folders_.size() <= 2) return DefinitionFolders({});
+  return DefinitionFolders({folders_.begin() + 1, folders_.end() - 1});
+}
+
+std::vector<fs::path> folders_of_installations(std::string_view ament_prefix_path) {
+  std::vector<fs::path> folders;
+  while (!ament_prefix_path.empty()) {
+    const std::size_t colon = std::min(ament_prefix_path.find(':'), ament_prefix_path.size());
+    const fs::path folder = fs::path(ament_prefix_path.substr(0, colon)) / "share";
+    ament_prefix_path.remove_prefix(std::min(colon + 1, ament_prefix_path.size()));
+    std::error_code ignored;
+    if (folder.is_absolute() && fs::is_directory(folder, ignored) &&
+        std::ranges::find(folders, folder) == folders.end())
+      folders.push_back(folder);
+  }
+  return folders;
+}
+
+bool have_same_bytes(const Structure& a, const Structure& b) {
+  return std::ranges::equal(a.fields, b.fields, [](const Field& one, const Field& other) {
+    if (one.name != other.name || one.type.text() != other.type.text()) return false;
+    return one.type.structure == nullptr || have_same_bytes(*one.type.structure, *other.type.structure);
+  });
+}
 
 std::optional<DefinitionFolders::Text> DefinitionFolders::find(const std::string& name) const {
   for (const fs::path& folder : folders_) {

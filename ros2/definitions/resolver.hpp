@@ -19,19 +19,27 @@ class Definitions {
     std::string text, file;
   };
   virtual ~Definitions() = default;
-  /// name: "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", "nav2_msgs/action/NavigateToPose". nullopt: there is no such definition.
+  /// name: "geometry_msgs/msg/Twist", "std_srvs/srv/SetBool", "nav2_msgs/action/NavigateToPose". nullopt: there
+  /// is no such definition.
   [[nodiscard]] virtual std::optional<Text> find(const std::string& name) const = 0;
   /// All names, for hints.
   [[nodiscard]] virtual std::vector<std::string> names() const = 0;
+  /// How a definition comes here that is missing, for hints. file: "nav2_msgs/action/NavigateToPose.action".
+  [[nodiscard]] virtual std::string remedy(const std::string& file) const;
 };
 
 /// Folders with PACKAGE/msg/NAME.msg, PACKAGE/srv/NAME.srv and PACKAGE/action/NAME.action; the first folder
-/// that has a file wins.
+/// that has a file wins: that of a project, those of installations of ROS 2, that of Tessera. A single folder is
+/// that of Tessera.
 class DefinitionFolders : public Definitions {
  public:
   explicit DefinitionFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
   [[nodiscard]] std::optional<Text> find(const std::string& name) const override;
   [[nodiscard]] std::vector<std::string> names() const override;
+  [[nodiscard]] std::string remedy(const std::string& file) const override;
+  /// Those of installations alone.
+  [[nodiscard]] DefinitionFolders of_installations() const;
+  [[nodiscard]] bool empty() const { return folders_.empty(); }
 
  private:
   std::vector<std::filesystem::path> folders_;
@@ -49,6 +57,13 @@ class DefinitionBundle : public Definitions {
  private:
   std::vector<std::pair<std::string, std::string>> messages_;
 };
+
+/// The folders with definitions of the installations of ROS 2 that a value of AMENT_PREFIX_PATH names, the setup
+/// files of which set it: "/opt/ros/jazzy:/home/me/ws/install/my_msgs".
+[[nodiscard]] std::vector<std::filesystem::path> folders_of_installations(std::string_view ament_prefix_path);
+
+/// Whether two definitions have the same fields, and so the same bytes. Constants and defaults do not count.
+[[nodiscard]] bool have_same_bytes(const Structure& a, const Structure& b);
 
 /// Reads a message and everything that it uses. nullptr after mistakes: unknown messages, wrong definitions,
 /// a message that contains itself.

@@ -1,4 +1,5 @@
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <filesystem>
 #include <string>
@@ -9,6 +10,8 @@
 
 namespace tessera::ros2 {
 namespace {
+
+namespace fs = std::filesystem;
 
 std::string mistakes_of(const std::string& text) {
   std::vector<Mistake> mistakes;
@@ -131,6 +134,30 @@ TEST(Definitions, ThatDoNotExistOrContainThemselvesAreRefused) {
   EXPECT_EQ(mistakes.back().shown(), "a/A contains itself");
 }
 
+TEST(Definitions, OfInstallationsAreFoundByTheirPrefixes) {
+  const fs::path scratch = fs::temp_directory_path() / ("tessera-prefixes-" + std::to_string(getpid()));
+  const fs::path one = scratch / "one", two = scratch / "two";
+  fs::create_directories(one / "share");
+  fs::create_directories(two / "share");
+  const auto prefixes = [](const auto&... parts) { return ((std::string(parts) + ":") + ...); };
+  using Folders = std::vector<fs::path>;
+  EXPECT_EQ(folders_of_installations(""), Folders{});
+  EXPECT_EQ(folders_of_installations(
+                prefixes("", two.string(), "relative", "/nowhere", one.string(), two.string())),
+            (Folders{two / "share", one / "share"}))
+      << "in their order, once";
+  fs::remove_all(scratch);
+  std::vector<Mistake> mistakes;
+  EXPECT_EQ(resolve("a/msg/B",
+                    DefinitionFolders({"/p/msg", "/x/share", "/y/share", "/z/share", "/w/share", "/own"}),
+                    mistakes),
+            nullptr);
+  EXPECT_EQ(mistakes.back().hint.text,
+            "write its definition into msg/a/msg/B.msg beside the specification, or source a ROS 2 "
+            "installation that "
+            "has it; looked in msg, /x/share, /y/share, /z/share and 1 more, and Tessera's own");
+}
+
 TEST(Names, AreThoseOfRos2) {
   std::string error;
   EXPECT_EQ(full_topic_name("cmd_vel", error), "/cmd_vel");
@@ -167,7 +194,7 @@ TEST(Definitions, ActionsHaveThreeParts) {
   EXPECT_EQ(action->goal->find("pose")->type.refers, "geometry_msgs/msg/PoseStamped");
   ASSERT_EQ(action->progress->fields.size(), 2U);
   EXPECT_NE(action->progress->find("feedback")->type.structure->find("distance_remaining"), nullptr);
-  EXPECT_EQ(action->progress->find("result")->type.structure->fields.size(), 1U);
+  EXPECT_EQ(action->progress->find("result")->type.structure->fields.size(), 2U);
   // A bundle of it is read as it was written.
   const std::string text = bundle_of(*action->progress);
   const std::string name = "nav2_msgs/action/NavigateToPose";

@@ -49,9 +49,10 @@ struct ResultResponse {
   std::int64_t sequence = 0;
   std::int8_t status = 0;
   std::uint16_t error_code = 0;
+  std::string error_msg;
   template <class Archive>
   void fields(Archive& all) {
-    all(client, sequence, status, error_code);
+    all(client, sequence, status, error_code, error_msg);
   }
 };
 struct NavigateFeedback {

@@ -19,7 +19,7 @@ namespace fs = std::filesystem;
 const fs::path shipped = fs::path(TESSERA_SOURCE_DIR) / "share/tessera/ros2";
 
 /// The report about a robot with this driver of its base, whose real buffer is { v, omega } of float64.
-std::string report_of(const std::string& driver, const fs::path& own = "/nowhere") {
+std::string report_of_folders(const std::string& driver, const std::vector<fs::path>& folders) {
   diagnostics::Diagnostics out("spec.yaml", R"(tessera: 1
 system: demo
 types: { Motion: { v: float64, omega: float64 } }
@@ -35,14 +35,60 @@ drivers:
   auto model = spec::parse(out);
   EXPECT_TRUE(model.has_value()) << render(out);
   if (!model) return "";
-  const bool good = project::find_messages_in(*model, {own, shipped}, out);
+  const bool good = project::find_messages_in(*model, folders, out);
   EXPECT_EQ(good, !out.has_errors());
   EXPECT_TRUE(!good || model->drivers.at(0).options.contains("definition"));
   return render(out);
 }
 
+std::string report_of(const std::string& driver, const fs::path& own = "/nowhere") {
+  return report_of_folders(driver, {own, shipped});
+}
+
 TEST(Specification, WithATopicHasTheDefinitionOfItsMessage) {
   EXPECT_EQ(report_of("type: geometry_msgs/Twist, fields: { linear.x: v, angular.z: omega }"), "");
+}
+
+void write_text(const fs::path& file, const std::string& text) {
+  fs::create_directories(file.parent_path());
+  std::ofstream(file) << text;
+}
+
+TEST(Specification, UsesTheProjectsDefinitionThenThatOfAnInstallationThenItsOwn) {
+  const fs::path scratch = fs::temp_directory_path() / ("tessera-definitions-" + std::to_string(getpid()));
+  const fs::path own = scratch / "msg", installed = scratch / "prefix/share", other = scratch / "other/share";
+  const std::string driver = "type: pkg/Some, fields: { a: v, b: omega }";
+  const auto report = [&] {
+    std::string text = report_of_folders(driver, {own, other, installed, shipped});
+    for (std::size_t at = 0; (at = text.find((scratch / "").string())) != std::string::npos;)
+      text.erase(at, (scratch / "").string().size());
+    return text;
+  };
+  EXPECT_NE(report().find(
+                "\nhint: write its definition into msg/pkg/msg/Some.msg beside the specification, or source "
+                "a ROS 2 installation that has it; looked in msg, other/share, prefix/share, and "
+                "Tessera's own\n"),
+            std::string::npos)
+      << report();
+  write_text(installed / "pkg/msg/Some.msg", "float64 a\nfloat64 b # and a comment\n");
+  EXPECT_EQ(report(), "");
+  write_text(own / "pkg/msg/Some.msg", "float64 a\n\nfloat64   b 0.5\nint8 C=1\n");
+  EXPECT_EQ(report(), "") << "the same bytes";
+  write_text(own / "pkg/msg/Some.msg", "float64 a\nfloat64 b\nfloat64 c\n");
+  EXPECT_EQ(
+      report(),
+      R"(spec.yaml:11:47: warning W341: the definition in msg beside the specification is not that of prefix/share/pkg/msg/Some.msg
+   11 |   robot.base.command: { ros2: /cmd_vel, type: pkg/Some, fields: { a: v, b: omega } }
+      |                                               ^~~~~~~~
+hint: nodes of that installation drop or misread the messages: make both equal
+1 warning
+)");
+  write_text(other / "pkg/msg/Some.msg", "float64 a\nfloat64 b\nfloat64 c\n");
+  EXPECT_EQ(report(), "") << "the first installation counts, as in ROS 2";
+  write_text(own / "geometry_msgs/msg/Twist.msg", "float64 a\nfloat64 b\n");
+  EXPECT_EQ(report_of_folders("type: geometry_msgs/Twist, fields: { a: v, b: omega }", {own, other, shipped}),
+            "");
+  fs::remove_all(scratch);
 }
 
 TEST(Specification, WithAnUnknownMessageIsRefused) {

@@ -62,9 +62,12 @@ drivers:
     EXPECT_FALSE(analysis.at("net").is_null()) << "the drivers are not in the net";
     return all;
   };
-  EXPECT_EQ(told(), (std::vector<std::string>{
-                        "E320 write its definition into msg/my_robot/msg/Light.msg beside the specification",
-                        "E320 did you mean 'std_msgs/Float64'?"}));
+  EXPECT_EQ(
+      told(),
+      (std::vector<std::string>{
+          "E320 write its definition into msg/my_robot/msg/Light.msg beside the specification, or source a "
+          "ROS 2 installation that has it",
+          "E320 did you mean 'std_msgs/Float64'?"}));
   const fs::path folder = spec().parent_path() / "msg/my_robot/msg";
   fs::create_directories(folder);
   write(folder / "Light.msg", "float64 brightness\n");

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cstdlib>
 #include <optional>
 #include <set>
 #include <string>
@@ -84,7 +85,7 @@ class MessageFinder {
   bool find(spec::Driver& driver) {
     const std::string name = text_option(driver, "type");
     std::vector<ros2::Mistake> mistakes;
-    const auto message = message_of(driver, name, mistakes);
+    const auto message = message_of(driver, name, definitions_, mistakes);
     for (const ros2::Mistake& mistake : mistakes) {
       const std::string file =
           mistake.line == 0 ? mistake.file : mistake.file + ":" + std::to_string(mistake.line);
@@ -92,6 +93,7 @@ class MessageFinder {
                mistake.file.empty() ? mistake.hint : mistake.hint.text);
     }
     if (message == nullptr) return false;
+    compare_with_installations(driver, name, *message);
     driver.options["definition"] = spec::DriverOption{ros2::bundle_of(*message), ""};
     return fits(driver, message);
   }
@@ -99,16 +101,32 @@ class MessageFinder {
  private:
   /// For a service or action: the message of the buffer.
   [[nodiscard]] std::shared_ptr<const ros2::Structure> message_of(
-      const spec::Driver& driver, const std::string& name, std::vector<ros2::Mistake>& mistakes) const {
-    if (!has_role(driver)) return ros2::resolve(name, definitions_, mistakes);
+      const spec::Driver& driver, const std::string& name, const ros2::Definitions& definitions,
+      std::vector<ros2::Mistake>& mistakes) const {
+    if (!has_role(driver)) return ros2::resolve(name, definitions, mistakes);
     if (is_action(driver)) {
-      const auto action = ros2::resolve_action(name, definitions_, mistakes);
+      const auto action = ros2::resolve_action(name, definitions, mistakes);
       if (!action) return nullptr;
       return asks(driver) ? action->goal : action->progress;
     }
-    const auto service = ros2::resolve_service(name, definitions_, mistakes);
+    const auto service = ros2::resolve_service(name, definitions, mistakes);
     if (!service) return nullptr;
     return asks(driver) ? service->request : service->response;
+  }
+  /// Nodes of an installation misread messages of another definition, and the project's is used.
+  void compare_with_installations(const spec::Driver& driver, const std::string& name,
+                                  const ros2::Structure& message) {
+    const ros2::DefinitionFolders installations = definitions_.of_installations();
+    const auto file = installations.find(name);
+    if (!file) return;
+    std::vector<ros2::Mistake> unasked;
+    const auto other = message_of(driver, name, installations, unasked);
+    if (other == nullptr || have_same_bytes(message, *other)) return;
+    const diagnostics::Span place = place_in(driver, "type");
+    if (said_.insert({place, "W341"}).second)
+      out_.warning("W341", place,
+                   "the definition in msg beside the specification is not that of " + file->file,
+                   "nodes of that installation drop or misread the messages: make both equal");
   }
   static bool is_client(const spec::Driver& driver) { return text_option(driver, "role") == "client"; }
   /// Whether its messages go from client to server.
@@ -195,7 +213,12 @@ std::string state_of_messages(const fs::path& project) {
 bool find_messages(spec::Model& model, const fs::path& project, diagnostics::Diagnostics& out) {
   const auto is_topic = [](const spec::Driver& driver) { return driver.kind == "ros2"; };
   if (std::ranges::none_of(model.drivers, is_topic)) return true;
-  return find_messages_in(model, {project / messages_folder, Installation::find().share / "ros2"}, out);
+  std::vector<fs::path> folders{project / messages_folder};
+  const char* const prefixes = std::getenv("AMENT_PREFIX_PATH");
+  for (fs::path& folder : ros2::folders_of_installations(prefixes == nullptr ? "" : prefixes))
+    folders.push_back(std::move(folder));
+  folders.push_back(Installation::find().share / "ros2");
+  return find_messages_in(model, folders, out);
 }
 
 }  // namespace tessera::project

@@ -10,15 +10,17 @@
 namespace tessera::project {
 
 /// Looks up the messages of all drivers that are topics, services or actions of ROS 2: in the folder `msg` of the
-/// project, then among those that come with Tessera. Their definitions become the option `definition` of the
-/// drivers, so that a controller needs no file of them.
+/// project, then in the installations of ROS 2 that AMENT_PREFIX_PATH names, then among those that come with
+/// Tessera. Their definitions become the option `definition` of the drivers, so that a controller needs no file of
+/// them.
 ///
 /// project: the folder of the specification.
 /// Errors: E218 a unit that the messages of the package do not have; E320 a message that does not exist, or whose
 ///         definition is wrong; E321 fields of message and buffer that do not correspond; E322 services
-///         and actions, E371 a safe command that orders a goal (ros2_services.hpp). false after one of them.
+///         and actions, E371 a safe command that orders a goal (ros2_services.hpp). false after one of them. Also
+///         W341 a definition of the project that is not that of an installation.
 bool find_messages(spec::Model& model, const std::filesystem::path& project, diagnostics::Diagnostics& out);
-/// The same with these folders of definitions.
+/// The same with these folders of definitions: that of the project, those of installations, that of Tessera.
 bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::path>& folders,
                       diagnostics::Diagnostics& out);
 

@@ -1,6 +1,7 @@
 #include "ros2/dds/domain.hpp"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
 #include <cstring>
@@ -63,10 +64,13 @@ std::string configuration_of(const Network& network) {
     throw std::runtime_error("'" + network.interface + "' is no name and no address of a network interface");
   std::vector<std::string> peers = hosts_of(network.peers);
   if (is_loopback(network) && peers.empty()) peers.emplace_back("127.0.0.1");
-  const bool multicast = peers.empty();
+  // Nodes of Fast DDS announce themselves to a multicast group at first. If it hears that, Cyclone DDS has found them
+  // before they find it; if not, it misses the list of their topics that they send at once, and has it a second later.
+  const bool multicast = network.peers.empty();
+  const char* const on_interface = !multicast ? "false" : is_loopback(network) ? "true" : "default";
   std::string text = "<CycloneDDS><Domain><General><Interfaces><NetworkInterface ";
   text += (is_address(network.interface) ? "address=\"" : "name=\"") + network.interface + "\"";
-  text += std::string(" multicast=\"") + (multicast ? "default" : "false") + "\"/></Interfaces>";
+  text += std::string(" multicast=\"") + on_interface + "\"/></Interfaces>";
   text += std::string("<AllowMulticast>") + (multicast ? "spdp" : "false") + "</AllowMulticast></General>";
   text += "<Discovery><ExternalDomainId>" + std::to_string(network.domain) + "</ExternalDomainId>";
   // The default is about 8 s, in which a node that starts later, and announces itself once, finds nobody.
@@ -152,6 +156,27 @@ void Participant::open(const Network& network) {
   dds_delete_qos(qos);
   checked("cannot take part in domain " + std::to_string(network.domain) + " of DDS", participant_);
   graph_.emplace(participant_);
+}
+
+bool Participant::knows_fast_dds() const {
+  const dds_entity_t reader =
+      dds_create_reader(participant_, DDS_BUILTIN_TOPIC_DCPSPARTICIPANT, nullptr, nullptr);
+  if (reader < 0) return false;
+  constexpr std::size_t most = 64;
+  std::array<void*, most> samples{};
+  std::array<dds_sample_info_t, most> infos{};
+  const dds_return_t count = dds_take(reader, samples.data(), infos.data(), most, most);
+  bool found = false;
+  for (std::size_t index = 0; index < static_cast<std::size_t>(std::max(count, 0)); ++index) {
+    if (!infos[index].valid_data || infos[index].instance_state != DDS_ALIVE_INSTANCE_STATE) continue;
+    Guid guid{};
+    std::copy_n(static_cast<const dds_builtintopic_participant_t*>(samples[index])->key.v, guid.size(),
+                guid.begin());
+    found = found || is_fast(guid);
+  }
+  if (count > 0) static_cast<void>(dds_return_loan(reader, samples.data(), count));
+  dds_delete(reader);
+  return found;
 }
 
 void Participant::note(const std::string& node, const std::string& agent) {

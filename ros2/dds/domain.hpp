@@ -12,9 +12,13 @@
 #include <string>
 #include <vector>
 
+#include "ros2/codec/related_identity.hpp"
 #include "ros2/dds/graph.hpp"
 
 namespace tessera::ros2 {
+
+/// The GUIDs of Fast DDS begin with the number of its vendor.
+[[nodiscard]] inline bool is_fast(const Guid& guid) { return guid[0] == 0x01 && guid[1] == 0x0f; }
 
 /// The network of a participant.
 struct Network {
@@ -52,6 +56,8 @@ class Participant {
   /// The nodes of this process in this domain.
   [[nodiscard]] Graph& graph() { return *graph_; }
   [[nodiscard]] const Network& network() const { return network_; }
+  /// Whether a participant of Fast DDS was found in the domain.
+  [[nodiscard]] bool knows_fast_dds() const;
   /// Notes that an agent has drivers in that node. node: its full name.
   void note(const std::string& node, const std::string& agent);
   /// The nodes that had drivers, and their agents.

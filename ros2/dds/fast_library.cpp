@@ -31,25 +31,25 @@ void FastLibrary::begin(const FastSetup& setup) {
   making_ = std::async(std::launch::async, [setup] { return made(setup); });
 }
 
-FastReplies* FastLibrary::replies() {
+FastService* FastLibrary::service() {
   if (making_.valid() && making_.wait_for(std::chrono::seconds(0)) == std::future_status::ready) {
     Made made = making_.get();
-    replies_ = std::move(made.replies);
+    service_ = std::move(made.service);
     error_ = std::move(made.error);
   }
-  return replies_.get();
+  return service_.get();
 }
 
 /// The library stays loaded, as its threads may run code of it.
 FastLibrary::Made FastLibrary::made(const FastSetup& setup) {
   void* const library = dlopen(library_path().c_str(), RTLD_NOW | RTLD_LOCAL);
-  void* const function = library == nullptr ? nullptr : dlsym(library, fast_replies_function);
+  void* const function = library == nullptr ? nullptr : dlsym(library, fast_service_function);
   if (function == nullptr) {
     const char* const why = dlerror();
     return {nullptr, why == nullptr ? "it cannot be loaded" : why};
   }
   Made result;
-  result.replies = reinterpret_cast<MakeFastReplies*>(function)(setup, result.error);
+  result.service = reinterpret_cast<MakeFastService*>(function)(setup, result.error);
   return result;
 }
 

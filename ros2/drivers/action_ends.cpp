@@ -62,9 +62,9 @@ ActionEnds::ActionEnds(const ServiceSetup& setup)
       feedback(feedback_topic(setup), /*writes=*/!setup.is_client),
       status(status_topic(setup), /*writes=*/!setup.is_client) {}
 
-ServiceEnds::Servers ActionEnds::servers() const {
+ServiceEnds::Servers ActionEnds::servers() {
   ServiceEnds::Servers all = send_goal.servers();
-  for (const ServiceEnds* const service : {&get_result, &cancel_goal}) {
+  for (ServiceEnds* const service : {&get_result, &cancel_goal}) {
     const ServiceEnds::Servers one = service->servers();
     all.ready = std::min(all.ready, one.ready);
     all.foreign = all.foreign || one.foreign;

@@ -23,7 +23,7 @@ class ActionEnds {
   Endpoint feedback, status;  ///< read by a client, written by a server
 
   /// For a client: servers of all three services, which is one server if all is well.
-  [[nodiscard]] ServiceEnds::Servers servers() const;
+  [[nodiscard]] ServiceEnds::Servers servers();
   /// For a client: the messages of a topic since the last call, the oldest first.
   [[nodiscard]] static std::vector<std::vector<std::byte>> messages_of(const Endpoint& topic);
 };

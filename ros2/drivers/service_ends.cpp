@@ -16,6 +16,8 @@ constexpr const char* client_key = "clientid";
 constexpr const char* server_key = "serviceid";
 /// Messages that wait in DDS until the driver is asked.
 constexpr int kept_messages = 64;
+/// The bit that tells the numbers of requests by Fast DDS from others.
+constexpr std::int64_t by_fast_dds = std::int64_t{1} << 62U;
 
 /// The value of a key in "KEY=VALUE;KEY=VALUE;".
 std::optional<std::string> value_of(std::string_view user_data, std::string_view key) {
@@ -32,8 +34,6 @@ std::optional<std::string> value_of(std::string_view user_data, std::string_view
 bool same_participant(const Guid& one, const Guid& other) {
   return std::equal(one.begin(), one.begin() + participant_bytes, other.begin());
 }
-/// The GUIDs of Fast DDS begin with the number of its vendor.
-bool is_fast(const Guid& guid) { return guid[0] == 0x01 && guid[1] == 0x0f; }
 
 }  // namespace
 
@@ -56,21 +56,27 @@ ServiceEnds::ServiceEnds(const ServiceSetup& setup) : path_(setup.endpoint.path)
     if (setup.one_at_a_time) requests.qos.depth = 1;
   }
   const Network& network = requests.network;
-  fast_setup_ = {network.domain,    network.interface, network.peers,    requests.dds_topic,
-                 requests.dds_type, replies.dds_topic, replies.dds_type, requests.user_data};
+  fast_setup_ = {network.domain,     network.interface,  network.peers,
+                 requests.dds_topic, requests.dds_type,  replies.dds_topic,
+                 replies.dds_type,   requests.user_data, setup.is_client};
   reader_.emplace(setup.is_client ? replies : requests, /*writes=*/false);
   writer_.emplace(setup.is_client ? requests : replies, /*writes=*/true);
 }
 
 bool ServiceEnds::await_receipt(Duration timeout) {
   const bool received = writer_->await_receipt(timeout);
-  FastReplies* const fast = fast_library_.replies();
+  FastService* const fast = fast_library_.service();
   return (fast == nullptr || fast->await_receipt(timeout)) && received;
 }
 
 std::optional<std::int64_t> ServiceEnds::send_request(std::vector<std::byte> request) {
+  const Servers found = servers();
+  if (FastService* const fast = found.fast ? fast_library_.service() : nullptr) {
+    const auto number = fast->request(request);
+    return number ? std::optional(*number | by_fast_dds) : std::nullopt;
+  }
   ++newest_request_;
-  if (!servers().fast) put_header({writer_->identity(), newest_request_}, request);
+  if (!found.fast) put_header({writer_->identity(), newest_request_}, request);
   if (writer_->write(request)) return newest_request_;
   --newest_request_;
   return std::nullopt;
@@ -91,6 +97,9 @@ ServiceEnds::Replies ServiceEnds::take_replies() {
     else if (header->client == writer_->identity())
       replies.ours.push_back({header->sequence, std::move(one.message)});
   }
+  if (FastService* const fast = fast_library_.service())
+    for (FastService::Message& one : fast->take())
+      replies.ours.push_back({one.request.sequence | by_fast_dds, std::move(one.bytes)});
   return replies;
 }
 
@@ -101,7 +110,7 @@ ServiceEnds::Requests ServiceEnds::take_requests() {
     if (one.beside) {
       if (cannot_answer_fast_clients()) continue;
       const RelatedIdentity asker{one.beside->related.endpoint, one.beside->sequence};
-      requests.all.push_back({{{}, {}, one.writer, asker}, std::move(one.message)});
+      if (seen_.is_new(asker)) requests.all.push_back({{{}, {}, one.writer, asker}, std::move(one.message)});
       continue;
     }
     auto client = client_of(one.writer);
@@ -111,23 +120,26 @@ ServiceEnds::Requests ServiceEnds::take_requests() {
     else
       ++requests.foreign;
   }
+  if (FastService* const fast = fast_library_.service())
+    for (FastService::Message& one : fast->take())
+      if (seen_.is_new(one.request)) requests.all.push_back({{{}, {}, 0, one.request}, std::move(one.bytes)});
   return requests;
 }
 
 /// The writer of replies may not have found the client of a request yet.
 ServiceEnds::Sending ServiceEnds::send_reply(const Asker& asker, std::vector<std::byte> reply) {
   if (asker.fast) return send_fast_reply(asker, reply);
-  if (!hears(asker.client)) return is_there(asker.writer) ? Sending::not_yet : Sending::gone;
+  if (!hears(asker.client)) return is_there(asker) ? Sending::not_yet : Sending::gone;
   put_header(asker.header, reply);
   return writer_->write(reply) ? Sending::sent : Sending::refused;
 }
 
 ServiceEnds::Sending ServiceEnds::send_fast_reply(const Asker& asker, const std::vector<std::byte>& reply) {
-  FastReplies* const fast = fast_library_.replies();
+  FastService* const fast = fast_library_.service();
   if (!fast_library_.error().empty()) return Sending::impossible;
   if (fast == nullptr || !fast->is_heard_by(asker.fast->endpoint))
-    return is_there(asker.writer) ? Sending::not_yet : Sending::gone;
-  return fast->write(reply, *asker.fast) ? Sending::sent : Sending::refused;
+    return is_there(asker) ? Sending::not_yet : Sending::gone;
+  return fast->reply(reply, *asker.fast) ? Sending::sent : Sending::refused;
 }
 
 void ServiceEnds::look_for_fast_clients() {
@@ -144,7 +156,7 @@ void ServiceEnds::look_for_fast_clients() {
 
 bool ServiceEnds::cannot_answer_fast_clients() {
   fast_library_.begin(fast_setup_);
-  static_cast<void>(fast_library_.replies());
+  static_cast<void>(fast_library_.service());
   if (fast_library_.error().empty()) return false;
   if (is_told(++unanswerable_))
     std::fprintf(
@@ -157,7 +169,7 @@ bool ServiceEnds::cannot_answer_fast_clients() {
 }
 
 std::size_t ServiceEnds::new_other_servers() {
-  FastReplies* const fast = fast_library_.replies();
+  FastService* const fast = fast_library_.service();
   if (fast != nullptr && !std::exchange(fast_known_, true)) writer_->take_for_ours(fast->identity());
   return writer_->new_other_writers().size();
 }
@@ -173,9 +185,29 @@ std::vector<ServiceEnds::Taken> ServiceEnds::take() const {
   return taken;
 }
 
+/// A server of Fast DDS answers before Cyclone DDS is ready to read its replies. So Fast DDS carries the calls to such a
+/// server, if the library is there. It also finds a server sooner, so it begins as soon as there may be one.
+ServiceEnds::Servers ServiceEnds::servers() {
+  constexpr auto between_looks = std::chrono::milliseconds(50);
+  Servers found = found_servers();
+  if (!found.fast || found.foreign) return found;
+  fast_begun_ = fast_begun_ || found.ready > 0;
+  if (const auto now = std::chrono::steady_clock::now(); !fast_begun_ && now >= next_look_) {
+    next_look_ = now + between_looks;
+    fast_begun_ = reader_->participant().knows_fast_dds();
+  }
+  if (!fast_begun_) return found;
+  fast_library_.begin(fast_setup_);
+  if (const FastService* const fast = fast_library_.service())
+    found.ready = fast->servers();
+  else if (fast_library_.error().empty())
+    found.ready = 0;
+  return found;
+}
+
 /// A server has a reader of requests and a writer of replies. In rmw_cyclonedds_cpp both have the same user data.
 /// In rmw_fastrtps_cpp both belong to a participant of Fast DDS, without such user data.
-ServiceEnds::Servers ServiceEnds::servers() const {
+ServiceEnds::Servers ServiceEnds::found_servers() const {
   std::set<std::string> heard, ready;
   std::vector<Guid> fast_writers;
   for (const Endpoint::Other& one : reader_->others()) {
@@ -210,9 +242,11 @@ std::optional<std::string> ServiceEnds::client_of(dds_instance_handle_t writer) 
   return user_data ? value_of(*user_data, client_key) : std::nullopt;
 }
 
-bool ServiceEnds::is_there(dds_instance_handle_t writer) const {
+bool ServiceEnds::is_there(const Asker& asker) {
+  FastService* const fast = fast_library_.service();
+  if (asker.writer == 0) return fast != nullptr && asker.fast && fast->is_there(asker.fast->endpoint);
   return std::ranges::any_of(reader_->others(),
-                             [&](const Endpoint::Other& one) { return one.handle == writer; });
+                             [&](const Endpoint::Other& one) { return one.handle == asker.writer; });
 }
 
 bool ServiceEnds::hears(const std::string& client) const {

@@ -12,6 +12,7 @@
 #include <vector>
 
 #include "ros2/codec/request_header.hpp"
+#include "ros2/codec/seen_requests.hpp"
 #include "ros2/dds/endpoint.hpp"
 #include "ros2/dds/fast_library.hpp"
 
@@ -50,6 +51,7 @@ void warn_of(const ServiceSetup& setup, std::uint64_t& count, const char* text);
 /// of a request beside the message, not before it. A message in the form of the other would be wrong values.
 /// So each side is recognised: by the user data; else by a GUID of Fast DDS (servers), or by the identity beside
 /// the request (clients). Nothing is sent to an endpoint of neither kind, or to servers of both kinds.
+/// With the library for Fast DDS, the messages to and from such sides go by Fast DDS. Requests may come both ways.
 ///
 /// Threads: one at a time.
 class ServiceEnds {
@@ -78,7 +80,7 @@ class ServiceEnds {
   struct Asker {
     RequestHeader header{};
     std::string client{};
-    dds_instance_handle_t writer = 0;
+    dds_instance_handle_t writer = 0;       ///< 0: the request came by Fast DDS
     std::optional<RelatedIdentity> fast{};  ///< for a client of rmw_fastrtps_cpp, instead of the first two
   };
   struct Request {
@@ -107,7 +109,7 @@ class ServiceEnds {
     bool foreign = false;  ///< some server would misread a request
     bool fast = false;     ///< those that are ready run rmw_fastrtps_cpp
   };
-  [[nodiscard]] Servers servers() const;
+  [[nodiscard]] Servers servers();
   /// For a server: the number of other servers that were found since the last call.
   [[nodiscard]] std::size_t new_other_servers();
 
@@ -121,8 +123,10 @@ class ServiceEnds {
   [[nodiscard]] std::vector<Taken> take() const;
   /// The client with that writer, which may have left; nullopt: it is no client of this kind.
   [[nodiscard]] std::optional<std::string> client_of(dds_instance_handle_t writer) const;
+  /// The servers as Cyclone DDS finds them.
+  [[nodiscard]] Servers found_servers() const;
   /// Whether that client still exists.
-  [[nodiscard]] bool is_there(dds_instance_handle_t writer) const;
+  [[nodiscard]] bool is_there(const Asker& asker);
   /// Whether that client receives a reply.
   [[nodiscard]] bool hears(const std::string& client) const;
 
@@ -134,10 +138,12 @@ class ServiceEnds {
   [[nodiscard]] Sending send_fast_reply(const Asker& asker, const std::vector<std::byte>& reply);
 
   std::optional<Endpoint> writer_, reader_;
-  std::int64_t newest_request_ = 0;  ///< also the sequence number of its datagram, as a writer of DDS counts
+  std::int64_t newest_request_ =
+      0;  ///< of those by Cyclone DDS: also the sequence number of its datagram, as a writer of DDS counts
   std::string path_;
   FastSetup fast_setup_;
   FastLibrary fast_library_;
+  SeenRequests seen_;
   bool fast_known_ = false, fast_begun_ = false;
   std::chrono::steady_clock::time_point next_look_{};
   std::uint64_t unanswerable_ = 0;

@@ -14,13 +14,14 @@ namespace rtps = eprosima::fastrtps::rtps;
 
 namespace {
 
-dds::DomainParticipantQos on_loopback() {
+dds::DomainParticipantQos on_loopback(bool multicast) {
   dds::DomainParticipantQos qos;
   qos.transport().use_builtin_transports = false;
   auto loopback = std::make_shared<eprosima::fastdds::rtps::UDPv4TransportDescriptor>();
   loopback->interfaceWhiteList.emplace_back("127.0.0.1");
   qos.transport().user_transports.push_back(loopback);
   auto& builtin = qos.wire_protocol().builtin;
+  if (multicast) return qos;
   builtin.avoid_builtin_multicast = true;
   rtps::Locator_t here;
   rtps::IPLocator::setIPv4(here, 127, 0, 0, 1);
@@ -33,7 +34,8 @@ dds::DomainParticipantQos on_loopback() {
 }  // namespace
 
 Peer::Peer(std::uint32_t domain, Reach reach) {
-  const dds::DomainParticipantQos qos = reach == Reach::all ? dds::PARTICIPANT_QOS_DEFAULT : on_loopback();
+  const dds::DomainParticipantQos qos =
+      reach == Reach::all ? dds::PARTICIPANT_QOS_DEFAULT : on_loopback(reach == Reach::announced);
   participant_ = dds::DomainParticipantFactory::get_instance()->create_participant(domain, qos);
   if (participant_ == nullptr) throw std::runtime_error("Fast DDS makes no participant");
   publisher_ = participant_->create_publisher(dds::PUBLISHER_QOS_DEFAULT);
@@ -83,6 +85,12 @@ bool Peer::is_matched(dds::DataWriter& writer) {
   dds::PublicationMatchedStatus status;
   writer.get_publication_matched_status(status);
   return status.current_count > 0;
+}
+
+int Peer::found_by(dds::DataWriter& writer) {
+  dds::PublicationMatchedStatus status;
+  writer.get_publication_matched_status(status);
+  return status.total_count;
 }
 
 bool Peer::is_matched(dds::DataReader& reader) {

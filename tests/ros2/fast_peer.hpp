@@ -242,7 +242,8 @@ class Type final : public eprosima::fastdds::dds::TopicDataType {
 /// The interfaces that a participant uses.
 enum class Reach : std::uint8_t {
   loopback,  ///< without multicast
-  all        ///< as Fast DDS does by itself: all interfaces, with multicast and shared memory
+  announced,  ///< loopback, announced to a multicast group alone, as by rmw_fastrtps_cpp with ROS_LOCALHOST_ONLY=1
+  all         ///< as Fast DDS does by itself: all interfaces, with multicast and shared memory
 };
 
 class Peer {
@@ -318,6 +319,8 @@ class Peer {
   }
   static bool is_matched(eprosima::fastdds::dds::DataWriter& writer);
   static bool is_matched(eprosima::fastdds::dds::DataReader& reader);
+  /// The number of readers that a writer has found, those that have left included.
+  static int found_by(eprosima::fastdds::dds::DataWriter& writer);
 
  private:
   eprosima::fastdds::dds::DataWriter* make_writer(eprosima::fastdds::dds::TypeSupport type,

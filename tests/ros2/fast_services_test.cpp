@@ -125,6 +125,67 @@ TEST(ServicesOfFastDds, ClientGetsTheReplyToEachCallOfOurServer) {
   EXPECT_FALSE(Peer::take<fast::BareSetBoolResponse>(*replies).has_value()) << "each reply once";
 }
 
+/// Each side of ours has an endpoint of Cyclone DDS and one of Fast DDS.
+constexpr int endpoints = 2;
+
+/// Each client calls as soon as it has found the server, which may not have found the client.
+TEST(ServicesOfFastDds, NoFirstCallOfAClientIsLost) {
+  setenv("TESSERA_ROS2_FAST_LIBRARY", TESSERA_ROS2_FAST_LIBRARY, 1);
+  using fast::Peer;
+  Server server(std::chrono::seconds(60));
+  std::uint32_t served = 0;
+  const auto serve = [&] {
+    if (!server.read()) return;
+    served = server.request.call;
+    EXPECT_TRUE(server.reply(served, server.request.data, ""));
+  };
+  for (int clients = 0; clients < 3; ++clients) {
+    Peer peer(service_domain(), fast::Reach::announced);
+    auto* const requests = peer.writer<fast::BareSetBoolRequest>("rq/enableRequest");
+    auto* const replies = peer.reader<fast::BareSetBoolResponse>("rr/enableReply");
+    ASSERT_TRUE(soon([&] {
+      serve();
+      return Peer::found_by(*requests) == endpoints && Peer::is_matched(*replies);
+    }));
+    const std::uint32_t served_before = served;
+    fast::BareSetBoolRequest request{true};
+    const auto expected = Peer::request(*requests, request, *replies);
+    std::optional<Peer::Identified<fast::BareSetBoolResponse>> reply;
+    ASSERT_TRUE(eventually([&] {
+      serve();
+      return (reply = Peer::take_identified<fast::BareSetBoolResponse>(*replies)).has_value();
+    })) << clients;
+    EXPECT_TRUE(reply->related == expected);
+    EXPECT_EQ(served, served_before + 1) << "each request once, though it comes two ways";
+  }
+}
+
+/// Cyclone DDS skips a reply that comes before it is ready for it.
+TEST(ServicesOfFastDds, NoFirstCallToAServerIsLost) {
+  setenv("TESSERA_ROS2_FAST_LIBRARY", TESSERA_ROS2_FAST_LIBRARY, 1);
+  using fast::Peer;
+  Peer peer(service_domain(), fast::Reach::announced);
+  auto* const requests = peer.reader<fast::BareSetBoolRequest>("rq/enableRequest");
+  auto* const replies = peer.writer<fast::BareSetBoolResponse>("rr/enableReply");
+  for (int clients = 1; clients <= 3; ++clients) {
+    Client client(std::chrono::seconds(60), /*wait=*/std::chrono::seconds(60));
+    ASSERT_TRUE(client.call(1, true));
+    ASSERT_TRUE(eventually([&] {
+      // As that of rmw_fastrtps_cpp, the server waits until it has found the reader of replies.
+      if (Peer::found_by(*replies) >= clients * endpoints)
+        if (const auto request = Peer::take_identified<fast::BareSetBoolRequest>(*requests)) {
+          EXPECT_TRUE(request->related.writer_guid() != eprosima::fastrtps::rtps::GUID_t::unknown());
+          fast::BareSetBoolResponse reply;
+          reply.success = true;
+          Peer::reply(*replies, reply, *request);
+        }
+      return client.read();
+    })) << clients;
+    EXPECT_EQ(client.reply.outcome, answered);
+    EXPECT_TRUE(client.reply.success);
+  }
+}
+
 TEST(ServicesOfFastDds, RequestsAreDroppedIfTheLibraryIsMissing) {
   setenv("TESSERA_ROS2_FAST_LIBRARY", "/nowhere/libtessera_ros2_fast.so", 1);
   const StderrText told;

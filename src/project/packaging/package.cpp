@@ -25,15 +25,9 @@ namespace {
 
 constexpr const char* carrier_library_name = "libtessera_dds.so";
 constexpr const char* ros2_drivers_name = "libtessera_ros2.so";
-/// The former loads it when a client of a service needs it; an installation may lack it.
-constexpr const char* fast_replies_name = "libtessera_ros2_fast.so";
-
-bool is_server(const spec::Driver& driver) {
-  const auto role = driver.options.find("role");
-  const auto* const text =
-      role == driver.options.end() ? nullptr : std::get_if<std::string>(&role->second.value);
-  return driver.kind == "ros2" && text != nullptr && *text == "server";
-}
+/// The former loads it when the other side of a service runs rmw_fastrtps_cpp, and every node serves parameters. An
+/// installation may lack it.
+constexpr const char* fast_services_name = "libtessera_ros2_fast.so";
 
 /// One host and what runs there.
 struct HostPlan {
@@ -133,10 +127,10 @@ class Packing {
       files.push_back(own / library);
     };
     if (model_.deployment) add(carrier_library_name);
-    if (std::ranges::find(model_.drivers, "ros2", &spec::Driver::kind) != model_.drivers.end())
+    if (std::ranges::find(model_.drivers, "ros2", &spec::Driver::kind) != model_.drivers.end()) {
       add(ros2_drivers_name);
-    if (std::ranges::any_of(model_.drivers, is_server) && fs::exists(options_.libraries / fast_replies_name))
-      add(fast_replies_name);
+      if (fs::exists(options_.libraries / fast_services_name)) add(fast_services_name);
+    }
     needs_ = libraries_of(files, options_.architecture.empty());
     for (const fs::path& library : needs_.foreign)
       copy_whole(fs::canonical(library), own / library.filename());

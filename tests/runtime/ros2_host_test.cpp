@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "parameters/parameter_changes.hpp"
@@ -112,6 +113,26 @@ TEST(ShownInRos2, StatusesTellOfFaultsNewOverrunsWaitsAndStops) {
   EXPECT_EQ(shown[1].level, stale);
   snapshot.emergency = "an operator asks for it";
   for (const Ros2Status& one : statuses.of(snapshot)) EXPECT_EQ(one.level, error) << one.path;
+}
+
+TEST(ShownInRos2, ProvedPropertiesAreThoseOfTheController) {
+  const std::array verdicts{VerifiedProperty{"no deadlock", "holds", "circuits"},
+                            VerifiedProperty{"safe", "holds", "place invariants"}};
+  Ros2Status shown = proof_status("cart[3]", verdicts);
+  EXPECT_EQ(shown.path, "cart[3].proved properties");
+  EXPECT_EQ(shown.level, Ros2Status::Level::ok);
+  EXPECT_EQ(shown.message, "2 of 2 hold");
+  EXPECT_EQ(shown.values[0],
+            std::pair(std::string("no deadlock"), std::string("holds (proved by circuits)")));
+  const std::array others{verdicts[1], VerifiedProperty{"no deadlock", "violated", "search"},
+                          VerifiedProperty{"docks", "unknown", ""}};
+  shown = proof_status("robot", others);
+  EXPECT_EQ(shown.level, Ros2Status::Level::warn);
+  EXPECT_EQ(shown.message, "no deadlock: violated; docks: unknown");
+  EXPECT_EQ(shown.values[2].second, "unknown");
+  shown = proof_status("robot", {});
+  EXPECT_EQ(shown.level, Ros2Status::Level::warn);
+  EXPECT_EQ(shown.message, "not verified");
 }
 
 }  // namespace

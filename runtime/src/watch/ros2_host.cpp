@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "drivers/ros2_library.hpp"
+#include "nets/flat_net.hpp"
 #include "parameters/ros2_parameters.hpp"
 #include "system/console.hpp"
 #include "tessera/device.hpp"
@@ -14,6 +15,8 @@
 
 namespace tessera {
 namespace {
+
+constexpr std::string_view holds_verdict = "holds";  // as the generator writes it
 
 /// Raises the level of a status and adds a reason.
 void worsen(Ros2Status& status, Ros2Status::Level level, const std::string& why) {
@@ -54,6 +57,24 @@ std::vector<Ros2Status> Ros2Statuses::of(const Snapshot& snapshot) {
   return all;
 }
 
+Ros2Status proof_status(std::string_view agent, std::span<const VerifiedProperty> verdicts) {
+  Ros2Status status;
+  status.path = fmt::format("{}.proved properties", agent);
+  std::size_t proved = 0;
+  for (const VerifiedProperty& one : verdicts) {
+    const bool holds = one.verdict == holds_verdict;
+    proved += holds ? 1 : 0;
+    if (!holds) worsen(status, Ros2Status::Level::warn, fmt::format("{}: {}", one.name, one.verdict));
+    status.values.emplace_back(
+        one.name, holds ? fmt::format("holds (proved by {})", one.method) : std::string(one.verdict));
+  }
+  if (verdicts.empty())
+    worsen(status, Ros2Status::Level::warn, "not verified");
+  else if (proved == verdicts.size())
+    status.message = fmt::format("{} of {} hold", proved, verdicts.size());
+  return status;
+}
+
 std::unique_ptr<ShownInRos2> ShownInRos2::of(Assembly& assembly, const Clock& clock) {
   const std::optional<std::filesystem::path> folder = ros2_folder_in_use();
   if (!folder) return nullptr;
@@ -80,6 +101,11 @@ std::optional<std::string> ShownInRos2::set(std::span<const Change> changes) {
   return wrong ? std::optional(std::move(wrong->text)) : std::nullopt;
 }
 
-std::vector<Ros2Status> ShownInRos2::statuses() { return statuses_.of(take_snapshot(assembly_, clock_)); }
+std::vector<Ros2Status> ShownInRos2::statuses() {
+  std::vector<Ros2Status> all = statuses_.of(take_snapshot(assembly_, clock_));
+  for (const AgentSpan& agent : agents_of(assembly_.system))
+    all.push_back(proof_status(agent.name, assembly_.system.verdicts));
+  return all;
+}
 
 }  // namespace tessera

@@ -6,11 +6,13 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "assembly/assembly.hpp"
 #include "tessera/control_messages.hpp"
 #include "tessera/ros2_nodes.hpp"
+#include "tessera/tables.hpp"
 
 namespace tessera {
 
@@ -24,6 +26,10 @@ class Ros2Statuses {
  private:
   std::map<std::string, std::uint64_t> overruns_;  ///< in the last snapshot
 };
+
+/// The verdicts about the net that runs, as diagnostics show them for an agent. The controller has the verdicts of its own
+/// net only, and refuses to run another one, so that none is out of date.
+[[nodiscard]] Ros2Status proof_status(std::string_view agent, std::span<const VerifiedProperty> verdicts);
 
 /// A run as nodes of ROS 2 show it.
 class ShownInRos2 final : public Ros2Host {

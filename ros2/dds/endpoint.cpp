@@ -55,7 +55,7 @@ void tell_of_middleware() {
 Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
     : participant_(Participant::of(setup.network)),
       state_(new ListenerState{setup.path, setup.topic, setup.dds_topic, setup.dds_type,
-                               !writes && !setup.user_data.empty()}),
+                               !writes && !setup.user_data.empty(), setup.on_message}),
       writes_(writes),
       depth_(static_cast<std::size_t>(setup.qos.depth)) {
   topic_ = create_blob_topic(participant_->entity(), setup.dds_topic.c_str(), setup.dds_type.c_str());
@@ -71,6 +71,9 @@ Endpoint::Endpoint(const EndpointSetup& setup, bool writes)
       listener, [](dds_entity_t, const dds_requested_incompatible_qos_status_t, void* state) {
         static_cast<ListenerState*>(state)->misfit = true;
       });
+  if (!writes && state_->on_message)
+    dds_lset_data_available(
+        listener, [](dds_entity_t, void* state) { static_cast<const ListenerState*>(state)->on_message(); });
   if (state_->remembers)
     dds_lset_subscription_matched(
         listener, [](dds_entity_t reader, const dds_subscription_matched_status_t status, void* state) {

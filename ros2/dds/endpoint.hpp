@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -28,6 +29,8 @@ struct EndpointSetup {
   Qos qos;
   Network network;
   bool sole_writer = false;  ///< whether a writer looks for others of its topic
+  /// A reader calls it when a message has come, in a thread of DDS. It must not block, and not use the endpoint.
+  std::function<void()> on_message{};
 };
 
 /// A writer or reader of a ROS 2 topic. If the quality of service of the other side is incompatible with
@@ -79,7 +82,8 @@ class Endpoint {
   /// The state that listeners use; its address stays the same.
   struct ListenerState {
     std::string path, topic, dds_topic, dds_type;
-    bool remembers;                   ///< whether it keeps the writers that were found
+    bool remembers;  ///< whether it keeps the writers that were found
+    std::function<void()> on_message;
     std::atomic<bool> misfit{false};  ///< an incompatible endpoint was found that nothing was printed about
     std::mutex mutex{};
     std::map<dds_instance_handle_t, std::string> found{};

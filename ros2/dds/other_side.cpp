@@ -52,6 +52,7 @@ std::optional<std::string> OtherSideWatch::look(bool is_there, Clock::time_point
                                                 const std::function<bool()>& is_misfit) {
   if (is_there) {
     alone_since_.reset();
+    was_there_ = true;
     if (!std::exchange(told_, false)) return std::nullopt;
     return path_ + ": somebody " + what_;
   }
@@ -60,6 +61,7 @@ std::optional<std::string> OtherSideWatch::look(bool is_there, Clock::time_point
   told_ = true;
   if (is_misfit()) return std::nullopt;
   std::string text = path_ + ": nobody " + what_;
+  if (was_there_) return text + " any more";
   if (!advised_.exchange(true)) text += ": " + advice_for(network_);
   return text;
 }

@@ -12,7 +12,7 @@ namespace tessera::ros2 {
 
 /// Reports when a topic has had no endpoint at the other side for a while, and when one appears after that.
 /// DDS reports nothing about participants that it cannot reach. The long advice about the network comes once
-/// for all topics of a participant.
+/// for all topics of a participant, and never for an other side that was there.
 ///
 /// Threads: one at a time.
 class OtherSideWatch {
@@ -35,7 +35,7 @@ class OtherSideWatch {
   Network network_;
   std::atomic<bool>& advised_;
   std::optional<Clock::time_point> alone_since_;
-  bool told_ = false;
+  bool told_ = false, was_there_ = false;
 };
 
 }  // namespace tessera::ros2

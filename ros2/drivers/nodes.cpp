@@ -5,6 +5,7 @@
 #include <condition_variable>
 #include <cstdio>
 #include <exception>
+#include <memory>
 #include <mutex>
 #include <set>
 #include <thread>
@@ -21,16 +22,44 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+/// Requests wake the thread. Those that come by Fast DDS alone, and replies that wait for their client, do not.
 constexpr auto look_for_requests = std::chrono::milliseconds(20);
 constexpr auto look_for_changes = std::chrono::milliseconds(100);
 constexpr auto between_diagnostics = std::chrono::seconds(1);
 constexpr int kept_events = 1000;  // as rclcpp
 
+/// Wakes the thread that serves.
+class Wake {
+ public:
+  void request_came() { set(came_); }
+  void end() { set(ends_); }
+  /// Waits for a request, but no longer than this. Whether the end has come.
+  [[nodiscard]] bool ends_within(Clock::duration time) {
+    std::unique_lock lock(mutex_);
+    changed_.wait_for(lock, time, [this] { return ends_ || came_; });
+    came_ = false;
+    return ends_;
+  }
+
+ private:
+  void set(bool& what) {
+    {
+      const std::lock_guard lock(mutex_);
+      what = true;
+    }
+    changed_.notify_all();
+  }
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool came_ = false, ends_ = false;
+};
+
 /// The services and topics of one node.
 class ServedNode {
  public:
   /// Throws std::runtime_error.
-  ServedNode(Ros2Host& host, const Network& network, const std::string& node, std::set<std::string> agents)
+  ServedNode(Ros2Host& host, const Network& network, const std::string& node, std::set<std::string> agents,
+             const std::shared_ptr<Wake>& wake)
       : node_(node),
         setup_(setup_of(network, node, *agents.begin())),
         parameters_(host, node, std::move(agents)),
@@ -41,6 +70,7 @@ class ServedNode {
       EndpointSetup endpoint = setup_;
       endpoint.topic =
           rules_of_process().name(Rules::Kind::service, std::string("~/") + one.name, node_name_in(node_));
+      endpoint.on_message = [wake] { wake->request_came(); };
       servers_.push_back({one.service, std::make_unique<ServiceServer>(
                                            ServiceSetup{.endpoint = endpoint, .type = one.type})});
       servers_.back().server->open();
@@ -114,14 +144,10 @@ class ServedNode {
 /// A thread of its own. Nothing waits for it, and a failure in it ends the serving and not the run.
 class ServedNodes final : public Ros2Nodes {
  public:
-  ServedNodes(Ros2Host& host, std::vector<std::unique_ptr<ServedNode>> nodes)
-      : host_(host), nodes_(std::move(nodes)), thread_([this] { serve(); }) {}
+  ServedNodes(Ros2Host& host, std::vector<std::unique_ptr<ServedNode>> nodes, std::shared_ptr<Wake> wake)
+      : host_(host), nodes_(std::move(nodes)), wake_(std::move(wake)), thread_([this] { serve(); }) {}
   ~ServedNodes() override {
-    {
-      const std::lock_guard lock(mutex_);
-      ends_ = true;
-    }
-    ending_.notify_all();
+    wake_->end();
     thread_.join();
   }
   ServedNodes(const ServedNodes&) = delete;
@@ -138,7 +164,7 @@ class ServedNodes final : public Ros2Nodes {
 
   void serve_until_ended() {
     Clock::time_point changes_at = Clock::now(), diagnostics_at = changes_at;
-    while (!ends_within(look_for_requests)) {
+    while (!wake_->ends_within(look_for_requests)) {
       for (const auto& node : nodes_) node->serve_requests();
       const Clock::time_point now = Clock::now();
       if (now >= changes_at) {
@@ -152,16 +178,9 @@ class ServedNodes final : public Ros2Nodes {
     }
   }
 
-  [[nodiscard]] bool ends_within(Clock::duration time) {
-    std::unique_lock lock(mutex_);
-    return ending_.wait_for(lock, time, [this] { return ends_; });
-  }
-
   Ros2Host& host_;
   std::vector<std::unique_ptr<ServedNode>> nodes_;
-  std::mutex mutex_;
-  std::condition_variable ending_;
-  bool ends_ = false;
+  std::shared_ptr<Wake> wake_;
   std::thread thread_;
 };
 
@@ -178,15 +197,16 @@ std::unique_ptr<Ros2Nodes> make_nodes(Ros2Host& host, std::string& error) {
   error.clear();
   try {
     const std::set<std::string> known = agents_of(host);
+    const auto wake = std::make_shared<Wake>();
     std::vector<std::unique_ptr<ServedNode>> nodes;
     for (const auto& participant : Participant::all())
       for (auto& [node, agents] : participant->nodes()) {
         std::erase_if(agents, [&](const std::string& agent) { return !known.contains(agent); });
         if (!agents.empty())
           nodes.push_back(
-              std::make_unique<ServedNode>(host, participant->network(), node, std::move(agents)));
+              std::make_unique<ServedNode>(host, participant->network(), node, std::move(agents), wake));
       }
-    if (!nodes.empty()) return std::make_unique<ServedNodes>(host, std::move(nodes));
+    if (!nodes.empty()) return std::make_unique<ServedNodes>(host, std::move(nodes), wake);
   } catch (const std::exception& exception) {
     error = exception.what();
   }

@@ -41,8 +41,22 @@ TEST(OtherSideWatch, TellsOnceOfNobodyAndOfWhoComes) {
   EXPECT_FALSE(watch.look(true, now, fits));
   EXPECT_FALSE(watch.look(false, now += milliseconds(9000), fits)) << "it has gone just now";
   EXPECT_EQ(watch.look(false, now += milliseconds(3100), fits),
-            "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7")
-      << "the advice was given already";
+            "robot.laser.scan: nobody publishes /scan on interface eth0 in domain 7 any more");
+}
+
+TEST(OtherSideWatch, AdvisesNothingIfTheOtherSideHasEnded) {
+  EndpointSetup setup;
+  setup.path = "robot.base.command";
+  setup.topic = "/cmd_vel";
+  OtherSideWatch::Clock::time_point now{};
+  std::atomic<bool> advised{false};
+  const auto fits = [] { return false; };
+  OtherSideWatch watch(setup, /*writes=*/true, now, advised);
+  EXPECT_FALSE(watch.look(true, now += milliseconds(100), fits));
+  EXPECT_FALSE(watch.look(false, now += milliseconds(100), fits));
+  EXPECT_EQ(watch.look(false, now += milliseconds(3100), fits),
+            "robot.base.command: nobody subscribes to /cmd_vel on interface lo in domain 0 any more");
+  EXPECT_FALSE(advised) << "another topic may need it";
 }
 
 TEST(OtherSideWatch, SaysNothingOfTheNetworkIfAnEndpointDoesNotFit) {

@@ -1,9 +1,12 @@
 #pragma once
 
+#include <condition_variable>
 #include <cstddef>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantListener.hpp>
 #include <fastdds/dds/topic/Topic.hpp>
 #include <memory>
+#include <mutex>
 #include <stdexcept>
 #include <string>
 #include <vector>
@@ -26,12 +29,12 @@ template <class Entity>
 /// several threads.
 ///
 /// Threads: any.
-class FastParticipant {
+class FastParticipant : private eprosima::fastdds::dds::DomainParticipantListener {
  public:
   /// Throws std::runtime_error.
   [[nodiscard]] static std::shared_ptr<FastParticipant> of(const FastSetup& setup);
   explicit FastParticipant(const FastSetup& setup);
-  ~FastParticipant();
+  ~FastParticipant() override;
   FastParticipant(const FastParticipant&) = delete;
   FastParticipant& operator=(const FastParticipant&) = delete;
 
@@ -40,7 +43,16 @@ class FastParticipant {
   [[nodiscard]] eprosima::fastdds::dds::Topic* topic(const std::string& name, const std::string& type);
 
  private:
-  eprosima::fastdds::dds::DomainParticipant* participant_;
+  void make(const FastSetup& setup);
+  void remove();
+  [[nodiscard]] bool finds_another();
+  void on_participant_discovery(eprosima::fastdds::dds::DomainParticipant* participant,
+                                eprosima::fastrtps::rtps::ParticipantDiscoveryInfo&& info) override;
+
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  bool found_ = false;
+  eprosima::fastdds::dds::DomainParticipant* participant_ = nullptr;
 };
 
 }  // namespace tessera::ros2

@@ -168,6 +168,40 @@ std::string_view name_of(Fault fault) {
   return "";
 }
 
+std::string_view name_of(Event::Kind kind) {
+  switch (kind) {
+    case Event::Kind::firing:
+      return "firing";
+    case Event::Kind::log:
+      return "log";
+    case Event::Kind::stop:
+      return "stop";
+    case Event::Kind::fault:
+      return "fault";
+    case Event::Kind::overrun:
+      return "overrun";
+    case Event::Kind::call:
+      return "call";
+    case Event::Kind::value:
+      return "value";
+    case Event::Kind::marking:
+      return "marking";
+    case Event::Kind::end:
+      return "end";
+    case Event::Kind::safe:
+      return "safe";
+    case Event::Kind::parameter:
+      return "parameter";
+    case Event::Kind::poses:
+      return "poses";
+    case Event::Kind::peer:
+      return "peer";
+    case Event::Kind::process:
+      return "process";
+  }
+  return {};
+}
+
 std::string_view name_of(Recording::Direction direction) {
   constexpr std::string_view names[] = {"in", "out", "real_in", "real_out", "memory"};
   return names[static_cast<std::size_t>(direction)];

@@ -95,9 +95,4 @@ Prepared prepare(const Ros2Binding& binding, Direction direction) {
   return prepared;
 }
 
-bool is_told(std::uint64_t count) {
-  while (count % 10 == 0 && count > 0) count /= 10;
-  return count == 1;
-}
-
 }  // namespace tessera::ros2

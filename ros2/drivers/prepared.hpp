@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstdint>
 #include <memory>
 
 #include "ros2/codec/translator.hpp"
 #include "ros2/dds/endpoint.hpp"
+#include "tessera/repetition.hpp"
 #include "tessera/ros2.hpp"
 
 namespace tessera::ros2 {
@@ -21,8 +21,5 @@ struct Prepared {
 
 /// Throws std::runtime_error: the binding is wrong.
 [[nodiscard]] Prepared prepare(const Ros2Binding& binding, Direction direction);
-
-/// Whether the n-th event of a kind is reported: the 1st, 10th, 100th and so on.
-[[nodiscard]] bool is_told(std::uint64_t count);
 
 }  // namespace tessera::ros2

@@ -17,31 +17,10 @@ std::string subsystem_of(const Recording& recording, const Event& event) {
   return event.instance() < recording.instances.size() ? recording.instances[event.instance()] : "system";
 }
 
-std::string_view kind_of(Event::Kind kind) {
-  switch (kind) {
-    case Event::Kind::firing:
-      return "firing";
-    case Event::Kind::log:
-      return "log";
-    case Event::Kind::stop:
-      return "stop";
-    case Event::Kind::fault:
-      return "fault";
-    case Event::Kind::overrun:
-      return "overrun";
-    case Event::Kind::call:
-      return "call";
-    case Event::Kind::safe:
-      return "safe";
-    case Event::Kind::parameter:
-      return "parameter";
-    case Event::Kind::peer:
-      return "peer";
-    case Event::Kind::process:
-      return "process";
-    default:
-      return {};
-  }
+/// Values and poses have channels of their own, and the others belong to the file of a recording.
+bool has_event(Event::Kind kind) {
+  using enum Event::Kind;
+  return kind != value && kind != poses && kind != marking && kind != end;
 }
 
 std::string firing_members(const Recording& recording, const Event& event) {
@@ -133,8 +112,8 @@ ChannelPlan events_plan() {
 }
 
 std::optional<std::string> event_of(const Recording& recording, const Recording::Entry& entry) {
-  const std::string_view kind = kind_of(entry.event.kind());
-  if (kind.empty()) return std::nullopt;
+  const std::string_view kind = name_of(entry.event.kind());
+  if (kind.empty() || !has_event(entry.event.kind())) return std::nullopt;
   return fmt::format(R"({{"kind":"{}","subsystem":{},"sequence":{}{}}})", kind,
                      json_text(subsystem_of(recording, entry.event)), entry.event.sequence,
                      members(recording, entry));

@@ -15,40 +15,6 @@ namespace {
 
 using Entry = Recording::Entry;
 
-const char* kind_of(const Event& event) {
-  switch (event.kind()) {
-    case Event::Kind::firing:
-      return "firing";
-    case Event::Kind::log:
-      return "log";
-    case Event::Kind::stop:
-      return "stop";
-    case Event::Kind::fault:
-      return "fault";
-    case Event::Kind::overrun:
-      return "overrun";
-    case Event::Kind::call:
-      return "call";
-    case Event::Kind::value:
-      return "value";
-    case Event::Kind::marking:
-      return "marking";
-    case Event::Kind::end:
-      return "end";
-    case Event::Kind::safe:
-      return "safe";
-    case Event::Kind::parameter:
-      return "parameter";
-    case Event::Kind::poses:
-      return "poses";
-    case Event::Kind::peer:
-      return "peer";
-    case Event::Kind::process:
-      return "process";
-  }
-  return "";
-}
-
 std::string path_of(const Recording& recording, const Event& event) {
   return event.instance() < recording.instances.size() ? recording.instances[event.instance()] : "system";
 }
@@ -226,7 +192,7 @@ void write_csv(const Recording& recording, const Selection& selection, std::ostr
   to << "time_ns,sequence,kind,subsystem,version,text\n";
   const auto line = [&](const Entry& entry, const std::string& text, const ValueTrack::Change* change) {
     const Event& event = entry.event;
-    return fmt::format("{},{},{},{},{},{}\n", event.time_ns, event.sequence, kind_of(event),
+    return fmt::format("{},{},{},{},{},{}\n", event.time_ns, event.sequence, name_of(event.kind()),
                        quoted_field(path_of(recording, event)),
                        change == nullptr ? event.version : change->event.flags, quoted_field(text));
   };

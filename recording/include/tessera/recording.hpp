@@ -113,6 +113,8 @@ struct Event {
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
 };
 static_assert(sizeof(Event) == 24);
+/// "firing"; empty: this version does not know the kind.
+[[nodiscard]] std::string_view name_of(Event::Kind kind);
 
 /// The flags of a value event. The event is written when a value is read into an input (a real input: only if
 /// the value differs from the last), and when a transition function has changed an output or a field of the

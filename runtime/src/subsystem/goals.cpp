@@ -7,7 +7,7 @@
 #include <string_view>
 #include <utility>
 
-#include "system/repeated_lines.hpp"
+#include "tessera/repetition.hpp"
 
 namespace tessera {
 Goals::Goals(const SubsystemParts& parts, const Reports& reports)
@@ -74,7 +74,7 @@ std::uint16_t Goals::told(std::uint32_t port, bool taken) {
 
 void Goals::drop(Goal& goal, const BoundGoal::Progress& progress) {
   ++dropped_;
-  if (!is_power_of_ten(++goal.dropped)) return;
+  if (!is_told(++goal.dropped)) return;
   std::array<char, 256> text;
   const std::string_view state =
       progress.state < goal_state_count ? goal_state_names.at(progress.state) : std::string_view("unknown");

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "tessera/repetition.hpp"
+
 namespace tessera {
 namespace {
 
@@ -29,11 +31,6 @@ std::size_t copied(std::array<char, Size>& to, std::string_view from) {
 
 }  // namespace
 
-bool is_power_of_ten(std::uint64_t count) {
-  while (count % 10 == 0) count /= 10;
-  return count == 1;
-}
-
 RepeatedLines::Kind* RepeatedLines::find(std::uint64_t key, std::string_view path, std::string_view text) {
   for (std::size_t step = 0; step < kinds_.size(); ++step) {
     Kind& one = kinds_[(key + step) % kinds_.size()];
@@ -58,7 +55,7 @@ RepeatedLines::Turn RepeatedLines::next(int level, std::string_view path, std::s
   Kind* const kind = find(key, path, text);
   if (kind == nullptr) return {};
   const std::uint64_t count = ++kind->count;
-  const bool printed = count <= shown_at_first || is_power_of_ten(count);
+  const bool printed = count <= shown_at_first || is_told(count);
   if (printed) kind->printed = count;
   return {printed, count};
 }

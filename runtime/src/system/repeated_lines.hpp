@@ -8,9 +8,6 @@
 
 namespace tessera {
 
-/// Whether the n-th event of a kind is told: the 1st, 10th, 100th and so on. count: not 0.
-[[nodiscard]] bool is_power_of_ten(std::uint64_t count);
-
 /// Counts lines that differ in their numbers only, so that one warning does not bury the others. The digits of a
 /// name count as letters: robot[1] is not robot[2].
 ///

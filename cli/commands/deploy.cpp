@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "cli/recordings/process_bags.hpp"
 #include "cli/terminal.hpp"
 #include "cli/unhurried_output.hpp"
 #include "diagnostics/source.hpp"
@@ -92,6 +93,7 @@ class DeployedRun final : public ProcessSetListener {
                   "tessera: cannot write to standard output: {}; the processes go on (Ctrl-C stops them)\n",
                   problem));
             })) {
+    if (!deploy.bags.empty()) bags_.emplace(deploy.bags, controller.specification);
     std::fflush(stdout);
     options_.progress = false;  // several processes cannot share one line
     for (const std::uint32_t number : placement_.here) width_ = std::max(width_, name_of(number).size());
@@ -113,7 +115,9 @@ class DeployedRun final : public ProcessSetListener {
 
   void started(std::size_t which, unsigned start, pid_t pid) override {
     if (start == 1) began_[which] = Clock::now();
-    file_.started(placement_.here[which], start, pid);
+    const std::uint32_t number = placement_.here[which];
+    file_.started(number, start, pid);
+    if (bags_) tell_of_bag(which, bags_->begin(which, files_of(number, start).recording));
   }
   void said(std::size_t which, std::string_view line) override {
     const std::string& name = name_of(placement_.here[which]);
@@ -127,6 +131,7 @@ class DeployedRun final : public ProcessSetListener {
     kept = {
         .how = how_it_ended(number, end), .starts = end.start, .end = end, .failed = has_failed(number, end)};
     file_.ended(number, end, kept.how);
+    if (bags_) tell_of_bag(end.process, bags_->end(end.process));
     if (!kept.failed) return;
     any_failed_ = any_failed_ || !again_in;
     if (gate_ && again_in) gate_->failed(name_of(number));
@@ -204,6 +209,10 @@ class DeployedRun final : public ProcessSetListener {
     told_->settle(std::chrono::milliseconds(100));
   }
 
+  void tell_of_bag(std::size_t which, const std::string& problem) {
+    if (!problem.empty()) tell(fmt::format("{}: {}", name_of(placement_.here[which]), problem));
+  }
+
   [[nodiscard]] nlohmann::json summary_of(std::uint32_t number, unsigned start) const {
     std::ifstream stream(files_of(number, start).summary);
     nlohmann::json summary = nlohmann::json::parse(stream, nullptr, /*allow_exceptions=*/false);
@@ -252,6 +261,7 @@ class DeployedRun final : public ProcessSetListener {
           return !std::filesystem::exists(files_of(number, 1).recording, none);
         }))
       return text + "nothing was recorded\n";
+    if (bags_) text += fmt::format("bags in {}\n", deploy_.bags);
     return text + fmt::format("recordings in {}; `tessera replay --check {}` checks them together\n",
                               folder_.string(), shell_line({folder_.string()}));
   }
@@ -275,6 +285,7 @@ class DeployedRun final : public ProcessSetListener {
   std::vector<End> ends_;
   std::vector<Clock::time_point> began_;  ///< the first start of each
   std::optional<RestartGate> gate_;
+  std::optional<ProcessBags> bags_;
   int stopped_by_ = 0, asked_by_ = 0;
 };
 

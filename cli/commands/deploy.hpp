@@ -14,6 +14,7 @@ struct DeployOptions {
   static constexpr const char* all = "*";
   std::string only = all;  ///< "office,cart[0]"
   std::string restart = "never", on_failure = "stop";
+  std::string bags;  ///< folder of the bags; empty: there are none
   project::NetworkOptions network;
 };
 

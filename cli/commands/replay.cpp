@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "bag/bag_reader.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/recordings/bags.hpp"
 #include "cli/recordings/coverage.hpp"
@@ -177,6 +178,12 @@ bool only_checks(const ReplayOptions& options) {
          options.perfetto.empty() && options.mcap.empty();
 }
 
+/// Then a recording may be of any length.
+bool only_writes_bag(const ReplayOptions& options) {
+  return !options.mcap.empty() && !options.check && !options.print && options.values.empty() &&
+         options.csv.empty() && options.perfetto.empty() && options.json.empty() && options.subsystem.empty();
+}
+
 std::vector<std::string> all_recordings(const std::vector<std::string>& given) {
   std::vector<std::string> all;
   for (const std::string& one : given) std::ranges::move(recordings_of(one), std::back_inserter(all));
@@ -203,6 +210,9 @@ int replay_command(ReplayOptions options) {
   if (options.recordings.size() > 1)
     return complain("several recordings are read together with --check alone, or with --coverage"), usage;
   if (!options.film.file.empty()) return film_command(options);
+  if (only_writes_bag(options) && !bag::is_bag(options.recording) &&
+      write_bag_of_file(options.recording, specification_if_any(options), options.mcap))
+    return ok;
   std::string error;
   const std::optional<ReadRun> run = read_run(options.recording, error);
   if (!run) return complain(error), options.check ? usage : failed;

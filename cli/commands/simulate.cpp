@@ -14,6 +14,7 @@
 #include "cli/outputs.hpp"
 #include "cli/recordings/bags.hpp"
 #include "cli/recordings/coverage.hpp"
+#include "cli/recordings/process_bags.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
 #include "mcap/records.hpp"
@@ -140,7 +141,10 @@ int run_command(RunCommandOptions options) {
   if (!options.hardware.empty() && !options.world)
     return complain("--hardware is for simulated runs: this one has real drivers everywhere");
   if (const int code = check_run(options, options.world); code != ok) return code;
-  check_replaceable(options.mcap, mcap::magic);
+  if (options.deploy.asked)
+    ProcessBags::check(options.mcap);
+  else
+    check_replaceable(options.mcap, mcap::magic);
   if (!check_deployment(options.spec, options.deploy, options.process)) return failed;
   if (!every_real_buffer_has_driver(options, options.world, terminal())) return failed;
   check_outputs(options, options.json, options.report);
@@ -150,6 +154,7 @@ int run_command(RunCommandOptions options) {
   if (options.world && !controller->specification.model.simulation)
     return complain("the specification has no `simulation`, so there is nothing to simulate");
   const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
+  options.deploy.bags = options.mcap;
   if (options.deploy.asked) return run_deployed(*controller, folder, options, options.deploy);
   if (!options.process.empty()) return launch_process(*controller, folder, options);
   return launch(*controller, folder, options, controller_command(*controller, options, "run", options.world),
@@ -226,7 +231,7 @@ void declare_deployment_options(Subcommand& command, RunCommandOptions& options)
   command.option("--domain", network.domain, "DDS domain (default: that of `deploy`)");
   command.option("--interface", network.interface, "Network interface (default: that of `deploy`)");
   command.option("--peers", network.peers, "Hosts of the other processes: A,B (default: those of `deploy`)");
-  for (const char* other : {"--record", "--mcap", "--json", "--report", "--debug"})
+  for (const char* other : {"--record", "--json", "--report", "--debug"})
     deploy.excludes(command.declared(other));
 }
 
@@ -245,7 +250,7 @@ void add_run(CommandLine& app) {
   command.option("--report", options.report, "Folder for a page and a picture of the run");
   command.option("--mcap", options.mcap,
                  "Also write a bag for the tools of ROS 2 while it runs: a chunk a second, readable whatever "
-                 "happens (docs/use/replay.md)");
+                 "happens; with --deploy: a folder of bags, one for each process (docs/use/replay.md)");
   command.flag("--no-monitor", options.no_monitor,
                "Without a control socket: `tessera emergency-stop`, `set` and `top` cannot reach this run");
   declare_deployment_options(command, options);

@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <fstream>
 #include <map>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
@@ -21,6 +22,7 @@
 #include "net/pnml.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/ros2_messages.hpp"
+#include "tessera/growing_recording.hpp"
 #include "verify/hashes.hpp"
 
 namespace tessera::cli {
@@ -170,32 +172,88 @@ bag::Background background_of(const project::Specification& specification) {
   return background_of(specification, nets->flat);
 }
 
-void write_bag(const Recording& recording, const std::string& specification, const std::string& file) {
-  bag::Background background;
+namespace {
+
+constexpr std::size_t read_at_once = 1U << 20U;
+
+/// The background of a recording. Says on standard error if the specification is missing, or is another one.
+bag::Background background_beside(const Recording& recording, const std::string& specification) {
   std::string missing = "no specification is beside the recording";
   if (!specification.empty()) {
     missing = specification + " is not the specification of this recording";
     const std::optional<project::Specification> read = project::read(specification, terminal());
     const std::optional<project::Nets> nets = read ? project::build(*read, terminal()) : std::nullopt;
-    if (nets && verify::hash_of(nets->flat) == recording.net_hash) {
-      background = background_of(*read, nets->flat);
-      missing.clear();
+    if (nets && verify::hash_of(nets->flat) == recording.net_hash) return background_of(*read, nets->flat);
+  }
+  fmt::print(stderr, "note: {}: the bag has no messages of ROS 2, no units and no net; name it with --spec\n",
+             missing);
+  return {};
+}
+
+/// A recording that becomes the file of a bag, entry by entry.
+class WrittenBag {
+ public:
+  WrittenBag(const Recording& recording, const std::string& specification, const std::string& file)
+      : file_(file), writer_(recording, background_beside(recording, specification), bag_library) {}
+  void add(const std::vector<Recording::Entry>& entries) {
+    for (const Recording::Entry& entry : entries) {
+      writer_.add(entry);
+      file_.write(writer_.take());
     }
   }
-  if (!missing.empty())
-    fmt::print(stderr,
-               "note: {}: the bag has no messages of ROS 2, no units and no net; name it with --spec\n",
-               missing);
-  BagFile bytes(file);
-  bag::BagWriter writer(recording, background, bag_library);
-  for (const Recording::Entry& entry : recording.entries) {
-    writer.add(entry);
-    bytes.write(writer.take());
+  void finish(bool has_ended, std::uint64_t lost) {
+    if (has_ended) writer_.end(lost);
+    writer_.finish();
+    file_.write(writer_.take());
+    file_.close();
   }
-  if (!recording.truncated) writer.end(recording.lost);
-  writer.finish();
-  bytes.write(writer.take());
-  bytes.close();
+
+ private:
+  BagFile file_;
+  bag::BagWriter writer_;
+};
+
+}  // namespace
+
+void write_bag(const Recording& recording, const std::string& specification, const std::string& file) {
+  WrittenBag bag(recording, specification, file);
+  bag.add(recording.entries);
+  bag.finish(!recording.truncated, recording.lost);
+}
+
+bool write_bag_of_file(const std::string& recording, const std::string& specification,
+                       const std::string& file) {
+  if (!fs::is_regular_file(recording) || end_of(recording) == FileEnd::goes_on) return false;
+  GrowingRecording source(recording, GrowingRecording::From::oldest);
+  auto reader = std::make_unique<RecordingReader>();
+  std::optional<WrittenBag> bag;
+  std::optional<std::int64_t> lost_up_to_ns;
+  std::uint64_t lost = 0;
+  for (auto piece = source.next(read_at_once); !piece.bytes.empty(); piece = source.next(read_at_once)) {
+    if (piece.begins) {
+      lost += reader->recording().lost;
+      reader = std::make_unique<RecordingReader>();
+    }
+    reader->feed(piece.bytes);
+    if (reader->problem()) {
+      if (!bag) return false;
+      bag.reset();
+      fs::remove(file);
+      throw std::runtime_error(fmt::format("'{}' {}", recording, reader->problem()->text));
+    }
+    if (!reader->has_header()) continue;
+    Recording& read = reader->recording();
+    if (!bag) {
+      if (lacks_beginning(read) && !read.entries.empty()) lost_up_to_ns = read.entries.front().event.time_ns;
+      bag.emplace(read, specification, file);
+    }
+    bag->add(read.entries);
+    read.entries.clear();
+  }
+  if (!bag) return false;
+  bag->finish(reader->has_ended(), lost + reader->recording().lost);
+  if (lost_up_to_ns) fmt::print(stderr, "note: {}\n", note_on_lost_beginning(lost_up_to_ns));
+  return true;
 }
 
 std::optional<ReadRun> read_run(const std::string& file, std::string& error) {

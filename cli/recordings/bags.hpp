@@ -13,6 +13,7 @@ namespace tessera::cli {
 
 /// The program, as the header of a bag names it.
 inline constexpr const char* bag_library = "tessera " TESSERA_VERSION;
+inline constexpr const char* bag_extension = ".mcap";
 
 /// The things that a bag holds besides a recording: topics and units of the buffers, the files of the specification, the
 /// net.
@@ -23,6 +24,11 @@ inline constexpr const char* bag_library = "tessera " TESSERA_VERSION;
 /// Writes a recording as a bag. specification: its file; empty: it was not found, so that the bag has no messages of ROS 2.
 /// Throws std::runtime_error if the file cannot be written.
 void write_bag(const Recording& recording, const std::string& specification, const std::string& file);
+
+/// The same of the file of a recording, whatever its length, with little memory. Says on standard error if its beginning is
+/// gone. false: nothing was written, since the file, or the newest segment, cannot be read.
+[[nodiscard]] bool write_bag_of_file(const std::string& recording, const std::string& specification,
+                                     const std::string& file);
 
 /// A recording, or one that stands in a bag.
 struct ReadRun {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <filesystem>
 
+#include "cli/recordings/bags.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/verification/pipeline.hpp"
@@ -17,12 +18,15 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> recordings_of(const std::string& given) {
   const fs::path folder(given);
-  if (!fs::exists(folder / project::file_names::deployment)) return {given};
+  const bool is_run = fs::exists(folder / project::file_names::deployment);
+  if (!is_run && (!fs::is_directory(folder) || fs::exists(folder / recording_file_name))) return {given};
   std::vector<std::string> all;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder)) {
     const std::string file = entry.path().string();
-    if (entry.path().extension() == ".tsr" && without_segment_number(file).empty()) all.push_back(file);
+    if (entry.path().extension() == (is_run ? ".tsr" : bag_extension) && without_segment_number(file).empty())
+      all.push_back(file);
   }
+  if (all.empty() && !is_run) return {given};
   std::ranges::sort(all);
   return all;
 }

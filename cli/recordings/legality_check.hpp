@@ -10,7 +10,7 @@
 namespace tessera::cli {
 
 /// The recordings for an argument of `tessera replay`: itself, or all in a folder that `tessera run --deploy`
-/// has made.
+/// has made, or all bags in a folder.
 [[nodiscard]] std::vector<std::string> recordings_of(const std::string& given);
 
 /// Checks that the recordings are a legal run of the net of the specification: one recording, or several of

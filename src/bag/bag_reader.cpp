@@ -11,6 +11,7 @@
 #include <sstream>
 #include <utility>
 
+#include "bag/bag_writer.hpp"
 #include "bag/conversion.hpp"
 #include "bag/raw_channel.hpp"
 
@@ -84,7 +85,11 @@ class Comparison {
   void take(const mcap::Metadata& metadata) {
     const auto version = metadata.entries.find("bag_version");
     if (metadata.name == "tessera" && version != metadata.entries.end() && version->second != bag_version)
-      tell("another version of Tessera has written it, so its messages cannot be compared");
+      return tell("another version of Tessera has written it, so its messages cannot be compared");
+    if (!conversion_) return;
+    for (const mcap::Metadata& made : metadata_of(bag_.recording))
+      if (made.name == metadata.name && made.entries != metadata.entries)
+        tell(fmt::format("its metadata {} are not those of the recording", metadata.name));
   }
 
   /// Several buffers may be on one topic.

@@ -43,13 +43,16 @@ mcap::Metadata verdict_metadata(const Recording& recording) {
 
 }  // namespace
 
+std::vector<mcap::Metadata> metadata_of(const Recording& recording) {
+  return {run_metadata(recording), verdict_metadata(recording)};
+}
+
 BagWriter::BagWriter(const Recording& recording, const Background& background, const std::string& library)
     : conversion_(recording, background), writer_("", library) {
   writer_.attach({0, header_attachment, "application/json", recording.header});
   for (const Background::File& file : background.files)
     writer_.attach({0, file.name, file.media_type, file.content});
-  writer_.add_metadata(run_metadata(recording));
-  writer_.add_metadata(verdict_metadata(recording));
+  for (const mcap::Metadata& one : metadata_of(recording)) writer_.add_metadata(one);
   std::map<std::pair<std::string, std::string>, std::uint16_t> schemas;  // by name and data
   for (const ChannelPlan& plan : conversion_.channels()) {
     mcap::Channel channel = plan.channel;

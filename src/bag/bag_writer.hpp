@@ -9,6 +9,9 @@
 
 namespace tessera::bag {
 
+/// The metadata of a bag: the run, and the verdicts on its net. recording: its header is needed.
+[[nodiscard]] std::vector<mcap::Metadata> metadata_of(const Recording& recording);
+
 /// Makes a bag of a recording: the bytes of an MCAP file, which its user takes and writes.
 ///
 /// Threads: one at a time.

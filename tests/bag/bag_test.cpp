@@ -124,6 +124,24 @@ TEST(Bag, NoMessageCanBeChangedUnnoticed) {
     }
 }
 
+TEST(Bag, VerdictsCannotBeChangedUnnoticed) {
+  const std::string sound = bag_of(made_recording(), 100);
+  for (const std::string changed : {"", "tessera", "tessera.verdicts"}) {
+    mcap::Writer writer("", "another program");
+    mcap::read(sound, {.attachment = [&](const mcap::Attachment& one) { writer.attach(one); },
+                       .metadata =
+                           [&](mcap::Metadata one) {
+                             if (one.name == changed) one.entries.begin()->second += "x";
+                             writer.add_metadata(one);
+                           }});
+    writer.finish();
+    std::string error;
+    const std::optional<Bag> bag = read_bag_bytes(writer.take(), error);
+    ASSERT_TRUE(bag) << error;
+    EXPECT_EQ(bag->differences.size(), changed.empty() ? 0U : 1U) << changed;
+  }
+}
+
 TEST(Bag, DamageLeavesARecordingThatFitsTheRest) {
   const Recording recording = made_recording();
   const std::string sound = bag_of(recording, 6);

@@ -23,7 +23,7 @@ TEST_F(Deploy, ProcessesRunTogetherAndTheirRecordingsAreOneLegalRun) {
   EXPECT_NE(unknown.text.find("has no process 'gat'; did you mean 'gate'?"), std::string::npos)
       << unknown.text;
 
-  const project::Exit run = tessera("run 11_crossing_apart --deploy --for 3s" + domain_);
+  const project::Exit run = tessera("run 11_crossing_apart --deploy --for 3s --mcap bags" + domain_);
   EXPECT_EQ(run.code, 0) << run.text;
   EXPECT_NE(run.text.find("rover[1] | "), std::string::npos) << run.text;
   EXPECT_NE(run.text.find("ended: duration"), std::string::npos) << run.text;
@@ -31,6 +31,11 @@ TEST_F(Deploy, ProcessesRunTogetherAndTheirRecordingsAreOneLegalRun) {
   const project::Exit joint = tessera(checked);
   EXPECT_EQ(joint.code, 0) << joint.text;
   EXPECT_NE(joint.text.find("in 3 recordings"), std::string::npos) << joint.text;
+  EXPECT_NE(run.text.find("bags in bags"), std::string::npos) << run.text;
+  const project::Exit bags = tessera("replay --check bags --spec 11_crossing_apart");
+  EXPECT_EQ(bags.code, 0) << bags.text;
+  EXPECT_NE(bags.text.find("in 3 recordings"), std::string::npos) << bags.text;
+  EXPECT_TRUE(fs::exists(folder_ / "bags/process-rover[1].mcap"));
 
   const std::string last = "11_crossing_apart/.tessera/last/process-";
   const project::Exit part = tessera("replay --check '" + last + "gate.tsr' '" + last + "rover[0].tsr'");
@@ -71,6 +76,8 @@ TEST_F(Deploy, WhatCannotRunIsRefusedBeforeAnythingStarts) {
     EXPECT_EQ(run.text.find("recordings in"), std::string::npos) << run.text;
   };
   refused(" --domain 231", "--domain 231: expected a whole number from 0 to 230");
+  refused(" --mcap 11_crossing_apart/spec.yaml" + domain_,
+          "--mcap names a folder for the bags of all processes");
   refused(" --only ''", "--only names no process");
   refused(" --only 'rover[0] , gat'", "has no process 'gat'; did you mean 'gate'?");
   refused(" --interface nosuch0" + domain_, "nothing was recorded");

@@ -132,6 +132,17 @@ int launch_process(const Controller& controller, const RunFolder& folder, const 
   return launch(controller, folder, options, command, options.json, options.report, {}, options.mcap);
 }
 
+/// A managed node has any number of runs, also none, and tells of each itself.
+int launch_managed(const Controller& controller, const RunFolder& folder, const RunCommandOptions& options) {
+  const Command command = controller_command(controller, options, "run", options.world);
+  if (options.debug) return print_debugger_line(command);
+  const RunFiles files = run_files(options);
+  const std::filesystem::path note = death_note(files);
+  const Exit exit = run(with_death_note(command, note));
+  if (!std::filesystem::exists(files.summary)) folder.withdraw();
+  return exit.code;
+}
+
 int run_command(RunCommandOptions options) {
   if ((options.deploy.asked || !options.process.empty()) && options.world)
     return complain("a simulated world is in one process: `tessera simulate` runs all processes in it"),
@@ -156,6 +167,7 @@ int run_command(RunCommandOptions options) {
   const RunFolder folder = folder_for(*controller, options, "run", /*is_recorded=*/true);
   options.deploy.bags = options.mcap;
   if (options.deploy.asked) return run_deployed(*controller, folder, options, options.deploy);
+  if (options.managed) return launch_managed(*controller, folder, options);
   if (!options.process.empty()) return launch_process(*controller, folder, options);
   return launch(*controller, folder, options, controller_command(*controller, options, "run", options.world),
                 options.json, options.report, {}, options.mcap);
@@ -258,6 +270,11 @@ void add_run(CommandLine& app) {
       "--ros-args", options.ros2_arguments,
       "Names and parameters as ROS 2 gives them, up to -- or the end: -r FROM:=TO, -r __node:=NAME, "
       "-r __ns:=/SPACE, -p NAME:=VALUE, --params-file FILE (docs/use/ros2.md)");
+  Option managed = command.flag("--managed", options.managed,
+                                "As a managed node of ROS 2: devices move only while it is active "
+                                "(docs/use/ros2.md)");
+  for (const char* other : {"--deploy", "--process", "--mcap", "--json", "--report"})
+    managed.excludes(command.declared(other));
   command.footer(
       "Examples:\n  tessera run\n  tessera run --world --for 10s\n"
       "  tessera run --deploy --restart on-failure       every process of this machine (docs/use/fleets.md)");

@@ -4,6 +4,7 @@
 #include "ros2/arguments/arguments.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/drivers.hpp"
+#include "ros2/drivers/managed_node.hpp"
 #include "ros2/drivers/nodes.hpp"
 
 // Both sides of the call are C++; only the linkage is that of C.
@@ -38,5 +39,10 @@ __attribute__((visibility("default"))) bool tessera_ros2_arguments_1(tessera::Ro
   const std::optional<tessera::Problem> wrong = tessera::ros2::apply_arguments(arguments);
   if (wrong) error = wrong->text;
   return !wrong;
+}
+
+__attribute__((visibility("default"))) std::unique_ptr<tessera::ManagedNode> tessera_ros2_managed_node_1(
+    const tessera::ManagedNodeSetup& setup, std::string& error) {
+  return tessera::ros2::make_managed_node(setup, error);
 }
 }

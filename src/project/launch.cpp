@@ -212,6 +212,7 @@ Command controller_command(const Controller& controller, const LaunchOptions& op
                   specification.project.string()};
   if (options.also) command.push_back("--also");
   if (options.no_monitor && mode == "run") command.push_back("--no-monitor");
+  if (options.managed && mode == "run") command.push_back("--managed");
   if (options.progress) command.push_back("--progress");
   const std::string limit = options.record_limit.empty() ? usual_record_limit : options.record_limit;
   if (limit != "none") append(command, {"--record-limit", limit});

@@ -28,6 +28,7 @@ struct LaunchOptions {
   std::vector<std::string> hardware;
   std::optional<std::vector<std::string>> ros2_arguments;  ///< in real time: the words behind `--ros-args`
   bool also = false;        ///< start although another run uses the same real devices
+  bool managed = false;     ///< in real time: as a managed node of ROS 2
   bool no_monitor = false;  ///< in real time: without a control socket
   bool debug = false;
   bool progress = false;  ///< the controller shows its progress on standard error

@@ -94,7 +94,10 @@ struct RunOptions {
   /// run starts although another one has the devices.
   std::string project;
   bool also = false;
-  int parent = 0;        ///< the run ends when this process ends, as with SIGTERM; 0: none
+  int parent = 0;  ///< the run ends when this process ends, as with SIGTERM; 0: none
+  /// Steady clock: the descriptor of a stream socket through which another process holds the run and lets it go on
+  /// (managed/run_orders.hpp). The run begins held, when its devices are open and have their safe commands. -1: none.
+  int orders = -1;
   bool guardian = true;  ///< steady clock: a guardian process for drivers that derive from Guarded
   /// Simulated clock: in place of the devices, of a test (tessera/testing.hpp) or of recorded inputs; nullptr: none.
   Substitutes* substitutes = nullptr;

@@ -79,4 +79,39 @@ class Ros2Nodes {
 using Ros2NodesMaker = std::unique_ptr<Ros2Nodes> (*)(Ros2Host& host, std::string& error);
 inline constexpr const char* ros2_nodes_function = "tessera_ros2_nodes_1";
 
+/// The orders that a managed node of ROS 2 gets.
+enum class LifecycleOrder : std::uint8_t { configure, cleanup, activate, deactivate, shutdown };
+/// How an order ended. failure: nothing has changed. error: the run has failed.
+enum class LifecycleOutcome : std::uint8_t { success = 0, failure = 1, error = 2 };
+
+struct ManagedNodeSetup {
+  std::string node;                     ///< its name, before the rules of `--ros-args`
+  std::optional<std::uint32_t> domain;  ///< nullopt: that of ROS_DOMAIN_ID
+  std::string interface = "lo", peers;  ///< as of drivers (docs/use/ros2.md)
+};
+
+/// A managed node of ROS 2: the services of lifecycle_msgs and the topic of its transitions. It begins unconfigured.
+///
+/// Threads: one at a time. Nothing is answered between calls of `serve`.
+class ManagedNode {
+ public:
+  ManagedNode() = default;
+  ManagedNode(const ManagedNode&) = delete;
+  ManagedNode& operator=(const ManagedNode&) = delete;
+  virtual ~ManagedNode() = default;
+  [[nodiscard]] virtual std::string name() const = 0;  ///< "/patrol"
+  /// Answers requests. Returns an order that a client gave and that fits the state: `finish` must be called when it has
+  /// ended, and until then no other one is returned.
+  [[nodiscard]] virtual std::optional<LifecycleOrder> serve() = 0;
+  /// The same for an order of this process. false: it does not fit the state.
+  [[nodiscard]] virtual bool begin(LifecycleOrder order) = 0;
+  virtual void finish(LifecycleOutcome outcome) = 0;
+  /// The run has failed without an order: the node is unconfigured again.
+  virtual void fail() = 0;
+};
+
+/// The function that the library for ROS 2 exports. nullptr and `error`: there is no such node.
+using ManagedNodeMaker = std::unique_ptr<ManagedNode> (*)(const ManagedNodeSetup& setup, std::string& error);
+inline constexpr const char* managed_node_function = "tessera_ros2_managed_node_1";
+
 }  // namespace tessera

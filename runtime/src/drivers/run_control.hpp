@@ -51,6 +51,10 @@ class RunControl {
   [[nodiscard]] bool suspended() const { return suspended_.load(std::memory_order_seq_cst); }
   [[nodiscard]] Time valid_from() const { return valid_from_.load(std::memory_order_relaxed); }
 
+  /// The run is held: no subsystem makes another step until it goes on. Unlike `suspend`, this says nothing of devices.
+  void pause(bool paused) { paused_.store(paused, std::memory_order_seq_cst); }
+  [[nodiscard]] bool paused() const { return paused_.load(std::memory_order_acquire); }
+
   /// Begins the emergency stop, unless one is in force already: only safe commands go to devices until an
   /// operator ends it. why: as in request_stop.
   void begin_emergency(std::string_view why);
@@ -106,7 +110,8 @@ class RunControl {
 
  private:
   std::atomic<std::uint32_t> state_{0}, emergencies_{0}, suspensions_over_{0}, emergencies_over_{0};
-  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false}, held_{false};
+  std::atomic<bool> abandoned_{false}, failed_{false}, suspended_{false}, emergency_{false}, held_{false},
+      paused_{false};
   const std::atomic<bool>* acted_outside_ = nullptr;  // in memory that is shared with another process
   std::atomic<int> news_{-1};
   mutable std::mutex emergency_mutex_;  // guards the members below; it is held no longer than a copy takes

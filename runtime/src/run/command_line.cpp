@@ -45,8 +45,11 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       ->allow_extra_args(false);
   command.add_option("--parameters", words.parameter_file,
                      "File of 'path = value' lines, applied before --set");
-  command.add_option("--record", options.recording,
-                     "Write every firing, log line and value of a buffer to this file");
+  // The runs of a managed node get another file and another parent than the node.
+  command
+      .add_option("--record", options.recording,
+                  "Write every firing, log line and value of a buffer to this file")
+      ->take_first();
   command.add_option(
       "--record-limit", words.record_limit,
       "Keep the newest part of the recording only: 500MB in all, or 100MBx5, five files of 100 MB");
@@ -106,6 +109,7 @@ void describe_common(CLI::App& command, CommandLine& line, Words& words) {
       .add_option(
           "--parent", options.parent,
           "Number of the process that started the controller; when it has ended, the run stops safely")
+      ->take_first()
       ->check(CLI::PositiveNumber);
 }
 
@@ -292,6 +296,11 @@ std::variant<CommandLine, int> parse_command_line(const System& system, int argc
       "Run without a control socket: `tessera top`, `set` and `emergency-stop` cannot reach this run");
   run->add_flag("!--no-guardian", line.options.guardian,
                 "No guardian process, for debuggers that stop the controller (docs/reference/safety.md)");
+  run->add_flag(
+      "--managed", line.managed,
+      "A managed node of ROS 2, named after the system, in whose run nothing moves unless it is active "
+      "(docs/use/ros2.md)");
+  run->add_option("--orders", line.options.orders)->group("");  // from the managed node to its run
   run->add_flag("--simulated", line.options.simulated_drivers,
                 "Simulated drivers in place of the real ones; a --world implies it");
   bool unused = false;  // the words are taken away before

@@ -17,6 +17,7 @@ struct CommandLine {
   std::string inputs;                      ///< recording whose real inputs replace the devices; empty: none
   std::optional<std::uint64_t> schedules;  ///< number of schedules to try; nullopt: one run
   unsigned jobs = 0;                       ///< of schedules: processes at a time; 0: one per core
+  bool managed = false;                    ///< a managed node of ROS 2
   bool coverage = false;                   ///< of schedules: counts the firings of each transition
 };
 

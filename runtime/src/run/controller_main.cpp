@@ -9,6 +9,7 @@
 #include <memory>
 
 #include "drivers/recorded_inputs.hpp"
+#include "managed/managed_run.hpp"
 #include "rerun/rerun.hpp"
 #include "run/command_line.hpp"
 #include "run/execute.hpp"
@@ -102,6 +103,7 @@ int controller_main(const System& system, int argc, char** argv) try {
   const CommandLine& line = std::get<CommandLine>(parsed);
   if (line.schedules) return run_schedules(system, line);
   if (!line.from.empty()) return run_again(system, line);
+  if (line.managed && line.options.orders < 0) return run_managed(system, line.options, argc, argv);
   std::string error;
   std::unique_ptr<RecordedInputs> inputs;
   RunOptions options = line.options;

@@ -11,13 +11,13 @@
 #include <vector>
 
 #include "assembly/assembly.hpp"
+#include "assembly/open_devices.hpp"
 #include "assembly/planted_faults.hpp"
 #include "assembly/ros2_arguments.hpp"
 #include "assembly/upper_layers.hpp"
 #include "drivers/devices.hpp"
 #include "drivers/driver_watch.hpp"
 #include "links/incarnation.hpp"
-#include "run/open_devices.hpp"
 #include "run/process_lives.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
@@ -320,6 +320,11 @@ std::optional<RunSummary> execute(const System& system, const RunOptions& given,
   const auto instances = static_cast<std::uint32_t>(part->system.instances.size());
   const bool simulated = options.clock == RunOptions::Clock::simulated;
   const bool nothing_real = simulated && options.hardware.empty();
+  if (options.orders >= 0 && (simulated || part->process)) {
+    error = simulated ? "the simulated clock cannot be held by another process"
+                      : "a process of a deployment cannot be held: the others would wait for it";
+    return std::nullopt;
+  }
   // In force from before the first driver is made until the last is gone. Only the steady clock can be
   // suspended.
   using Suspension = StopSignals::Suspension;

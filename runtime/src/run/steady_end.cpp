@@ -58,7 +58,7 @@ void SteadyRun::await_threads(const Assembly& assembly, Securing& securing) {
     Duration next = secured ? patience : security_delay;
     for (const Duration limit : {give_up_.unsafe, give_up_.safe})
       if (limit > waited) next = std::min(next, limit);
-    const Time beat = liveness_ ? liveness_->show(clock_.now()) : Time::max();
+    const Time beat = liveness_ ? show_life() : Time::max();
     await_news(std::min(since + next, beat));
     securing.collect(assembly.system_lane());
     waited = clock_.now() - since;

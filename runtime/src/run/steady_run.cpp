@@ -90,22 +90,29 @@ void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
                                const RunControl& control) const {
   while (!control.stopping()) {
     const std::uint32_t ticket = wakes.ticket();
+    if (control.paused()) {
+      wakes.sleep(ticket, -1);
+      continue;
+    }
     const SubsystemExecutor::Progress progress = executor.step();
+    if (progress.state == SubsystemExecutor::State::ready) continue;
     if (progress.state != SubsystemExecutor::State::waiting) break;
-    sleep(executor, wakes, ticket, progress);
+    sleep(executor, wakes, ticket, progress, control);
   }
 }
 
 /// Sleeps until there may be work. Heartbeats are not part of the net: a subsystem that only sends heartbeats
 /// is at rest (Stillness).
 void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
-                      const SubsystemExecutor::Progress& progress) const {
+                      const SubsystemExecutor::Progress& progress, const RunControl& control) const {
   const auto limit = [&](Time time) { return time == Time::max() ? -1 : clock_.absolute_ns(time); };
   if (progress.deadline != Time::max() || progress.beat == Time::max())
     return wakes.sleep(ticket, limit(std::min(progress.deadline, progress.beat)));
   Time beat = progress.beat;
-  for (bool again = false; !wakes.rest_until(ticket, limit(beat), again); again = true)
+  for (bool again = false; !wakes.rest_until(ticket, limit(beat), again); again = true) {
+    if (control.paused()) return;
     beat = executor.beat(clock_.now());
+  }
 }
 
 /// One warning per run, because a thousand threads may be denied the same.
@@ -127,6 +134,11 @@ void SteadyRun::run_world(Assembly& assembly) {
     Duration left_out{};
     for (Time next{}; !control.stopping();) {
       const std::uint32_t ticket = world_wakes_.ticket();
+      if (control.paused()) {
+        world_wakes_.sleep(ticket, -1);
+        next = {};
+        continue;
+      }
       const Time now = clock_.now();
       left_out += std::max(now - left_out - world_time_ - most_behind, Duration::zero());
       if (left_out > Duration::zero()) say_world_is_slow();
@@ -164,6 +176,10 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
     assembly.control.request_stop(StopSignals::name(signal), /*fault=*/false);
   upper.enter(clock_.now());
   for (const auto& executor : assembly.executors) executor->enter();
+  if (assembly.options.orders >= 0) {
+    orders_.emplace(assembly.options.orders);
+    stand_still(assembly.control);
+  }
   {
     const RealTimePriority priority(supervisor_priority(assembly.system.instances));
     if (priority.denied()) deny(*priority.denied());
@@ -171,6 +187,8 @@ Ending SteadyRun::run(Assembly& assembly, UpperLayers& upper, const StopSignals&
         securing_.emplace(assembly.executors, priority.priority(), [this] { tell_supervisor(); });
     survives_in_thread(assembly.control, "no thread for every subsystem", [&] { start_threads(assembly); });
     survives_in_thread(assembly.control, "the supervisor", [&] { supervise(assembly, upper, securing); });
+    move_on();
+    orders_.reset();  // nobody reads it from now on
     wake_all(assembly);
     while (
         !survives_in_thread(assembly.control, "the supervisor", [&] { await_threads(assembly, securing); }))
@@ -227,7 +245,7 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
     follow_emergency(emergencies, control, securing, lane);
     const Time now = clock_.now();
     const Time safe_commands = follow_safe_commands(assembly, securing, now);
-    const Time beat = liveness.show(now);
+    const Time beat = show_life();
     if (control.stopping())
       break;  // whatever else is asked: the guardian has acted, or a device does not obey
     if (upper.ended()) {
@@ -239,6 +257,8 @@ void SteadyRun::supervise(Assembly& assembly, UpperLayers& upper, Securing& secu
       liveness.suspend();
       suspend(assembly, securing);
       liveness.resume();
+    } else if (asked_to_hold(control)) {
+      hold(assembly, securing, emergencies);
     } else if (now >= end) {
       duration_over_ = true;
       control.request_stop("duration", /*fault=*/false);
@@ -315,50 +335,6 @@ void SteadyRun::collect_secured(RunControl& control, Securing& securing, Recordi
   securing.collect(lane);
 }
 
-/// Gives the safe commands. Then the process is suspended until another process continues it, and the
-/// clock of the run stops with it.
-void SteadyRun::suspend(Assembly& assembly, Securing& securing) {
-  RunControl& control = assembly.control;
-  RecordingLane* const lane = assembly.system_lane();
-  control.suspend();
-  const Time since = clock_.now();
-  for (std::uint32_t instance = 0; instance < started_; ++instance)
-    securing.secure(instance, {SafeReason::Kind::suspended});
-  while (!securing.done() && securing.refusing().empty() && StopSignals::pending() == 0)
-    await_news(clock_.now() + progress_step);
-  securing.collect(lane);
-  // A subsystem that has just seen the suspension may be in the middle of giving its own safe command.
-  for (const Time until = clock_.now() + progress_step; any_owing(assembly) && clock_.now() < until;)
-    await_news(clock_.now() + std::chrono::milliseconds(2));
-  if (any_owing(assembly))
-    return control.request_stop("an effector refuses its safe command: not suspended", /*fault=*/true);
-  if (const int signal = StopSignals::pending(); signal != 0)
-    return control.request_stop(StopSignals::name(signal), /*fault=*/false);
-  stop_process(since, lane);
-  if (assembly.links != nullptr) assembly.links->set_origin(clock_.absolute_ns(Time{}));
-  StopSignals::resume();
-  control.resume(clock_.now() + Duration(1));
-}
-
-bool SteadyRun::any_owing(const Assembly& assembly) {
-  return std::ranges::any_of(assembly.executors, [](const auto& one) { return one->effectors().owing(); });
-}
-
-void SteadyRun::stop_process(Time since, RecordingLane* lane) {
-  const auto say = [&](std::string_view text) {
-    console::print(LogLevel::info, clock_.now(), "tessera", text);
-    if (lane != nullptr) lane->text(Event::Kind::log, clock_.now(), 0, text);
-  };
-  say(fmt::format("suspended by SIGTSTP; the devices have their safe commands ({:.1f} ms)",
-                  seconds(clock_.now() - since) * 1e3));
-  clock_.freeze();
-  const std::int64_t stopped_ns = monotonic_ns();
-  kill(getpid(), SIGSTOP);
-  const double away_s = static_cast<double>(monotonic_ns() - stopped_ns) * 1e-9;
-  clock_.thaw();
-  say(fmt::format("goes on after {:.1f} s; each effector waits for new values", away_s));
-}
-
 void SteadyRun::look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now) {
   const std::vector<std::uint32_t> stuck = stuck_among_resting(assembly, stillness.resting());
   if (stuck.empty() || !stillness.rest_still(wake_words_.get(), stuck)) return;
@@ -376,8 +352,11 @@ void SteadyRun::collect_ended(const Assembly& assembly, UpperLayers& upper) {
 
 /// Waits for news of a subsystem, or of a thread that secures devices, or for a signal.
 void SteadyRun::await_news(Time until) const {
-  std::array<pollfd, 2> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
-                                pollfd{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0}};
+  // poll ignores a negative descriptor
+  const int orders = orders_ ? orders_->descriptor() : -1;
+  std::array<pollfd, 3> sources{pollfd{.fd = news_, .events = POLLIN, .revents = 0},
+                                pollfd{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0},
+                                pollfd{.fd = orders, .events = POLLIN, .revents = 0}};
   const Duration left = std::max(until - clock_.now(), Duration::zero());
   const timespec limit{.tv_sec = left.count() / 1'000'000'000, .tv_nsec = left.count() % 1'000'000'000};
   ppoll(sources.data(), sources.size(), until == Time::max() ? nullptr : &limit, nullptr);

@@ -9,6 +9,7 @@
 
 #include "assembly/assembly.hpp"
 #include "assembly/upper_layers.hpp"
+#include "managed/run_orders.hpp"
 #include "run/give_up.hpp"
 #include "run/simulated_run.hpp"
 #include "safety/securing.hpp"
@@ -45,7 +46,7 @@ class SteadyRun final : public Waker {
  private:
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
   void sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
-             const SubsystemExecutor::Progress& progress) const;
+             const SubsystemExecutor::Progress& progress, const RunControl& control) const;
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(Assembly& assembly);
   void run_links(Assembly& assembly);
@@ -59,9 +60,16 @@ class SteadyRun final : public Waker {
   static void collect_secured(RunControl& control, Securing& securing, RecordingLane* lane);
   [[nodiscard]] Time follow_safe_commands(Assembly& assembly, Securing& securing, Time now);
   void hold_the_others(const Assembly& assembly, Securing& securing, Time now);
+  // Standing still for a while: steady_hold.cpp.
   void suspend(Assembly& assembly, Securing& securing);
   [[nodiscard]] static bool any_owing(const Assembly& assembly);
+  [[nodiscard]] static bool all_safe(const Assembly& assembly);
   void stop_process(Time since, RecordingLane* lane);
+  void stand_still(RunControl& control);
+  void move_on();
+  [[nodiscard]] bool asked_to_hold(RunControl& control);
+  void hold(Assembly& assembly, Securing& securing, EmergencyWatch& emergencies);
+  [[nodiscard]] Time show_life();
   [[nodiscard]] Ending ending(const Assembly& assembly, const UpperLayers& upper) const;
   void look_for_stuck(Assembly& assembly, const Stillness& stillness, Securing& securing, Time now);
   void collect_ended(const Assembly& assembly, UpperLayers& upper);
@@ -89,6 +97,8 @@ class SteadyRun final : public Waker {
   int news_ = -1;                             // eventfd: a subsystem has ended or the run is to stop
   std::uint32_t started_ = 0;                 // number of instances whose threads have been started
   bool duration_over_ = false;
+  std::optional<RunOrders> orders_;  // of the process that may hold the run
+  bool holds_ = false;               // the clock stands
   std::atomic<bool> net_ended_{false};
   Time world_time_{};                       // used by the world's thread while it runs
   bool world_is_slow_ = false;              // used by the world's thread while it runs

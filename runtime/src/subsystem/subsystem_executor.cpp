@@ -49,6 +49,7 @@ SubsystemExecutor::Progress SubsystemExecutor::step(std::uint64_t most) {
   bool up_to_date = true;  // nothing has happened since the clock was read
   for (;;) {
     if (control_.stopping()) return {State::stopped};
+    if (control_.paused()) return {State::ready};
     if (at_end_) {
       end();
       return {State::ended};

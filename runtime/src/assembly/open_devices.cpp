@@ -1,4 +1,4 @@
-#include "run/open_devices.hpp"
+#include "assembly/open_devices.hpp"
 
 #include <fmt/core.h>
 

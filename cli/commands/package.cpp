@@ -11,8 +11,10 @@
 #include "cli/launch.hpp"
 #include "cli/terminal.hpp"
 #include "project/deployed_run.hpp"
+#include "project/files/file_names.hpp"
 #include "project/files/installation.hpp"
 #include "project/packaging/debian_packages.hpp"
+#include "project/packaging/ros2_package.hpp"
 
 namespace tessera::cli {
 
@@ -21,6 +23,7 @@ using namespace project;
 namespace {
 
 struct PackageCommandOptions : LaunchOptions {
+  std::string ros2;  ///< name of the package, or `of_system`; empty: no package of ROS 2
   std::string output = ".", format = "archive", groups, architecture, runtime;
   PackageOptions package;
 };
@@ -50,7 +53,28 @@ void show(const Package& package) {
   fmt::print("\n  needs {}\n", fmt::join(package.needs, ", "));
 }
 
+constexpr const char* of_system = "-";
+
+int make_for_ros2(const PackageCommandOptions& options) {
+  const std::optional<Specification> specification = read(options.spec, terminal());
+  if (!specification) return exit_code_without_net();
+  Ros2PackageOptions package{.name = options.ros2 == of_system ? "" : options.ros2,
+                             .version = options.package.version,
+                             .folder = options.output == "." ? "" : options.output};
+  const Result<std::filesystem::path> made = make_ros2_package(*specification, package);
+  if (!made) return complain(made.problem());
+  const std::string name = package.name.empty() ? specification->model.system : package.name;
+  fmt::print(
+      "{0}: build it with `colcon build --packages-select {1}`, start it with `ros2 launch {1} "
+      "{1}.launch.py`\n",
+      made->string(), name);
+  if (std::filesystem::exists(specification->project / file_names::parameters))
+    fmt::print("note: the launch file takes config/params.yaml, not {}\n", file_names::parameters);
+  return ok;
+}
+
 int package_command(PackageCommandOptions& options) {
+  if (!options.ros2.empty()) return make_for_ros2(options);
   PackageOptions& package = options.package;
   package.folder = options.output;
   package.format = options.format == "deb" ? PackageOptions::Format::debian : PackageOptions::Format::archive;
@@ -83,6 +107,11 @@ void add_package(CommandLine& app) {
   command.option("--format", options.format, "deb: a package of Debian; archive: a .tar.gz")
       .one_of({"archive", "deb"})
       .shows_default();
+  Option ros2 =
+      command.flag("--ros2", options.ros2, of_system,
+                   "A package of ROS 2 for colcon, with a launch file, written into the project, or as a "
+                   "copy into --output; --ros2=NAME names it");
+  ros2.excludes(command.declared("--format"));
   command.option("--host", options.package.host,
                  "Only the package of this machine of `deploy` (default: one for each)");
   command.option("--arch", options.architecture,
@@ -98,8 +127,12 @@ void add_package(CommandLine& app) {
                  "File of parameters to pack (default: params.yaml of the project)");
   command.option("--set", options.set, "PATH=VALUE: a parameter to pack, after those of the file").repeated();
   declare_verification_gate(command, options.gate);
+  for (const char* other :
+       {"--host", "--arch", "--groups", "--parameters", "--set", "--verify-timeout", "--accept-violations"})
+    ros2.excludes(command.declared(other));
   command.footer(
-      "Examples:\n  tessera package --format deb --output packages\n"
+      "Examples:\n  tessera package --ros2 --output ~/ws/src\n  tessera package --format deb --output "
+      "packages\n"
       "  tessera package --host cart.local --release 1.2   (docs/use/service.md)");
 }
 

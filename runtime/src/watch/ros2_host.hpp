@@ -27,7 +27,7 @@ class Ros2Statuses {
   std::map<std::string, std::uint64_t> overruns_;  ///< in the last snapshot
 };
 
-/// The verdicts about the net that runs, as diagnostics show them for an agent. The controller has the verdicts of its own
+/// The verdicts about the net that runs, as diagnostics show them for an agent. The controller has those of its own
 /// net only, and refuses to run another one, so that none is out of date.
 [[nodiscard]] Ros2Status proof_status(std::string_view agent, std::span<const VerifiedProperty> verdicts);
 

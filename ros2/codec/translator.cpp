@@ -198,7 +198,7 @@ Translator::Outcome Translator::decode(std::span<const std::byte> message, std::
     return Outcome::other_length;
   }
   std::vector<std::size_t> order;
-  if (!names_.empty()) {
+  if (!names_.empty() && !(names_may_be_empty_ && finder.names().count == 0)) {
     auto found = order_of(*reader, finder.names(), names_, why);
     if (!found) return Outcome::other_names;
     order = std::move(*found);

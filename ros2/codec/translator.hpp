@@ -39,6 +39,9 @@ struct Mapping {
   std::vector<std::string> names{};
   /// The value of `header.frame_id` in sent messages; without a field `header`, that of all headers inside.
   std::string frame_id{};
+  /// Parts of the message may be empty, as those of feedback and result, of which one comes without the other. So
+  /// its sequences need sequences of the buffer, and its names may be missing together with what they name.
+  bool parts_may_be_empty = false;
   /// Fields of the buffer that are no part of the message.
   std::vector<OwnField> own{};
 };
@@ -139,6 +142,7 @@ class Translator {
   std::vector<Block> blocks_;
   std::vector<std::optional<std::size_t>> own_;  ///< the block of each own field
   std::vector<std::string> names_;
+  bool names_may_be_empty_ = false;
   std::string frame_id_;
 };
 

@@ -28,6 +28,7 @@ class TranslatorBuilder {
     const std::size_t before = problems_.size();
     translator_.message_ = std::move(message);
     translator_.names_ = mapping_.names;
+    translator_.names_may_be_empty_ = mapping_.parts_may_be_empty;
     translator_.frame_id_ = mapping_.frame_id;
     translator_.steps_ = steps_of(*translator_.message_);
     auto blocks = BufferBlocks::number(value_);
@@ -324,7 +325,8 @@ class TranslatorBuilder {
     const bool fits = step.type.repeat == Repeat::once ? value.count == 0
                       : step.type.repeat == Repeat::array
                           ? value.count == step.type.count && !value.is_sequence
-                          : value.count > 0 && (bounded_enough || (value.is_sequence && receives_));
+                          : value.count > 0 && (value.is_sequence || !mapping_.parts_may_be_empty) &&
+                                (bounded_enough || (value.is_sequence && receives_));
     if (!fits) differ(value, value_path, step, message_path);
     return fits;
   }

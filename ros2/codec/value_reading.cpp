@@ -61,6 +61,10 @@ Translator::Outcome ValueWriter::add(const PartFinder::Found& found, const Trans
                                      const std::vector<std::size_t>& order, std::size_t names) {
   // A trajectory may leave out all velocities: such a sequence of the buffer is empty.
   const bool by_name = found.step->by_name && !order.empty() && !(block.is_sequence && found.count == 0);
+  if (found.step->by_name && order.empty() && found.count > 0) {  // elements without their names
+    misfit_ = {block.path, found.count, 0};
+    return Translator::Outcome::other_length;
+  }
   const std::size_t room = by_name ? names : block.count;
   if (block.is_sequence && !by_name ? found.count > room : found.count != room) {
     misfit_ = {block.path, found.count, room};

@@ -16,11 +16,15 @@ std::vector<std::string> parts_of_list(std::string_view list) {
   return parts;
 }
 
-std::vector<OwnField> own_fields_of_action(bool is_goal) {
+Mapping mapping_of_action(Mapping written, bool is_goal, Direction direction) {
   const OwnField number{
       "call", {Primitive::uint32, Primitive::uint64}, /*needed=*/true, "the number of the goal"};
-  if (is_goal) return {number, {"cancel", {Primitive::boolean}, /*needed=*/false, "the wish to cancel it"}};
-  return {number, {"state", {Primitive::uint8}, /*needed=*/true, "the state of the goal"}};
+  if (is_goal)
+    written.own = {number, {"cancel", {Primitive::boolean}, /*needed=*/false, "the wish to cancel it"}};
+  else
+    written.own = {number, {"state", {Primitive::uint8}, /*needed=*/true, "the state of the goal"}};
+  written.parts_may_be_empty = !is_goal && direction == Direction::receive;
+  return written;
 }
 
 std::vector<OwnField> own_fields_of_service(bool has_outcome) {

@@ -14,8 +14,9 @@ namespace tessera::ros2 {
 /// Fields of a service's buffer that are no part of its messages: "call", and "outcome" for the receptor of a
 /// client, in this order.
 [[nodiscard]] std::vector<OwnField> own_fields_of_service(bool has_outcome);
-/// The same for an action: "call", and "cancel" of a goal or "state" of feedback and result.
-[[nodiscard]] std::vector<OwnField> own_fields_of_action(bool is_goal);
+/// The mapping of the buffer of an action, which has fields of its own: "call", and "cancel" of a goal or "state" of
+/// feedback and result.
+[[nodiscard]] Mapping mapping_of_action(Mapping written, bool is_goal, Direction direction);
 inline constexpr std::size_t call_field = 0, outcome_field = 1, cancel_field = 1, state_field = 1;
 
 /// "a, b", without blanks around the parts.

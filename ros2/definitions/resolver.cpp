@@ -146,7 +146,7 @@ std::string DefinitionFolders::remedy(const std::string& file) const {
   constexpr std::size_t most = 3;
   std::string list;
   for (std::size_t at = 0; at < installations.folders_.size() && at < most; ++at)
-    list += (at == 0 ? "" : ", ") + installations.folders_[at].string();
+    list += (at == 0 ? "" : ", ") + installations.folders_[at].path.string();
   if (installations.folders_.size() > most)
     list += " and " + std::to_string(installations.folders_.size() - most) + " more";
   return begin + ", or source a ROS 2 installation that has it; looked in msg, " + list +
@@ -154,8 +154,20 @@ std::string DefinitionFolders::remedy(const std::string& file) const {
 }
 
 DefinitionFolders DefinitionFolders::of_installations() const {
-  if (folders_.size() <= 2) return DefinitionFolders({});
-  return DefinitionFolders({folders_.begin() + 1, folders_.end() - 1});
+  DefinitionFolders installations({});
+  std::ranges::copy_if(folders_, std::back_inserter(installations.folders_), &Folder::is_installation);
+  return installations;
+}
+
+DefinitionFolders::DefinitionFolders(const std::vector<fs::path>& folders) {
+  for (const fs::path& folder : folders)
+    folders_.push_back({folder, &folder != &folders.front() && &folder != &folders.back()});
+}
+
+bool DefinitionFolders::Folder::has(const std::string& package) const {
+  std::error_code ignored;
+  return !is_installation ||
+         fs::exists(path / "ament_index/resource_index/rosidl_interfaces" / package, ignored);
 }
 
 std::vector<fs::path> folders_of_installations(std::string_view ament_prefix_path) {
@@ -180,10 +192,10 @@ bool have_same_bytes(const Structure& a, const Structure& b) {
 }
 
 std::optional<DefinitionFolders::Text> DefinitionFolders::find(const std::string& name) const {
-  for (const fs::path& folder : folders_) {
-    const fs::path file = folder / (name + "." + kind_of(name).ending);
+  for (const Folder& folder : folders_) {
+    const fs::path file = folder.path / (name + "." + kind_of(name).ending);
     std::error_code ignored;
-    if (!fs::is_regular_file(file, ignored)) continue;
+    if (!fs::is_regular_file(file, ignored) || !folder.has(name.substr(0, name.find('/')))) continue;
     std::ifstream stream(file, std::ios::binary);
     return Text{{std::istreambuf_iterator<char>(stream), {}}, file.string()};
   }
@@ -193,11 +205,12 @@ std::optional<DefinitionFolders::Text> DefinitionFolders::find(const std::string
 std::vector<std::string> DefinitionFolders::names() const {
   std::set<std::string> found;
   std::error_code ignored;
-  for (const fs::path& folder : folders_)
-    for (const auto& package : fs::directory_iterator(folder, ignored))
+  for (const Folder& folder : folders_)
+    for (const auto& package : fs::directory_iterator(folder.path, ignored))
       for (const auto& [ending, word] : kinds)
         for (const auto& file : fs::directory_iterator(package.path() / ending, ignored))
-          if (file.path().extension() == std::string(".") + ending)
+          if (file.path().extension() == std::string(".") + ending &&
+              folder.has(package.path().filename().string()))
             found.insert(package.path().filename().string() + "/" + ending + "/" +
                          file.path().stem().string());
   return {found.begin(), found.end()};

@@ -30,10 +30,11 @@ class Definitions {
 
 /// Folders with PACKAGE/msg/NAME.msg, PACKAGE/srv/NAME.srv and PACKAGE/action/NAME.action; the first folder
 /// that has a file wins: that of a project, those of installations of ROS 2, that of Tessera. A single folder is
-/// that of Tessera.
+/// that of Tessera. In an installation, packages count that its index lists: definitions of ROS 1 may lie beside
+/// them.
 class DefinitionFolders : public Definitions {
  public:
-  explicit DefinitionFolders(std::vector<std::filesystem::path> folders) : folders_(std::move(folders)) {}
+  explicit DefinitionFolders(const std::vector<std::filesystem::path>& folders);
   [[nodiscard]] std::optional<Text> find(const std::string& name) const override;
   [[nodiscard]] std::vector<std::string> names() const override;
   [[nodiscard]] std::string remedy(const std::string& file) const override;
@@ -42,7 +43,12 @@ class DefinitionFolders : public Definitions {
   [[nodiscard]] bool empty() const { return folders_.empty(); }
 
  private:
-  std::vector<std::filesystem::path> folders_;
+  struct Folder {
+    std::filesystem::path path;
+    bool is_installation = false;
+    [[nodiscard]] bool has(const std::string& package) const;
+  };
+  std::vector<Folder> folders_;
 };
 
 /// One text with a message and everything that it uses, in the form of ROS 2 recordings: the definition of

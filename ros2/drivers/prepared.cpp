@@ -48,7 +48,7 @@ Translator translator_of(const Ros2Binding& binding, Direction direction,
   if (!value) throw std::runtime_error("its real buffer has a type that no message has");
   Mapping mapping = written_mapping(binding.fields, binding.names, binding.frame_id);
   if (is_action_type(binding.type))
-    mapping.own = own_fields_of_action(asks(binding, direction));
+    mapping = mapping_of_action(std::move(mapping), asks(binding, direction), direction);
   else if (!binding.role.empty())
     mapping.own = own_fields_of_service(binding.role == "client" && direction == Direction::receive);
   std::vector<MappingProblem> problems;

@@ -44,8 +44,9 @@ std::unique_ptr<ActionFeed> ActionFeed::make(const WantedInput& wanted, std::str
 bool ActionFeed::use(std::shared_ptr<const ros2::Structure> progress, std::string& error) {
   const auto value = ros2::parse_value_type(wanted_.type);
   if (!value) return error = "its type is none of a message", false;
-  ros2::Mapping mapping = ros2::written_mapping(wanted_.ros.fields, wanted_.ros.names, wanted_.ros.frame_id);
-  mapping.own = ros2::own_fields_of_action(/*is_goal=*/false);
+  const ros2::Mapping mapping = ros2::mapping_of_action(
+      ros2::written_mapping(wanted_.ros.fields, wanted_.ros.names, wanted_.ros.frame_id), /*is_goal=*/false,
+      ros2::Direction::receive);
   std::vector<ros2::MappingProblem> problems;
   auto translator = ros2::Translator::make(progress, *value, mapping, ros2::Direction::receive, problems);
   if (!translator) return error = problems.empty() ? "it does not correspond" : problems.front().text, false;

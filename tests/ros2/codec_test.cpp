@@ -416,6 +416,41 @@ TEST(Codec, PutsJointsOfTrajectoriesInTheOrderOfTheirNames) {
             "points.velocities|there are 1 names, and the buffer's '[0].velocities' is float64<=2|\n");
 }
 
+TEST(Mapping, OfFeedbackAndResultIsForPartsThatMayBeEmpty) {
+  const auto message = message_of("string[] joint_names\nfloat64[] actual\nint32 code");
+  const auto make = [&](const std::string& value, const std::string& names, Direction direction,
+                        std::vector<MappingProblem>& problems) {
+    return Translator::make(message, *parse_value_type(value),
+                            mapping_of_action(written_mapping("actual=actual", names, ""), false, direction),
+                            direction, problems);
+  };
+  std::vector<MappingProblem> problems;
+  const std::string fixed = "{call: uint32, state: uint8, actual: float64[2]}";
+  EXPECT_FALSE(make(fixed, "", Direction::receive, problems).has_value());
+  ASSERT_EQ(problems.size(), 1U);
+  EXPECT_EQ(
+      problems[0].text + "|" + problems[0].hint.text,
+      "'actual' of type float64[] does not fit the buffer's 'actual' of type float64[2]|a buffer of type "
+      "float64<=16 does: it has 0 to 16 elements");
+  EXPECT_TRUE(make(fixed, "", Direction::send, problems).has_value());
+  const auto receives =
+      make("{call: uint32, state: uint8, actual: float64[<=2]}", "left, right", Direction::receive, problems);
+  ASSERT_TRUE(receives.has_value());
+  const auto value_of = [&](const std::string& definition_of_names, const Bytes& actual) {
+    Bytes sent, back;
+    const Translator sends = translator_of({"string[] joint_names\nfloat64[] actual\nint32 code",
+                                            "{actual: float64[<=2]}", "actual=actual", definition_of_names},
+                                           Direction::send);
+    EXPECT_TRUE(sends.encode(actual, {}, sent));
+    const std::array<std::uint64_t, 2> own{7, 2};
+    return receives->decode(sent, back, own) == Translator::Outcome::good ? hex(back) : "";
+  };
+  const Bytes own = bytes_of(std::uint32_t{7}, std::uint8_t{2});
+  EXPECT_EQ(value_of("", sequence_of()), hex(own) + hex(sequence_of()));
+  EXPECT_EQ(value_of("right, left", sequence_of(1.0, 2.0)), hex(own) + hex(sequence_of(2.0, 1.0)));
+  EXPECT_EQ(value_of("", sequence_of(1.0, 2.0)), "") << "of which joints?";
+}
+
 TEST(Codec, ReadsBothOrdersOfBytes) {
   const Translator translator =
       translator_of({"uint8 a\nint32 b\nfloat64[] c\nstring d", "{b: int64, c: float64[1], d: string(3)}"},

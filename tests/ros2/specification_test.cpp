@@ -70,6 +70,8 @@ TEST(Specification, UsesTheProjectsDefinitionThenThatOfAnInstallationThenItsOwn)
                 "Tessera's own\n"),
             std::string::npos)
       << report();
+  for (const fs::path& one : {installed, other})
+    write_text(one / "ament_index/resource_index/rosidl_interfaces/pkg", "msg/Some.msg\n");
   write_text(installed / "pkg/msg/Some.msg", "float64 a\nfloat64 b # and a comment\n");
   EXPECT_EQ(report(), "");
   write_text(own / "pkg/msg/Some.msg", "float64 a\n\nfloat64   b 0.5\nint8 C=1\n");
@@ -85,6 +87,11 @@ hint: nodes of that installation drop or misread the messages: make both equal
 )");
   write_text(other / "pkg/msg/Some.msg", "float64 a\nfloat64 b\nfloat64 c\n");
   EXPECT_EQ(report(), "") << "the first installation counts, as in ROS 2";
+  write_text(other / "geometry_msgs/msg/Twist.msg", "Vector3 linear\n");
+  EXPECT_EQ(report_of_folders("type: geometry_msgs/Twist, fields: { linear.x: v, angular.z: omega }",
+                              {own, other, shipped}),
+            "")
+      << "such as one of ROS 1";
   write_text(own / "geometry_msgs/msg/Twist.msg", "float64 a\nfloat64 b\n");
   EXPECT_EQ(report_of_folders("type: geometry_msgs/Twist, fields: { a: v, b: omega }", {own, other, shipped}),
             "");

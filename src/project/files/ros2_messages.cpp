@@ -150,11 +150,11 @@ class MessageFinder {
                "it publishes itself; the controller warns of others (docs/use/ros2.md)");
       return false;
     }
+    const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     if (is_action(driver))
-      mapping.own = ros2::own_fields_of_action(asks(driver));
+      mapping = ros2::mapping_of_action(std::move(mapping), asks(driver), direction);
     else if (has_role(driver))
       mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
-    const auto direction = sends ? ros2::Direction::send : ros2::Direction::receive;
     std::vector<ros2::MappingProblem> problems;
     if (ros2::Translator::make(std::move(message), *value, mapping, direction, problems))
       return has_its_units(driver);

@@ -276,8 +276,8 @@ void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
   const Use use = use_of(entry);
   if (use == Use::action) {
     const Section section(*entry.value, entry.span, "an action of ROS 2",
-                          {"ros2", "type", "role", "fields", "frame_id", "node", "domain", "interface",
-                           "peers", "wait", "timeout"},
+                          {"ros2", "type", "role", "fields", "names", "frame_id", "node", "domain",
+                           "interface", "peers", "wait", "timeout"},
                           out);
     if (section.readable()) TopicReader(section, use, driver, out).read();
     return;

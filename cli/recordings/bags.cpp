@@ -45,9 +45,9 @@ bag::RosBuffer ros_buffer_of(const spec::Model& model, const spec::Driver& drive
 
 bool is_ros(const spec::Driver& driver) { return driver.kind == "ros2" && driver.real.valid(); }
 
-/// nullopt: the driver is none of a topic.
+/// nullopt: the driver is none of a topic whose messages are the values of its buffer.
 std::optional<bag::RosBuffer> topic_of(const spec::Model& model, const spec::Driver& driver) {
-  if (!is_ros(driver) || project::has_role(driver)) return std::nullopt;
+  if (!is_ros(driver) || project::has_role(driver) || project::is_transform(driver)) return std::nullopt;
   return ros_buffer_of(model, driver);
 }
 
@@ -60,6 +60,8 @@ struct WantedInputs {
 /// Requests and replies are in no topic; of the messages of an action, state and feedback are.
 std::string why_without(const std::string& path, const spec::Driver* driver) {
   if (driver == nullptr || !is_ros(*driver)) return path + " has no topic in `drivers`, so it gets no value";
+  if (project::is_transform(*driver))
+    return path + " is a transform, which is not made of the messages of a bag, so it gets no value";
   const bool is_client = project::text_option(*driver, "role") == "client";
   return fmt::format("{} is on the side of the {} of the {} {}, and no bag has its {}, so it gets no value",
                      path, is_client ? "client" : "server",

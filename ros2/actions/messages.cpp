@@ -1,8 +1,6 @@
 #include "ros2/actions/messages.hpp"
 
 #include <algorithm>
-#include <array>
-#include <bit>
 #include <cstring>
 
 #include "ros2/codec/cdr.hpp"
@@ -14,14 +12,6 @@ namespace {
 constexpr std::size_t most_padding = 3, most_goals = 65'536;
 constexpr std::size_t feedback_part = 0, result_part = 1;
 
-template <class Number>
-Number read_number(CdrReader& reader) {
-  const auto bytes = reader.numbers(sizeof(Number), 1);
-  std::array<std::byte, sizeof(Number)> own{};
-  if (!bytes.empty()) std::ranges::copy(bytes, own.begin());
-  if (reader.swapped()) std::ranges::reverse(own);
-  return std::bit_cast<Number>(own);
-}
 template <class Number>
 void write(Number number, CdrWriter& writer) {
   writer.number(&number, sizeof number);
@@ -39,8 +29,8 @@ void write(const GoalId& id, CdrWriter& writer) { std::ranges::copy(id, writer.n
 GoalInfo read_info(CdrReader& reader) {
   GoalInfo info;
   info.id = read_id(reader);
-  info.stamp.sec = read_number<std::int32_t>(reader);
-  info.stamp.nanosec = read_number<std::uint32_t>(reader);
+  info.stamp.sec = reader.number<std::int32_t>();
+  info.stamp.nanosec = reader.number<std::uint32_t>();
   return info;
 }
 void write(const GoalInfo& info, CdrWriter& writer) {
@@ -100,10 +90,10 @@ MessageBytes goal_answer(bool accepted, const Stamp& at) {
 
 std::optional<bool> read_goal_answer(std::span<const std::byte> message) {
   const auto accepted = read(message, [](CdrReader& reader) {
-    const auto flag = read_number<std::uint8_t>(reader);
+    const auto flag = reader.number<std::uint8_t>();
     if (flag > 1) reader.fail();
-    static_cast<void>(read_number<std::int32_t>(reader));
-    static_cast<void>(read_number<std::uint32_t>(reader));
+    static_cast<void>(reader.number<std::int32_t>());
+    static_cast<void>(reader.number<std::uint32_t>());
     return flag;
   });
   return accepted ? std::optional(*accepted == 1) : std::nullopt;
@@ -120,7 +110,7 @@ std::optional<GoalId> read_result_request(std::span<const std::byte> message) {
 std::optional<std::int8_t> read_result_status(std::span<const std::byte> message) {
   auto reader = CdrReader::open(message);
   if (!reader) return std::nullopt;
-  const auto status = read_number<std::int8_t>(*reader);
+  const auto status = reader->number<std::int8_t>();
   return reader->ok() ? std::optional(status) : std::nullopt;
 }
 
@@ -143,7 +133,7 @@ MessageBytes cancel_answer(CancelCode code, std::span<const GoalInfo> canceling)
 
 std::optional<CancelCode> read_cancel_answer(std::span<const std::byte> message) {
   return read(message, [](CdrReader& reader) {
-    const auto code = read_number<std::int8_t>(reader);
+    const auto code = reader.number<std::int8_t>();
     const std::uint32_t count = reader.length();
     for (std::uint32_t index = 0; index < count && reader.ok(); ++index) static_cast<void>(read_info(reader));
     return static_cast<CancelCode>(code);
@@ -167,7 +157,7 @@ std::optional<std::vector<GoalStatus>> read_status(std::span<const std::byte> me
     if (count > most_goals) reader.fail();
     for (std::uint32_t index = 0; index < count && reader.ok(); ++index) {
       const GoalInfo info = read_info(reader);
-      goals.push_back({info, read_number<std::int8_t>(reader)});
+      goals.push_back({info, reader.number<std::int8_t>()});
     }
     return goals;
   });
@@ -181,7 +171,7 @@ std::optional<MessageBytes> ProgressType::join(std::span<const std::byte> feedba
     auto reader = CdrReader::open(message);
     good = good && reader;
     if (!good) return;
-    if (index == result_part) static_cast<void>(read_number<std::int8_t>(*reader));
+    if (index == result_part) static_cast<void>(reader->number<std::int8_t>());
     copy_message(part(index), *reader, writer);
     good = is_read(*reader);
   };

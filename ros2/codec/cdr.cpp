@@ -86,14 +86,6 @@ std::span<const std::byte> CdrReader::numbers(std::size_t size, std::size_t coun
   return found;
 }
 
-std::uint32_t CdrReader::length() {
-  const auto bytes = numbers(sizeof(std::uint32_t), 1);
-  if (bytes.empty()) return 0;
-  std::array<std::byte, sizeof(std::uint32_t)> four{bytes[0], bytes[1], bytes[2], bytes[3]};
-  if (swapped_) std::ranges::reverse(four);
-  return std::bit_cast<std::uint32_t>(four);
-}
-
 std::string_view CdrReader::text() {
   const std::uint32_t size = length();
   if (!ok_ || size == 0) return {};  // some implementations write an empty string without its zero

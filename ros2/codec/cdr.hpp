@@ -1,5 +1,7 @@
 #pragma once
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cstddef>
 #include <cstdint>
@@ -37,7 +39,16 @@ class CdrReader {
 
   /// `count` numbers of `size` bytes, aligned; empty if they are not there.
   std::span<const std::byte> numbers(std::size_t size, std::size_t count);
-  [[nodiscard]] std::uint32_t length();
+  /// One number in the order of this machine.
+  template <class Number>
+  [[nodiscard]] Number number() {
+    const auto bytes = numbers(sizeof(Number), 1);
+    std::array<std::byte, sizeof(Number)> own{};
+    if (!bytes.empty()) std::ranges::copy(bytes, own.begin());
+    if (swapped_) std::ranges::reverse(own);
+    return std::bit_cast<Number>(own);
+  }
+  [[nodiscard]] std::uint32_t length() { return number<std::uint32_t>(); }
   /// The text without the terminating zero.
   std::string_view text();
   /// Fails for wide strings: their form differs between implementations, so they cannot be skipped.

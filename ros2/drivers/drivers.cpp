@@ -17,6 +17,7 @@
 #include "ros2/drivers/action_drivers.hpp"
 #include "ros2/drivers/prepared.hpp"
 #include "ros2/drivers/service_drivers.hpp"
+#include "ros2/drivers/transform_drivers.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -214,12 +215,14 @@ std::unique_ptr<Driver> made(const Ros2Binding& binding, Direction direction, st
 std::unique_ptr<RealReceptor> make_receptor(const Ros2Binding& binding, std::string& error) {
   if (is_action_type(binding.type)) return make_action_receptor(binding, error);
   if (!binding.role.empty()) return make_service_receptor(binding, error);
+  if (!binding.frame.empty()) return make_transform_receptor(binding, error);
   return made<Subscriber>(binding, Direction::receive, error);
 }
 
 std::unique_ptr<RealEffector> make_effector(const Ros2Binding& binding, std::string& error) {
   if (is_action_type(binding.type)) return make_action_effector(binding, error);
   if (!binding.role.empty()) return make_service_effector(binding, error);
+  if (!binding.frame.empty()) return make_transform_effector(binding, error);
   return made<Publisher>(binding, Direction::send, error);
 }
 

@@ -14,12 +14,12 @@
 
 extern "C" {
 
-__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_3(
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealReceptor> tessera_ros2_receptor_4(
     const tessera::Ros2Binding& binding, std::string& error) {
   return tessera::ros2::make_receptor(binding, error);
 }
 
-__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_3(
+__attribute__((visibility("default"))) std::unique_ptr<tessera::RealEffector> tessera_ros2_effector_4(
     const tessera::Ros2Binding& binding, std::string& error) {
   return tessera::ros2::make_effector(binding, error);
 }

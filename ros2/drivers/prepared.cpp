@@ -8,6 +8,7 @@
 #include "ros2/arguments/rules.hpp"
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
+#include "ros2/tf/transform_value.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -34,6 +35,7 @@ std::string message_type(const Ros2Binding& binding, Direction direction) {
 std::shared_ptr<const Structure> message_of(const Ros2Binding& binding, Direction direction) {
   if (binding.encoding == nullptr)
     throw std::runtime_error("its real buffer has a type without a fixed form");
+  if (!binding.frame.empty()) return transform_structure();
   const std::string type = message_type(binding, direction);
   std::vector<Mistake> mistakes;
   const auto message = resolve(type, DefinitionBundle(type, binding.definition), mistakes);
@@ -51,6 +53,7 @@ Translator translator_of(const Ros2Binding& binding, Direction direction,
     mapping = mapping_of_action(std::move(mapping), asks(binding, direction), direction);
   else if (!binding.role.empty())
     mapping.own = own_fields_of_service(binding.role == "client" && direction == Direction::receive);
+  if (!binding.frame.empty() && direction == Direction::send) mapping.own = own_fields_of_transform();
   std::vector<MappingProblem> problems;
   auto translator = Translator::make(message, *value, mapping, direction, problems);
   return given(std::move(translator), problems.empty() ? "no mapping" : problems.front().text);

@@ -139,6 +139,28 @@ struct Path {
   }
 };
 
+/// tf2_msgs/msg/TFMessage.
+struct TransformStamped {
+  Header header;
+  std::string child;
+  std::array<double, 7> transform{0, 0, 0, 0, 0, 0, 1};  ///< x, y, z, quaternion
+};
+struct Transforms {
+  static constexpr const char* name = "tf2_msgs::msg::dds_::TFMessage_";
+  std::vector<TransformStamped> all_transforms;
+  template <class Archive>
+  void fields(Archive& all) {
+    auto count = static_cast<std::uint32_t>(all_transforms.size());
+    all(count);
+    all_transforms.resize(count);
+    for (TransformStamped& one : all_transforms) {
+      one.header.fields(all);
+      all(one.child);
+      for (double& number : one.transform) all(number);
+    }
+  }
+};
+
 /// The two messages of std_srvs/srv/SetBool, with the header of rmw_cyclonedds_cpp.
 struct SetBoolRequest {
   static constexpr const char* name = "std_srvs::srv::dds_::SetBool_Request_";

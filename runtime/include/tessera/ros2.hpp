@@ -27,6 +27,7 @@ struct Ros2Binding {
   std::string fields;  ///< "linear.x=v, angular.z=omega"; empty: equal names
   std::string names;   ///< "shoulder, elbow"; empty: none
   std::string frame_id;
+  std::string frame, in;  ///< of a transform: the frame, and the one in which its pose is given; empty: none
   bool one_publisher = false;           ///< receptors: messages of two publishers at a time are a fault
   std::string qos;                      ///< "sensor, depth 1"
   std::string node;                     ///< empty: the name of the agent
@@ -54,8 +55,8 @@ class Ros2Clock {
 /// nullptr and `error`: the driver cannot be made.
 using Ros2ReceptorMaker = std::unique_ptr<RealReceptor> (*)(const Ros2Binding& binding, std::string& error);
 using Ros2EffectorMaker = std::unique_ptr<RealEffector> (*)(const Ros2Binding& binding, std::string& error);
-inline constexpr const char* ros2_receptor_function = "tessera_ros2_receptor_3";
-inline constexpr const char* ros2_effector_function = "tessera_ros2_effector_3";
+inline constexpr const char* ros2_receptor_function = "tessera_ros2_receptor_4";
+inline constexpr const char* ros2_effector_function = "tessera_ros2_effector_4";
 /// interface: the network interface, by name or address. The domain is that of ROS_DOMAIN_ID, or else 0.
 using Ros2ClockMaker = std::unique_ptr<Ros2Clock> (*)(const std::string& interface, std::string& error);
 inline constexpr const char* ros2_clock_function = "tessera_ros2_clock_2";

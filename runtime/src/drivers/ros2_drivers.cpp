@@ -54,6 +54,8 @@ Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) 
   binding.fields = setup.text_or("fields", "");
   binding.names = setup.text_or("names", "");
   binding.frame_id = setup.text_or("frame_id", "");
+  binding.frame = setup.text_or("frame", "");
+  binding.in = setup.text_or("in", "");
   binding.one_publisher = setup.text_or("publishers", "") == "one";
   binding.qos = setup.text_or("qos", "");
   binding.node = setup.text_or("node", "");

@@ -17,6 +17,7 @@
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/definitions/resolver.hpp"
 #include "ros2/naming/names.hpp"
+#include "ros2/tf/transform_value.hpp"
 #include "tessera/units.hpp"
 
 namespace tessera::project {
@@ -35,6 +36,8 @@ std::string text_option(const spec::Driver& driver, const char* name) {
 
 bool has_role(const spec::Driver& driver) { return !text_option(driver, "role").empty(); }
 bool is_action(const spec::Driver& driver) { return ros2::is_action_type(text_option(driver, "type")); }
+
+bool is_transform(const spec::Driver& driver) { return driver.options.contains("frame"); }
 
 bool is_effector(const spec::Model& model, const spec::Driver& driver) {
   return model.subsystem(driver.instance).kind == spec::SubsystemKind::effector;
@@ -103,6 +106,7 @@ class MessageFinder {
   [[nodiscard]] std::shared_ptr<const ros2::Structure> message_of(
       const spec::Driver& driver, const std::string& name, const ros2::Definitions& definitions,
       std::vector<ros2::Mistake>& mistakes) const {
+    if (is_transform(driver)) return ros2::transform_structure();
     if (!has_role(driver)) return ros2::resolve(name, definitions, mistakes);
     if (is_action(driver)) {
       const auto action = ros2::resolve_action(name, definitions, mistakes);
@@ -155,11 +159,27 @@ class MessageFinder {
       mapping = ros2::mapping_of_action(std::move(mapping), asks(driver), direction);
     else if (has_role(driver))
       mapping.own = ros2::own_fields_of_service(is_client(driver) && !sends);
+    if (is_transform(driver) && !check_transform(driver, mapping, *value)) return false;
+    if (is_transform(driver) && sends) mapping.own = ros2::own_fields_of_transform();
     std::vector<ros2::MappingProblem> problems;
     if (ros2::Translator::make(std::move(message), *value, mapping, direction, problems))
       return has_its_units(driver);
     for (const ros2::MappingProblem& problem : problems)
       complain("E321", place_in(driver, problem.subject), problem.text, problem.hint);
+    return false;
+  }
+
+  bool check_transform(const spec::Driver& driver, const ros2::Mapping& mapping,
+                       const ros2::ValueType& value) {
+    if (is_effector(model_, driver)) {
+      const auto problem = ros2::problem_of_sent_transform(mapping, value);
+      if (problem) complain("E321", place_in(driver, problem->subject), problem->text, problem->hint);
+      return !problem;
+    }
+    const std::string& topic = driver.target();
+    if (!ros2::is_static_topic("/" + topic)) return true;
+    complain("E321", driver.targets.front().span, "a receptor reads /tf and /tf_static together",
+             "write `ros2: " + topic.substr(0, topic.rfind('_')) + "`");
     return false;
   }
 

@@ -9,8 +9,8 @@
 
 namespace tessera::project {
 
-/// Looks up the messages of all drivers that are topics, services or actions of ROS 2: in the folder `msg` of the
-/// project, then in the installations of ROS 2 that AMENT_PREFIX_PATH names, then among those that come with
+/// Looks up the messages of all drivers that are topics, services, actions or transforms of ROS 2: in the folder `msg`
+/// of the project, then in the installations of ROS 2 that AMENT_PREFIX_PATH names, then among those that come with
 /// Tessera. Their definitions become the option `definition` of the drivers, so that a controller needs no file of
 /// them.
 ///
@@ -31,6 +31,8 @@ bool find_messages_in(spec::Model& model, const std::vector<std::filesystem::pat
 [[nodiscard]] std::string text_option(const spec::Driver& driver, const char* name);
 /// Whether a driver of kind ros2 is one side of a service or action, and not a topic.
 [[nodiscard]] bool has_role(const spec::Driver& driver);
+/// Whether it gives or broadcasts the transform between two frames.
+[[nodiscard]] bool is_transform(const spec::Driver& driver);
 /// Whether it is one side of an action.
 [[nodiscard]] bool is_action(const spec::Driver& driver);
 /// Whether it stands behind an effector, and not behind a receptor.

@@ -21,6 +21,8 @@ constexpr const char* service_hint =
 constexpr const char* action_hint =
     "role: client orders goals and gets what becomes of them; role: server gets goals and says what becomes "
     "of them";
+constexpr const char* transform_hint =
+    "for example { ros2: /tf, frame: base_link, in: map }, the pose of base_link in map";
 constexpr int highest_domain = 232;
 
 /// Words and dots: "linear.x".
@@ -32,7 +34,18 @@ bool is_field_path(std::string_view text) {
 /// Without what separates the parts of lists and options.
 bool is_plain(std::string_view text) { return text.find_first_of(",=\n\r\t\"") == std::string_view::npos; }
 
-enum class Use : std::uint8_t { topic, service, action };
+/// A name without blanks. tf2 refuses those that begin with a slash.
+bool is_frame(std::string_view text) {
+  return is_plain(text) && !text.empty() && text.find_first_of(" '") == std::string_view::npos &&
+         text[0] != '/';
+}
+
+enum class Use : std::uint8_t { topic, service, action, transform };
+
+bool is_transform_topic(std::string_view topic) {
+  const std::string_view name = topic.substr(topic.rfind('/') + 1);
+  return name == "tf" || name == "tf_static";
+}
 
 class TopicReader {
  public:
@@ -44,6 +57,7 @@ class TopicReader {
     if (use_ == Use::topic) read_message();
     if (use_ == Use::service) read_service();
     if (use_ == Use::action) read_action();
+    if (use_ == Use::transform) read_transform();
     if (const Entry* fields = section_.find("fields")) read_fields(*fields);
     if (const Entry* names = section_.find("names")) put(*names, list_of(*names, "the names"));
     if (const Entry* qos = section_.find("qos")) read_qos(*qos);
@@ -123,6 +137,40 @@ class TopicReader {
     if (const Entry* const wait = section_.find("wait"); wait != nullptr && text->text == "server")
       out_.error("E102", wait->span, "a server has no 'wait'", "it answers clients whenever they come");
     put(role, text->text);
+  }
+
+  void read_transform() {
+    static const std::string type = "tf2_msgs/msg/TFMessage";
+    if (const Entry* const given = section_.find("type"); given != nullptr)
+      if (const Node* const text = text_of(*given->value, given->span, "the type", out_);
+          text != nullptr && ros2::full_message_name(text->text) != type)
+        out_.error("E204", text->span,
+                   "transforms are messages of " + type + ", not " + in_quotes(text->text),
+                   "leave it out, or leave out `frame` and `in` to read messages of another type");
+    driver_.options.emplace("type", DriverOption{type, ""});
+    const Entry* const name = section_.find("ros2");
+    if (name != nullptr && name->value->is_scalar() && !is_transform_topic(name->value->text))
+      out_.error("E105", name->value->span, in_quotes(name->value->text) + " is no topic of transforms",
+                 "/tf, or /tf_static for those that never change; /robot{i}/tf for each agent of a fleet");
+    const std::string frame = read_frame("frame"), in = read_frame("in");
+    if (!frame.empty() && frame == in)
+      out_.error("E204", section_.find("in")->value->span, "a frame is not transformed into itself",
+                 transform_hint);
+  }
+
+  std::string read_frame(const char* key) {
+    const Entry* const entry = section_.require(key, transform_hint);
+    const Node* const text =
+        entry == nullptr ? nullptr : text_of(*entry->value, entry->span, "the frame", out_, transform_hint);
+    if (text == nullptr) return {};
+    if (!is_frame(text->text)) {
+      out_.error("E105", text->span, in_quotes(text->text) + " is no name of a frame",
+                 text->text.starts_with('/') ? "frames of ROS 2 have no slash at the beginning"
+                                             : "for example base_link, or robot{i}/base_link for a fleet");
+      return {};
+    }
+    put(*entry, text->text);
+    return text->text;
   }
 
   /// A field of the message for all of the buffer, or a map of fields.
@@ -258,8 +306,20 @@ class TopicReader {
   Diagnostics& out_;
 };
 
+/// A transform has frames. On a topic of transforms it may be meant if nothing is said of the messages.
+bool is_transform(const Entry& entry) {
+  bool is_topic = false, has_type = false;
+  for (const Entry& key : entry.value->entries) {
+    if (key.key == "frame" || key.key == "in") return true;
+    if (key.key == "ros2") is_topic = is_transform_topic(key.value->text);
+    if (key.key == "type") has_type = true;
+  }
+  return is_topic && !has_type;
+}
+
 /// A topic has no role, and services and actions have types of their own kinds.
 Use use_of(const Entry& entry) {
+  if (is_transform(entry)) return Use::transform;
   Use use = Use::topic;
   for (const Entry& key : entry.value->entries) {
     if (key.key == "type" && ros2::is_action_type(key.value->text)) return Use::action;
@@ -279,6 +339,13 @@ void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
                           {"ros2", "type", "role", "fields", "names", "frame_id", "node", "domain",
                            "interface", "peers", "wait", "timeout"},
                           out);
+    if (section.readable()) TopicReader(section, use, driver, out).read();
+    return;
+  }
+  if (use == Use::transform) {
+    const Section section(
+        *entry.value, entry.span, "a transform of ROS 2",
+        {"ros2", "type", "frame", "in", "fields", "node", "domain", "interface", "peers", "wait"}, out);
     if (section.readable()) TopicReader(section, use, driver, out).read();
     return;
   }

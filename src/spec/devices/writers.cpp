@@ -37,8 +37,9 @@ class WriterCheck {
     if (role == "client") return;  // a service may have many
     std::string error;
     const std::string topic = ros2::full_topic_name(driver.target(), error);
-    if (topic.empty()) return;  // which is said elsewhere
-    const Driver* const first = first_of(role + topic + " " + network_of(driver), driver);
+    if (topic.empty()) return;                           // which is said elsewhere
+    const std::string frame = text_of(driver, "frame");  // of a transform: many may publish the topic
+    const Driver* const first = first_of(role + topic + " " + frame + " " + network_of(driver), driver);
     if (first == nullptr) return;
     const Span& place = driver.targets.front().span;
     const std::string both = model_.driver_path(*first) + " and " + model_.driver_path(driver);
@@ -47,7 +48,14 @@ class WriterCheck {
       if (is_new(*first, driver)) complain_of_servers(place, name + ": " + both, *first, driver);
       return;
     }
-    if (is_new(*first, driver))
+    if (!is_new(*first, driver)) return;
+    if (!frame.empty())
+      out_.warning(
+          "W338", place, "two effectors broadcast the frame " + in_quotes(frame) + ": " + both,
+          "others take both in turn; " +
+              (one_fleet(*first, driver) ? std::string("{i} is the number of the agent: robot{i}/") + frame
+                                         : "let one subsystem do it for both"));
+    else
       out_.warning("W338", place, "two effectors publish " + name + ": " + both,
                    "whoever subscribes obeys both in turn; " + remedy(*first, driver, "topic"));
   }

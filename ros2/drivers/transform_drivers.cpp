@@ -12,6 +12,7 @@
 #include <utility>
 #include <vector>
 
+#include "ros2/codec/written_mapping.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/prepared.hpp"
 #include "ros2/drivers/transform_listener.hpp"

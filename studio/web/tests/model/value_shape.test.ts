@@ -66,7 +66,7 @@ it("forms that are made of the schema reach the keys deep inside", () => {
   expect(lines).toContain("deploy.processes.*");
 });
 
-it("the fields of a driver of ROS 2 are those of its topic, service or action, and its type may become another's", () => {
+it("the fields of a driver of ROS 2 are those of what it is, and its type may become another's", () => {
   const fields = (value: unknown) => fieldsFor(at("$defs/ros2_device"), schema, value);
   expect(fields({ ros2: "/a", type: "std_msgs/msg/Bool" }).map(({ key }) => key)).toContain("qos");
   const service = fields({ ros2: "/a", type: "std_srvs/srv/SetBool" });
@@ -74,6 +74,9 @@ it("the fields of a driver of ROS 2 are those of its topic, service or action, a
   expect(service.map(({ key }) => key)).not.toContain("qos");
   const action = fields({ ros2: "/a", type: "nav2_msgs/action/NavigateToPose" }).map(({ key }) => key);
   expect(action).toEqual(expect.arrayContaining(["role", "frame_id", "timeout", "wait"]));
+  for (const value of [{ ros2: "/tf" }, { ros2: "/tf", type: "tf2_msgs/msg/TFMessage", frame: "base_link" }])
+    expect(fields(value).map(({ key }) => key)).toEqual(expect.arrayContaining(["frame", "in", "wait"]));
+  expect(fields({ ros2: "/tf", type: "tf2_msgs/msg/TFMessage" }).map(({ key }) => key)).toContain("qos");
   const type = fields({ ros2: "/a" }).find(({ key }) => key === "type")!;
   for (const one of ["std_srvs/srv/SetBool", "std_msgs/msg/Bool", "nav2_msgs/action/NavigateToPose"])
     expect(type.wrong(one)).toBeUndefined();

@@ -17,7 +17,9 @@
 #include "ros2/drivers/action_drivers.hpp"
 #include "ros2/drivers/prepared.hpp"
 #include "ros2/drivers/service_drivers.hpp"
+#include "ros2/drivers/taken_stamps.hpp"
 #include "ros2/drivers/transform_drivers.hpp"
+#include "ros2/tf/transform_value.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -79,7 +81,10 @@ std::string reason(Translator::Outcome outcome, const Translator::Misfit& misfit
 
 class Subscriber final : public RealReceptor {
  public:
-  explicit Subscriber(Prepared prepared) : prepared_(std::move(prepared)) {}
+  explicit Subscriber(Prepared prepared)
+      : prepared_(std::move(prepared)),
+        has_stamp_(begins_with_header(*prepared_.message)),
+        taken_(TakenStamp::of(prepared_.endpoint.path)) {}
 
   [[nodiscard]] bool open() override {
     endpoint_.emplace(prepared_.endpoint, /*writes=*/false);
@@ -94,7 +99,9 @@ class Subscriber final : public RealReceptor {
     (*endpoint_)
         ->take([](void* self, const TakenBlob& blob) { static_cast<Subscriber*>(self)->note(blob); }, this);
     if (prepared_.one_publisher) refuse_several();
-    return fresh_ && prepared_.encoding->take(value.data(), newest_);
+    if (!fresh_ || !prepared_.encoding->take(value.data(), newest_)) return false;
+    if (stamp_) taken_->set(*stamp_);
+    return true;
   }
 
  private:
@@ -110,9 +117,10 @@ class Subscriber final : public RealReceptor {
     if (prepared_.one_publisher) speakers_.note(blob.writer, Speakers::Clock::now());
     Translator::Misfit misfit;
     const Translator::Outcome outcome = prepared_.translator.decode(blob.message, newest_, {}, &misfit);
-    if (outcome == Translator::Outcome::good)
+    if (outcome == Translator::Outcome::good) {
       fresh_ = true;
-    else if (is_told(++dropped_))
+      if (has_stamp_) stamp_ = stamp_of_header(blob.message);
+    } else if (is_told(++dropped_))
       tell(outcome, misfit);
   }
 
@@ -125,6 +133,9 @@ class Subscriber final : public RealReceptor {
 
   Prepared prepared_;
   std::optional<WatchedEndpoint> endpoint_;
+  bool has_stamp_;
+  std::shared_ptr<TakenStamp> taken_;
+  std::optional<Stamp> stamp_;  ///< of the newest message
   std::vector<std::byte> newest_;
   Speakers speakers_;
   bool fresh_ = false;

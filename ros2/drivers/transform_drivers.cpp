@@ -4,8 +4,10 @@
 
 #include <array>
 #include <chrono>
+#include <cstddef>
 #include <cstdint>
 #include <cstdio>
+#include <deque>
 #include <optional>
 #include <stdexcept>
 #include <thread>
@@ -15,6 +17,7 @@
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/prepared.hpp"
+#include "ros2/drivers/taken_stamps.hpp"
 #include "ros2/drivers/transform_listener.hpp"
 #include "ros2/tf/missing_transform.hpp"
 #include "ros2/tf/tf_message.hpp"
@@ -28,10 +31,12 @@ constexpr int broadcast_moving_depth = 100, broadcast_fixed_depth = 1;
 constexpr Duration longest_broadcast_receipt = std::chrono::milliseconds(500);
 constexpr Duration guardian_finds_listener_within = std::chrono::seconds(4);
 
+constexpr std::int64_t ns_of_a_second = 1'000'000'000;
+
 Stamp stamp_of_ns(std::int64_t ns) {
-  constexpr std::int64_t second = 1'000'000'000;
-  return {static_cast<std::int32_t>(ns / second), static_cast<std::uint32_t>(ns % second)};
+  return {static_cast<std::int32_t>(ns / ns_of_a_second), static_cast<std::uint32_t>(ns % ns_of_a_second)};
 }
+std::int64_t ns_of(const Stamp& stamp) { return stamp.sec * ns_of_a_second + stamp.nanosec; }
 
 class TransformReceptor final : public RealReceptor {
  public:
@@ -39,12 +44,15 @@ class TransformReceptor final : public RealReceptor {
       : prepared_(std::move(prepared)),
         frame_(binding.frame),
         in_(binding.in),
+        at_(binding.at),
+        stamps_(at_.empty() ? nullptr : TakenStamp::of(beside(binding.path, at_))),
         listener_(TransformListener::of(prepared_.endpoint)) {}
 
   [[nodiscard]] bool open() override {
     listener_->open();
     const std::string& topic = prepared_.endpoint.topic;
-    missing_.emplace(frame_, in_, topic + " and " + static_topic_of(topic), MissingTransform::Clock::now());
+    missing_.emplace(frame_, in_, at_, topic + " and " + static_topic_of(topic),
+                     MissingTransform::Clock::now());
     await_transform();
     return true;
   }
@@ -52,10 +60,10 @@ class TransformReceptor final : public RealReceptor {
 
   [[nodiscard]] bool read(std::span<std::byte> value) override {
     return listener_->look([&](const TransformBuffer& buffer) {
-      const TransformBuffer::Answer answer = buffer.latest(frame_, in_);
+      const TransformBuffer::Answer answer = stamps_ == nullptr ? buffer.latest(frame_, in_) : wanted(buffer);
       if (const auto text = missing_->look(answer, MissingTransform::Clock::now(), buffer))
         std::fprintf(stderr, "warning: %s: %s\n", prepared_.endpoint.path.c_str(), text->c_str());
-      return answer.outcome == TransformBuffer::Answer::Outcome::found && is_new(answer, buffer) &&
+      return answer.outcome == TransformBuffer::Answer::Outcome::found && is_wanted(answer, buffer) &&
              prepared_.translator.decode(transform_message(answer.transform, stamp_of_ns(answer.stamp_ns)),
                                          value_) == Translator::Outcome::good &&
              prepared_.encoding->take(value.data(), value_);
@@ -63,6 +71,35 @@ class TransformReceptor final : public RealReceptor {
   }
 
  private:
+  /// "robot.eyes.scan" for "robot.eyes.pose" and "scan".
+  static std::string beside(const std::string& path, const std::string& buffer) {
+    return path.substr(0, path.rfind('.') + 1) + buffer;
+  }
+
+  /// The transform at the newest stamp of the other buffer at which there is one. A message often comes before the
+  /// transforms of its time.
+  TransformBuffer::Answer wanted(const TransformBuffer& buffer) {
+    constexpr std::size_t most_stamps = 100;
+    const TakenStamp::Numbered newest = stamps_->newest();
+    if (newest.number != stamp_number_) pending_.push_back(ns_of(newest.stamp));
+    stamp_number_ = newest.number;
+    if (pending_.size() > most_stamps) pending_.pop_front();
+    at_stamp_ = false;
+    if (pending_.empty()) return buffer.latest(frame_, in_);
+    for (std::size_t index = pending_.size(); index-- > 0;) {
+      const TransformBuffer::Answer answer = buffer.at(frame_, in_, pending_[index]);
+      if (answer.outcome != TransformBuffer::Answer::Outcome::found) continue;
+      pending_.erase(pending_.begin(), pending_.begin() + static_cast<std::ptrdiff_t>(index) + 1);
+      at_stamp_ = true;
+      return answer;
+    }
+    return buffer.at(frame_, in_, pending_.back());
+  }
+
+  [[nodiscard]] bool is_wanted(const TransformBuffer::Answer& answer, const TransformBuffer& buffer) {
+    return stamps_ == nullptr ? is_new(answer, buffer) : at_stamp_;
+  }
+
   void await_transform() {
     constexpr auto between_looks_for_it = std::chrono::milliseconds(5);
     if (prepared_.wait == Duration::zero()) return;
@@ -92,7 +129,11 @@ class TransformReceptor final : public RealReceptor {
     std::uint64_t jumps = 0, fixed_changes = 0;
   };
   Prepared prepared_;
-  std::string frame_, in_;
+  std::string frame_, in_, at_;
+  std::shared_ptr<TakenStamp> stamps_;  ///< with `at`
+  std::uint64_t stamp_number_ = 0;
+  std::deque<std::int64_t> pending_;  ///< stamps without a transform until now
+  bool at_stamp_ = false;             ///< whether the last answer is at one of them
   std::shared_ptr<TransformListener> listener_;
   std::optional<MissingTransform> missing_;
   std::optional<Given> last_;

@@ -30,9 +30,13 @@ std::string kind_of(const TransformBuffer::Answer& answer, const TransformBuffer
 
 }  // namespace
 
-MissingTransform::MissingTransform(std::string frame, std::string in, std::string topic,
+MissingTransform::MissingTransform(std::string frame, std::string in, std::string at, std::string topic,
                                    Clock::time_point now)
-    : frame_(std::move(frame)), in_(std::move(in)), topic_(std::move(topic)), missing_since_(now) {}
+    : frame_(std::move(frame)),
+      in_(std::move(in)),
+      at_(std::move(at)),
+      topic_(std::move(topic)),
+      missing_since_(now) {}
 
 std::optional<std::string> MissingTransform::look(const TransformBuffer::Answer& answer,
                                                   Clock::time_point now, const TransformBuffer& known) {
@@ -61,6 +65,7 @@ std::string MissingTransform::reason(const TransformBuffer::Answer& answer,
     case MissingOutcome::loop:
       return fmt::format("the frames {} are a loop, each the parent of another", list_of_frames(frames));
     case MissingOutcome::no_common_time:
+      if (!at_.empty()) return fmt::format("`{}` is not known at the stamps of {}", frames[0], at_);
       return fmt::format(
           "the frames between them are known at no common time; `{}` is not known at that of "
           "the others",

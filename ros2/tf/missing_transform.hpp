@@ -15,10 +15,12 @@ namespace tessera::ros2 {
 class MissingTransform {
  public:
   using Clock = std::chrono::steady_clock;
-  /// Discovery takes a second or two, and so may the first message.
-  static constexpr std::chrono::seconds patience{3};
+  /// Fast DDS repeats what a new subscriber has missed after three seconds, such as fixed transforms.
+  static constexpr std::chrono::seconds patience{5};
 
-  MissingTransform(std::string frame, std::string in, std::string topic, Clock::time_point now);
+  /// at: the buffer at whose stamps the transform is wanted; empty: at the newest time.
+  MissingTransform(std::string frame, std::string in, std::string at, std::string topic,
+                   Clock::time_point now);
   /// The text to print, if there is one. known: all frames, which are asked for only when something is printed.
   [[nodiscard]] std::optional<std::string> look(const TransformBuffer::Answer& answer, Clock::time_point now,
                                                 const TransformBuffer& known);
@@ -26,7 +28,7 @@ class MissingTransform {
  private:
   [[nodiscard]] std::string reason(const TransformBuffer::Answer& answer, const TransformBuffer& known) const;
 
-  std::string frame_, in_, topic_;
+  std::string frame_, in_, at_, topic_;
   std::optional<Clock::time_point> missing_since_;
   std::set<std::string> told_;  ///< reasons, since there was a transform
 };

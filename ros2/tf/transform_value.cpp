@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "ros2/codec/cdr.hpp"
+#include "ros2/codec/message_steps.hpp"
 #include "ros2/definitions/resolver.hpp"
 
 namespace tessera::ros2 {
@@ -130,6 +131,10 @@ std::optional<MappingProblem> problem_of_sent_transform(const Mapping& mapping, 
 
 bool gives_stamp(const Mapping& mapping) {
   return std::ranges::any_of(mapping.fields, [](const auto& one) { return one.first.starts_with("stamp"); });
+}
+
+bool begins_with_header(const Structure& message) {
+  return !message.fields.empty() && is_header(message.fields.front().type);
 }
 
 std::string static_topic_of(const std::string& topic) { return topic + "_static"; }

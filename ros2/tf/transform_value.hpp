@@ -38,6 +38,9 @@ struct TransformToSend {
 /// Whether the buffer gives the stamp, too.
 [[nodiscard]] bool gives_stamp(const Mapping& mapping);
 
+/// Whether messages begin with a header, so that transforms can be given at their times.
+[[nodiscard]] bool begins_with_header(const Structure& message);
+
 /// The topic of fixed transforms beside one of moving ones: "/tf_static" for "/tf".
 [[nodiscard]] std::string static_topic_of(const std::string& topic);
 [[nodiscard]] bool is_static_topic(const std::string& topic);

@@ -38,6 +38,11 @@ struct Turn {
   TESSERA_FIELDS(Turn, rotation, sec)
 };
 
+struct Range {
+  float range_max{};
+  TESSERA_FIELDS(Range, range_max)
+};
+
 template <class Value>
 Ros2Binding transform(const std::string& topic, const std::string& fields = "") {
   Ros2Binding made = binding<Value>(topic, "tf2_msgs/msg/TFMessage", fields);
@@ -88,6 +93,39 @@ TEST_F(TransformDrivers, GiveTheNewestPoseOfTwoPublishersAndEachOnce) {
   EXPECT_FALSE(read(*receptor, pose));
   EXPECT_EQ(pose.x, -1);
   receptor->close();
+}
+
+TEST_F(TransformDrivers, GiveThePoseAtTheStampsOfAnotherTopic) {
+  auto* const moving = peer.writer<fast::Transforms>("rt/tf");
+  auto* const laser = peer.writer<fast::LaserScan>("rt/scan");
+  auto scans = binding<Range>("/scan", "sensor_msgs/msg/LaserScan");
+  scans.path = "robot.part.scan";
+  auto scan = opened_receptor(scans);
+  auto at_scans = transform<PlanarPose>("/tf");
+  at_scans.at = "scan";
+  auto receptor = opened_receptor(at_scans);
+  PlanarPose pose;
+  Range range;
+  fast::LaserScan seen;
+  seen.header.sec = 50;
+  seen.header.nanosec = 500'000'000;
+  ASSERT_TRUE(eventually([&] {
+    laser->write(&seen);
+    return read(*scan, range);
+  }));
+  EXPECT_FALSE(read(*receptor, pose));  // there is none at that time until now
+  std::int32_t sec = 40;
+  ASSERT_TRUE(eventually([&] {
+    auto message = one("map", "base_link", sec, sec);
+    moving->write(&message);
+    const bool is = read(*receptor, pose);
+    if (sec < 51) ++sec;
+    return is;
+  }));
+  EXPECT_EQ(pose.x, 50.5);
+  EXPECT_FALSE(read(*receptor, pose));
+  receptor->close();
+  scan->close();
 }
 
 TEST_F(TransformDrivers, RefuseWhatIsWrongAndSayWhenTimeGoesBack) {

@@ -56,6 +56,7 @@ Ros2Binding binding_of(const DriverSetup& setup, const ValueEncoding* encoding) 
   binding.frame_id = setup.text_or("frame_id", "");
   binding.frame = setup.text_or("frame", "");
   binding.in = setup.text_or("in", "");
+  binding.at = setup.text_or("at", "");
   binding.one_publisher = setup.text_or("publishers", "") == "one";
   binding.qos = setup.text_or("qos", "");
   binding.node = setup.text_or("node", "");

@@ -101,7 +101,36 @@ class MessageFinder {
     return fits(driver, message);
   }
 
+  /// Whether every transform at the stamps of another buffer has such a buffer beside it. The messages are found.
+  bool check_stamps(const std::vector<spec::Driver>& drivers) {
+    bool good = true;
+    for (const spec::Driver& driver : drivers) {
+      const std::string at = text_option(driver, "at");
+      if (driver.kind != "ros2" || !is_transform(driver) || at.empty() || is_effector(model_, driver))
+        continue;
+      const auto has_stamps = [&](const spec::Driver& other) { return gives_stamps(driver, at, other); };
+      if (std::ranges::any_of(drivers, has_stamps)) continue;
+      complain("E321", place_in(driver, "at"),
+               "'" + at + "' is no real buffer beside it whose messages begin with a `header`",
+               "name one of the same receptor with a topic such as sensor_msgs/msg/LaserScan");
+      good = false;
+    }
+    return good;
+  }
+
  private:
+  [[nodiscard]] bool gives_stamps(const spec::Driver& driver, const std::string& at,
+                                  const spec::Driver& other) const {
+    if (other.instance != driver.instance || other.kind != "ros2" || !other.real.valid() || has_role(other) ||
+        is_transform(other) || model_.subsystem(other.instance).real[other.real].name != at)
+      return false;
+    const std::string type = text_option(other, "type");
+    std::vector<ros2::Mistake> told_before;
+    const auto message =
+        ros2::resolve(type, ros2::DefinitionBundle(type, text_option(other, "definition")), told_before);
+    return message == nullptr || ros2::begins_with_header(*message);
+  }
+
   /// For a service or action: the message of the buffer.
   [[nodiscard]] std::shared_ptr<const ros2::Structure> message_of(
       const spec::Driver& driver, const std::string& name, const ros2::Definitions& definitions,
@@ -172,6 +201,11 @@ class MessageFinder {
   bool check_transform(const spec::Driver& driver, const ros2::Mapping& mapping,
                        const ros2::ValueType& value) {
     if (is_effector(model_, driver)) {
+      if (driver.options.contains("at")) {
+        complain("E321", place_in(driver, "at"), "an effector has no 'at'",
+                 "its stamp is the time of sending, or the field `stamp` of the transform");
+        return false;
+      }
       const auto problem = ros2::problem_of_sent_transform(mapping, value);
       if (problem) complain("E321", place_in(driver, problem->subject), problem->text, problem->hint);
       return !problem;
@@ -211,6 +245,7 @@ bool find_messages_in(spec::Model& model, const std::vector<fs::path>& folders,
   bool found = true;
   for (spec::Driver& driver : drivers)
     if (driver.kind == "ros2") found = finder.find(driver) && found;
+  found = finder.check_stamps(drivers) && found;
   found = check_services(model, drivers, out) && found;
   model.drivers = std::move(drivers);
   return found;

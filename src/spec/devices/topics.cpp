@@ -23,6 +23,8 @@ constexpr const char* action_hint =
     "of them";
 constexpr const char* transform_hint =
     "for example { ros2: /tf, frame: base_link, in: map }, the pose of base_link in map";
+constexpr const char* at_hint =
+    "at: scan gives the transform at the stamps of the real buffer scan beside it";
 constexpr int highest_domain = 232;
 
 /// Words and dots: "linear.x".
@@ -153,6 +155,14 @@ class TopicReader {
       out_.error("E105", name->value->span, in_quotes(name->value->text) + " is no topic of transforms",
                  "/tf, or /tf_static for those that never change; /robot{i}/tf for each agent of a fleet");
     const std::string frame = read_frame("frame"), in = read_frame("in");
+    if (const Entry* const at = section_.find("at"))
+      if (const Node* const text = text_of(*at->value, at->span, "the buffer", out_, at_hint);
+          text != nullptr) {
+        if (!is_field_path(text->text) || text->text.find('.') != std::string::npos)
+          out_.error("E105", text->span, in_quotes(text->text) + " is no name of a real buffer", at_hint);
+        else
+          put(*at, text->text);
+      }
     if (!frame.empty() && frame == in)
       out_.error("E204", section_.find("in")->value->span, "a frame is not transformed into itself",
                  transform_hint);
@@ -345,7 +355,7 @@ void read_topic(const Entry& entry, Driver& driver, Diagnostics& out) {
   if (use == Use::transform) {
     const Section section(
         *entry.value, entry.span, "a transform of ROS 2",
-        {"ros2", "type", "frame", "in", "fields", "node", "domain", "interface", "peers", "wait"}, out);
+        {"ros2", "type", "frame", "in", "at", "fields", "node", "domain", "interface", "peers", "wait"}, out);
     if (section.readable()) TopicReader(section, use, driver, out).read();
     return;
   }

@@ -28,7 +28,8 @@ struct Ros2Binding {
   std::string names;   ///< "shoulder, elbow"; empty: none
   std::string frame_id;
   std::string frame, in;  ///< of a transform: the frame, and the one in which its pose is given; empty: none
-  std::string at;  ///< the real buffer beside it at whose stamps the transform is given; empty: the newest one
+  std::string
+      at;  ///< the real buffer beside it at whose stamps the transform is given; empty: the newest one
   bool one_publisher = false;           ///< receptors: messages of two publishers at a time are a fault
   std::string qos;                      ///< "sensor, depth 1"
   std::string node;                     ///< empty: the name of the agent

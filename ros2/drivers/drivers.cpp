@@ -17,8 +17,8 @@
 #include "ros2/drivers/action_drivers.hpp"
 #include "ros2/drivers/prepared.hpp"
 #include "ros2/drivers/service_drivers.hpp"
-#include "ros2/drivers/taken_stamps.hpp"
 #include "ros2/drivers/transform_drivers.hpp"
+#include "ros2/tf/taken_stamps.hpp"
 #include "ros2/tf/transform_value.hpp"
 
 namespace tessera::ros2 {

@@ -17,9 +17,9 @@
 #include "ros2/codec/written_mapping.hpp"
 #include "ros2/dds/clock.hpp"
 #include "ros2/drivers/prepared.hpp"
-#include "ros2/drivers/taken_stamps.hpp"
 #include "ros2/drivers/transform_listener.hpp"
 #include "ros2/tf/missing_transform.hpp"
+#include "ros2/tf/taken_stamps.hpp"
 #include "ros2/tf/tf_message.hpp"
 #include "ros2/tf/transform_value.hpp"
 

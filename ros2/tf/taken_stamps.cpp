@@ -1,4 +1,4 @@
-#include "ros2/drivers/taken_stamps.hpp"
+#include "ros2/tf/taken_stamps.hpp"
 
 #include <map>
 

@@ -18,7 +18,8 @@ struct ClaimedProcess {
 };
 
 /// The claim of this program to be that process, made by an abstract socket. It holds as long as this object,
-/// or until the program dies, and within one network namespace.
+/// or until the program and its guardian process have died, and within one network namespace. If the program has died,
+/// but its guardian is still at work, the constructor waits for it.
 class ProcessClaim {
  public:
   explicit ProcessClaim(const ClaimedProcess& process);

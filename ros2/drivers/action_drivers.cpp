@@ -88,12 +88,13 @@ class ProgressReceptor final : public SharedDriver<RealReceptor, ActionClient> {
   }
   void warn_of_misfit() {
     if (is_told(++misfits_))
-      std::fprintf(
-          stderr,
-          "warning: %s: feedback or a result of %s was dropped (%llu until now): it is none of that type, "
-          "or does not fit the buffer\n",
-          prepared_.endpoint.path.c_str(), prepared_.endpoint.topic.c_str(),
-          static_cast<unsigned long long>(misfits_));
+      std::fprintf(stderr,
+                   "warning: %s: feedback or a result of %s was dropped (%llu until now): it does not fit "
+                   "the buffer, or "
+                   "the server has another definition of the action, as other distributions of ROS 2 do; see "
+                   "\"Messages\" in docs/use/ros2.md\n",
+                   prepared_.endpoint.path.c_str(), prepared_.endpoint.topic.c_str(),
+                   static_cast<unsigned long long>(misfits_));
   }
 
   ProgressType type_;

@@ -1,5 +1,6 @@
 #include "ros2/drivers/action_server.hpp"
 
+#include <algorithm>
 #include <array>
 #include <thread>
 #include <utility>
@@ -41,9 +42,11 @@ void ActionServer::close() {
   goals_.end_all(stamp_now(), Clock::now());
   for (progress(); !answers_.empty() && Clock::now() < until; progress())
     std::this_thread::sleep_for(between_tries);
+  const auto received_until = Clock::now() + longest_goodbye;  // a client that was killed confirms nothing
+  const auto left = [&] { return std::max<Duration>(received_until - Clock::now(), Duration::zero()); };
   for (ServiceEnds* const one : {&ends_->send_goal, &ends_->get_result, &ends_->cancel_goal})
-    static_cast<void>(one->await_receipt(longest_goodbye));
-  static_cast<void>(ends_->status.await_receipt(longest_goodbye));
+    static_cast<void>(one->await_receipt(left()));
+  static_cast<void>(ends_->status.await_receipt(left()));
   answers_.clear();
   asked_.clear();
   ends_.reset();

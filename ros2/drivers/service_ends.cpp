@@ -64,9 +64,11 @@ ServiceEnds::ServiceEnds(const ServiceSetup& setup) : path_(setup.endpoint.path)
 }
 
 bool ServiceEnds::await_receipt(Duration timeout) {
+  const auto until = std::chrono::steady_clock::now() + timeout;
   const bool received = writer_->await_receipt(timeout);
+  const Duration left = std::max<Duration>(until - std::chrono::steady_clock::now(), Duration::zero());
   FastService* const fast = fast_library_.service();
-  return (fast == nullptr || fast->await_receipt(timeout)) && received;
+  return (fast == nullptr || fast->await_receipt(left)) && received;
 }
 
 std::optional<std::int64_t> ServiceEnds::send_request(std::vector<std::byte> request) {

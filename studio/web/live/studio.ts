@@ -3,6 +3,7 @@ import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
+import { ElementEdits } from "./element_edits";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -51,6 +52,7 @@ export class Studio {
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
   readonly editor = new Editor(this.api, this.draft);
+  readonly elements = new ElementEdits(this);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);

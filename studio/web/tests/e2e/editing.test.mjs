@@ -391,7 +391,7 @@ test("checks, measures, limits, templates and models have fields, which leave a 
     const limits = within("Limits of real outputs");
     await fill(limits.getByRole("group", { name: "command.ahead", exact: true }).getByLabel("Change per second"), "4 m/s");
     await limits.getByRole("group", { name: "command.turn", exact: true }).getByLabel("Beyond them").selectOption("fault");
-    await page.getByLabel("Also give").selectOption("realtime");
+    await page.getByLabel("Add a setting").selectOption("realtime");
     await fill(within("Realtime").getByLabel("Priority"), "80");
     await fill(within("Safe command", "command").getByLabel("ahead (m/s)"), "0.1");
     await judged("the effector of a template");

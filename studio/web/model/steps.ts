@@ -125,7 +125,7 @@ function run(now: Situation): Step {
     if (now.errors > 0) return ["needs a specification without errors", "open", "show_error", false];
     if (watches) return ["choose a controller", "open", "show_run", true];
     if (now.verdictsCurrent && verdictsInWords(now.verdicts).tone === "error")
-      return ["not while a property is violated", "error", "show_verdicts", false];
+      return ["needs a system that passes Verify", "error", "show_verdicts", false];
     if (now.missing > 0)
       return [
         now.missing === 1 ? "1 function is missing: write it" : `${now.missing} functions are missing: write them`,

@@ -15,6 +15,7 @@ import {
   folder,
   judges,
   noProblems,
+  onNet,
   onPage,
   tab,
   until,
@@ -241,7 +242,7 @@ test("a broken file says where, keeps its drawing, and is repaired", () =>
   }));
 
 test("a file that is broken on disk opens with its errors", () =>
-  onPage(folder("broken"), async (page) => {
+  onNet(folder("broken"), async (page) => {
     await page.getByText("No drawing yet").waitFor();
     assert.ok((await page.locator(".problem-list .problem").count()) > 0);
     await tab(page, "Structure").click();

@@ -53,7 +53,7 @@ describe("the three steps", () => {
 
   it("do not let a violated system run, as the server would not, until the text has changed", () => {
     const verdicts = [holds, violated];
-    expect(states({ verdicts, verdictsCurrent: true }).slice(1)).toEqual(["1 violated", "not while a property is violated"]);
+    expect(states({ verdicts, verdictsCurrent: true }).slice(1)).toEqual(["1 violated", "needs a system that passes Verify"]);
     expect(primaries({ verdicts, verdictsCurrent: true })[2]).toBe("Run (not now)");
     expect(states({ verdicts, verdictsCurrent: false }).slice(1)).toEqual(["changed since", "ready"]);
     expect(states({ verdicts: [holds, warned], verdictsCurrent: true }).slice(1)).toEqual(["verified, 1 warning", "ready"]);

@@ -75,7 +75,7 @@ export class Studio {
   readonly watched = new Store({ seconds: 10 });
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
-    view: "net",
+    view: "structure",
     panel: "inspect",
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,

@@ -1,7 +1,7 @@
 // A recording beside the run, and beside another recording.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, drawn, element, example, judges, onBuilt, tab, until } from "./page.mjs";
+import { button, drawn, element, example, judges, onBuiltNet, tab, until } from "./page.mjs";
 
 const fill = async (page, label, value) => {
   await page.getByRole("textbox", { name: label, exact: true }).fill(value);
@@ -29,7 +29,7 @@ async function twoRuns(page) {
 }
 
 test("a recording beside the run: one camera, one time if wanted, and what differs is said", () =>
-  onBuilt(example("02_gap"), async (page) => {
+  onBuiltNet(example("02_gap"), async (page) => {
     await twoRuns(page);
     await page.locator(".recordings button").last().click();
     const compared = page.getByTestId("compared-at");
@@ -111,7 +111,7 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
   }));
 
 test("a run that goes on is put away and shown again; a game has the drawing for itself", () =>
-  onBuilt(example("01_line_follower"), async (page) => {
+  onBuiltNet(example("01_line_follower"), async (page) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();

@@ -5,6 +5,7 @@ import { EmergencyBar } from "../panels/emergency_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { Toolbar } from "../panels/toolbar";
+import { RemovalDialog } from "../panels/forms/removal_dialog";
 import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
 import { Boundary } from "./boundary";
@@ -34,6 +35,7 @@ export function App() {
       {searching && <Search />}
       <ConflictDialog />
       <RenameDialog />
+      <RemovalDialog />
       <TrustDialog />
     </div>
   );

@@ -1,5 +1,5 @@
 import { useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
-import { useCallback, useEffect, useLayoutEffect, useRef, useState, type RefObject } from "react";
+import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { findThing, nextEntryOf, nextSelection, selectedPath, withoutIndex, type Structure } from "../model/structure/structure";
 import type { Box } from "../model/net/geometry";
@@ -70,12 +70,7 @@ export function StructureHands({ structure, area, boxes, move, arrange, onDrag }
     const own = element?.getBoundingClientRect();
     const room = area.current!.getBoundingClientRect();
     const visible =
-      own &&
-      own.width > 0 &&
-      own.x >= room.x &&
-      own.y >= room.y &&
-      own.right <= room.right &&
-      own.bottom <= room.bottom;
+      own && own.width > 0 && own.x >= room.x && own.y >= room.y && own.right <= room.right && own.bottom <= room.bottom;
     const box = boxes.get(selectedPath(path).split(".").slice(0, 2).join("."));
     if (!visible && box) void flow.fitBounds(box, { duration: still.matches ? 0 : 250, padding: 0.3 });
   };
@@ -154,7 +149,8 @@ export function StructureHands({ structure, area, boxes, move, arrange, onDrag }
     };
   }, [studio, flow, area]);
 
-  const items = menu && itemsFor(studio, structure, menu.path, { leadOn: (from) => setLeading({ from, ...cornerOf(from) }), arrange });
+  const items =
+    menu && itemsFor(studio, structure, menu.path, { leadOn: (from) => setLeading({ from, ...cornerOf(from) }), arrange });
   return (
     <>
       {line && (
@@ -180,17 +176,28 @@ export function selectionAt(target: Element): string | null {
 }
 
 /** The button at the selected element that opens its menu. */
-function MoreButton({ area, selected, onOpen }: { area: Hands["area"]; selected: string | null; onOpen: (x: number, y: number) => void }) {
+function MoreButton({
+  area,
+  selected,
+  onOpen,
+}: {
+  area: Hands["area"];
+  selected: string | null;
+  onOpen: (x: number, y: number) => void;
+}) {
   const view = useFlow(transformOf);
   const [place, setPlace] = useState<{ left: number; top: number } | null>(null);
-  useLayoutEffect(() => {
+  // Not a layout effect: the element around this one does not exist then.
+  useEffect(() => {
     const look = () => {
       const at = area.current;
       const element = at && selected !== null && nextEntryOf(selected) === undefined ? elementAt(at, selected) : undefined;
       const [own, room] = [element?.getBoundingClientRect(), at?.getBoundingClientRect()];
       if (!own || !room || own.width < 40 || own.height < 12) return setPlace(null);
       const [left, top] = [own.right - room.x - 9, own.y - room.y - 13];
-      setPlace(left < 0 || top < -13 || left > room.width - 24 || top > room.height - 24 ? null : { left, top: Math.max(top, 0) });
+      setPlace(
+        left < 0 || top < -13 || left > room.width - 24 || top > room.height - 24 ? null : { left, top: Math.max(top, 0) },
+      );
     };
     look();
     // The drawing arrives a moment after its text.

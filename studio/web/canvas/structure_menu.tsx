@@ -114,7 +114,15 @@ export function itemsFor(studio: Studio, structure: Structure, path: string | nu
   const rename = isControl ? [] : [{ title: "Rename", keys: "F2", act: () => renameInForm(studio, path, structure) }];
   const code =
     thing.kind === "behaviour" && !thing.of.isGroup
-      ? [{ title: "Go to its C++ function", act: () => (studio.choose(path, structure), focusForm("section.code textarea, section.code button, section.code [contenteditable=true]")) }]
+      ? [
+          {
+            title: "Go to its C++ function",
+            act: () => (
+              studio.choose(path, structure),
+              focusForm("section.code textarea, section.code button, section.code [contenteditable=true]")
+            ),
+          },
+        ]
       : [];
   const net = studio.draft.store.get().net?.find(name) ? [{ title: "Show in the net", act: () => studio.flyTo(name) }] : [];
   return [

@@ -52,24 +52,44 @@ export class ElementEdits {
     this.studio.draft.store.set({ notice });
   }
 
-  private added(name: string, taken: readonly YamlPath[], edit: (name: string) => ReturnType<typeof edits.insert>, select: (name: string) => string) {
+  private added(
+    name: string,
+    taken: readonly YamlPath[],
+    edit: (name: string) => ReturnType<typeof edits.insert>,
+    select: (name: string) => string,
+  ) {
     const given = named(name, keysNow(...taken), edit);
     return this.studio.change(given.wish, () => ({ selected: select(given.name), panel: "inspect" }));
   }
 
   /** Adds an agent, a subsystem of one, or a part of a subsystem or group. */
   addAgent(): Promise<boolean> {
-    return this.added("agent", [["agents"]], (name) => edits.insert(["agents"], name, edits.freshAgent), (name) => name);
+    return this.added(
+      "agent",
+      [["agents"]],
+      (name) => edits.insert(["agents"], name, edits.freshAgent),
+      (name) => name,
+    );
   }
   addSubsystem(agent: Agent, kind: SubsystemKind): Promise<boolean> {
     const maps = ["receptors", "effectors"].map((key) => [...agent.body, key]);
     const wish = kind === "receptor" ? "sensor" : kind === "effector" ? "motor" : kind;
-    return this.added(wish, maps, (name) => edits.addSubsystem(agent, kind, name), (name) => `${agent.name}.${name}`);
+    return this.added(
+      wish,
+      maps,
+      (name) => edits.addSubsystem(agent, kind, name),
+      (name) => `${agent.name}.${name}`,
+    );
   }
   addBehaviour(of: { yaml: YamlPath; path: string }, isGroup: boolean): Promise<boolean> {
     const taken = ["behaviours", "inputs", "outputs", "real"].map((key) => [...of.yaml, key]);
     const add = isGroup ? edits.addGroup : edits.addBehaviour;
-    return this.added(isGroup ? "group" : "act", taken, (name) => add(of, name), (name) => `${of.path}.${name}`);
+    return this.added(
+      isGroup ? "group" : "act",
+      taken,
+      (name) => add(of, name),
+      (name) => `${of.path}.${name}`,
+    );
   }
   addBuffer(subsystem: Subsystem, direction: Buffer["direction"]): Promise<boolean> {
     const taken = ["behaviours", "inputs", "outputs", "real"].map((key) => [...subsystem.yaml, key]);
@@ -94,7 +114,10 @@ export class ElementEdits {
       (free) => path.slice(0, at) + free,
     );
     const counted = (count: number, one: string) => (count > 0 ? [`${count} ${one}${count > 1 ? "s" : ""}`] : []);
-    const lost = [...counted(left.channels, "channel") .map((text) => `${text} to other agents`), ...counted(left.drivers, "driver")];
+    const lost = [
+      ...counted(left.channels, "channel").map((text) => `${text} to other agents`),
+      ...counted(left.drivers, "driver"),
+    ];
     if (done && lost.length > 0) this.tell(`The copy does not have: ${lost.join(", ")}`);
   }
 

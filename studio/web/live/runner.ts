@@ -28,7 +28,7 @@ import { Track } from "./track";
 import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment" | "driving">;
+type RunEventName = Exclude<keyof Events, "hello" | "spec" | "layout" | "verify" | "deployment" | "driving">;
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";

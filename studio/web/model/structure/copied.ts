@@ -109,8 +109,7 @@ const subsystemAt = (structure: Structure, selected: string | null): Subsystem |
 };
 
 /** The maps that hold the names of a subsystem. */
-const namesOf = ({ yaml }: Subsystem): YamlPath[] =>
-  ["behaviours", "inputs", "outputs", "real"].map((key) => [...yaml, key]);
+const namesOf = ({ yaml }: Subsystem): YamlPath[] => ["behaviours", "inputs", "outputs", "real"].map((key) => [...yaml, key]);
 
 /** The place where an element is pasted while another one is selected; a text: why it cannot be. */
 export function placeFor(structure: Structure, selected: string | null, { kind }: Copied): Place | string {

@@ -11,6 +11,8 @@ import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
+import { PlottedRecordings } from "./plotted";
+import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
 import { Lens } from "./lens";
@@ -65,6 +67,8 @@ export class Studio {
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly plots = new Plots();
+  readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
@@ -161,6 +165,7 @@ export class Studio {
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
@@ -200,6 +205,7 @@ export class Studio {
       this.project.set({ project, problem: "" });
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } else if (known !== undefined && known !== start) {
       const { project } = this.project.get();
       // Another project at this address: its text is not to be mixed with that of this page.

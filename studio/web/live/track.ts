@@ -3,7 +3,8 @@ import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
-import type { PathRow } from "../model/protocol";
+import { ArrivalLog } from "../model/plots/arrivals";
+import type { Arrival, PathRow } from "../model/protocol";
 import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 
@@ -25,6 +26,8 @@ export class Track {
   readonly id = (made += 1);
   readonly timeline: Timeline;
   readonly series: Series;
+  /** When the inputs got new values of their senders, by path of the input. */
+  readonly arrivals: ArrivalLog;
   path: Pose[] = [];
   /** All firings so far. */
   firings = 0;
@@ -47,6 +50,7 @@ export class Track {
   ) {
     this.timeline = whole ? new Timeline(net, Infinity) : new Timeline(net);
     this.series = whole ? new Series(Infinity) : new Series();
+    this.arrivals = whole ? new ArrivalLog(Infinity) : new ArrivalLog();
   }
 
   /** The number of firings that are only counted: there were too many to send, or no page was connected. */
@@ -65,6 +69,17 @@ export class Track {
 
   values(time: number, values: Readonly<Record<string, unknown>>): void {
     for (const [path, value] of Object.entries(values)) this.series.add(time, path, value);
+  }
+
+  /** What came through channels. An input whose last value is not valid has a gap. dropped: some are not listed. */
+  arrived(arrivals: Readonly<Record<string, readonly Arrival[]>>, dropped = 0): void {
+    if (dropped > 0) this.arrivals.interrupt(this.now);
+    for (const [path, rows] of Object.entries(arrivals))
+      for (const [time, written, valid] of rows) {
+        if (!valid) this.series.lose(time, path);
+        else if (this.arrivals.isInvalid(path)) this.series.regain(time, path);
+        this.arrivals.add(path, time, written, valid);
+      }
   }
 
   pose(pose: Pose): void {

@@ -4,6 +4,7 @@ import type { Replay } from "../../live/replay";
 import type { Track } from "../../live/track";
 import { drawTimeline, timeAt } from "./draw_timeline";
 import { Painted } from "../world/painted";
+import { PlotPanel } from "./plot_panel";
 import { usePaneTitle } from "../pane_title";
 import { ValueList } from "./value_list";
 import { WorldPane } from "../world/world_pane";
@@ -15,22 +16,26 @@ export function Watches() {
   const [seconds, setSeconds] = useState(10);
   const title = usePaneTitle();
   const watched = panes.filter(({ track }) => track !== null);
+  const hasPlot = useStore(studio.plots.store, ({ plots, active }) => plots.length > 1 || plots[active]!.signals.length > 0);
   if (watched.length === 0) return null;
   return (
-    <div className={`watches${watched.length > 1 ? " two" : ""}`}>
-      {watched.map((pane, at) => (
-        <Watch
-          key={pane.id}
-          label={watched.length > 1 ? title(pane) : "Run"}
-          track={pane.track!}
-          replay={pane.replay}
-          seconds={seconds}
-          onSeconds={setSeconds}
-          fixed={sameTime && at === 1}
-          beside={watched[1 - at]?.track ?? null}
-        />
-      ))}
-    </div>
+    <>
+      {hasPlot && <PlotPanel />}
+      <div className={`watches${watched.length > 1 ? " two" : ""}`}>
+        {watched.map((pane, at) => (
+          <Watch
+            key={pane.id}
+            label={watched.length > 1 ? title(pane) : "Run"}
+            track={pane.track!}
+            replay={pane.replay}
+            seconds={seconds}
+            onSeconds={setSeconds}
+            fixed={sameTime && at === 1}
+            beside={watched[1 - at]?.track ?? null}
+          />
+        ))}
+      </div>
+    </>
   );
 }
 
@@ -73,12 +78,7 @@ function Watch({ label, track, replay, seconds, onSeconds, fixed, beside }: Watc
         <div className="watch-title">
           <h2>Values</h2>
         </div>
-        <ValueList
-          track={track}
-          beside={beside}
-          seconds={seconds}
-          none={replay ? "This recording holds no values" : "No values yet"}
-        />
+        <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
       </div>
       {hasWorld && (
         <WorldPane

@@ -92,12 +92,13 @@ export class Studio {
   private linking: ReturnType<typeof setTimeout> | undefined;
   private reloading = false;
 
-  constructor() {
+  /** linked: the address tells what is shown, and this tab keeps it. */
+  constructor(private readonly linked = true) {
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
-      sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -133,7 +134,7 @@ export class Studio {
     const shown = this.recordings.store.get().open[0];
     const moment = this.wanted ?? (shown && { recording: shown.name, time: shown.store.get().time });
     const link = linkTo({ view, panel, selected, ...(moment ? { moment } : {}) });
-    if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+    if (this.linked && link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
   }
 
   /** The same for a time that may change with every frame: browsers limit how often an address changes. */
@@ -222,6 +223,11 @@ export class Studio {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();
+  }
+
+  /** Opens the page for operators in a tab of its own, with the key of this one, but without its unsaved text. */
+  openOperatingPage(): void {
+    window.open(`operate#token=${this.api.token}`, "_blank", "noopener");
   }
 
   get unsaved(): boolean {

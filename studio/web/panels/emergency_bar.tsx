@@ -19,14 +19,14 @@ function useOpenDialog(): Element | null {
   return dialog;
 }
 
-/** At the top of the window while anything drives devices, also over an open dialog. */
-export function EmergencyBar() {
+/** At the top of the window while anything drives devices, or always; also over an open dialog. */
+export function EmergencyBar({ always = false }: { always?: boolean }) {
   const studio = useStudio();
   const { controllers, told } = useStore(studio.emergency.store, (all) => all);
   const ownRun = useStore(studio.runner.store, ({ kind, state }) => kind === "run" && state === "running");
   const dialog = useOpenDialog();
   // A command that somebody did not obey stays to be read.
-  if (controllers.length === 0 && !ownRun && (told?.done ?? true)) return null;
+  if (!always && controllers.length === 0 && !ownRun && (told?.done ?? true)) return null;
   return (
     <>
       <Bar />

@@ -61,7 +61,7 @@ function keysOf(panels: readonly PanelShown[]): ReadonlyMap<string, StickKeys> {
   return new Map(sticks.slice(0, kinds.length).map(({ path }, at) => [path, kinds[at]!]));
 }
 
-const studio = new Studio(false);
+const studio = new Studio([], false);
 void studio.open();
 createRoot(document.getElementById("root")!).render(
   <StrictMode>

@@ -7,7 +7,7 @@ import { WorldPane } from "../world/world_pane";
 export function SeenWorld() {
   const track = useTrack();
   const there = useSomethingSeen(track);
-  return track && there ? <WorldPane track={track} beside={null} none="" /> : null;
+  return track && there ? <WorldPane title="" track={track} beside={null} none="" /> : null;
 }
 
 /** The data of the followed run. */

@@ -79,7 +79,7 @@ export function OperatorPanel({ panel, pageKeys = null }: OperatorPanelProps) {
           aria-pressed={operated}
           onClick={() => (operated ? operator.letGo(panel.path) : operator.take(panel))}
         >
-          {operated ? "Release" : "Operate"}
+          {operated ? "Stop operating" : "Operate"}
         </button>
       </div>
       <p className="faint" role="status">

@@ -109,7 +109,7 @@ function RunBar({ track }: { track: Track }) {
       {kind !== "run" && kind !== "deployment" && (paused || state === "running") && (
         <IconButton
           name={paused ? "play" : "pause"}
-          label={paused ? "Let the run go on" : "Pause the run"}
+          label={paused ? "Resume the run" : "Pause the run"}
           onClick={() => void studio.runner.control({ command: paused ? "resume" : "pause" })}
         />
       )}
@@ -132,7 +132,7 @@ function StepPlayer() {
       <IconButton name="back" label="Step back" disabled={play.position === 0} onClick={() => player.back()} />
       <IconButton
         name={play.running ? "pause" : "play"}
-        label={play.running ? "Pause" : "Let it run"}
+        label={play.running ? "Pause" : "Play"}
         onClick={() => player.run(!play.running)}
       />
       <IconButton name="forward" label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()} />

@@ -74,11 +74,11 @@ function Controls() {
       <div className="buttons" style={{ marginTop: 0 }}>
         {paced && (
           <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
-            <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
+            <Icon name={paused ? "play" : "pause"} /> {paused ? "Resume" : "Pause"}
           </button>
         )}
         <button onClick={() => void control({ command: "stop" })}>
-          <Icon name="stop" /> {kind === "attach" || kind === "deployment" ? "Let go" : "Stop"}
+          <Icon name="stop" /> {kind === "attach" || kind === "deployment" ? "Stop watching" : "Stop"}
         </button>
       </div>
       {paced && (
@@ -145,7 +145,7 @@ function WhoWaits() {
   return (
     <>
       <div className="buttons">
-        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Close the lens" : "Who waits now?"}</button>
+        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Hide who waits" : "Who waits now?"}</button>
       </div>
       {problem && <p className="faint">{problem}</p>}
       {shown && (

@@ -1,7 +1,7 @@
 import { lazy, Suspense, useEffect } from "react";
 import { ConflictDialog } from "../panels/text/conflict_dialog";
 import { ConnectionBanner } from "../panels/connection_banner";
-import { EmergencyBar } from "../panels/emergency_bar";
+import { LineBar } from "../panels/line/line_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { SidePanel } from "../panels/side_panel";
@@ -11,7 +11,6 @@ import { TrustDialog } from "../panels/trust_dialog";
 import { Watches } from "../panels/plots/watch";
 import { Boundary } from "./boundary";
 import { Centre } from "./centre";
-import { WholePlayer } from "../panels/run/player";
 import { Split } from "./split";
 import { useStore, useStudio } from "../hooks/use";
 
@@ -29,8 +28,8 @@ export function App() {
   useShortcuts();
   return (
     <div className="app" aria-busy={busy}>
-      <EmergencyBar />
       <Toolbar />
+      <LineBar />
       <ConnectionBanner />
       <Split
         left={
@@ -50,7 +49,6 @@ export function App() {
           <Centre />
         </Boundary>
       </Split>
-      <WholePlayer />
       <Watches />
       <Problems />
       {searching && <Search />}

@@ -21,6 +21,9 @@ export const sentenceOf = ({ who, does, because }: Words): string =>
 /** Why a behaviour ended: the transition that ended its last iteration; null: not known. */
 export type Ending = number | null;
 
+/** So many firings before one are searched for what ended the behaviour. */
+const farthest = 4000;
+
 /** Conditions that ask nothing. */
 const asksNothing = new Set(["", "otherwise", "no error", "never"]);
 
@@ -43,6 +46,20 @@ export class Teller {
   ends(transition: number): boolean {
     const role = this.bar(transition)?.bar.role;
     return role === "terminal" || role === "error";
+  }
+
+  /** The firing at a position of a run, with what ended the behaviour before it. */
+  at(run: readonly number[], position: number): Words {
+    const of = (transition: number) => this.net.transitions.at(transition)?.subsystem ?? -1;
+    const transition = run[position]!;
+    if (this.words(transition).kind !== "change") return this.words(transition);
+    for (let at = position - 1; at >= Math.max(0, position - farthest); at -= 1) {
+      const before = run[at]!;
+      if (of(before) !== of(transition)) continue;
+      if (this.ends(before)) return this.words(transition, before);
+      if (this.words(before).kind !== "change") break;
+    }
+    return this.words(transition);
   }
 
   /** The values that its condition read, at the moment of the firing: "memory.battery = 0.18". */

@@ -187,7 +187,7 @@ test("a controller that runs already is watched, and let go", () =>
       const facts = () => other.getByTestId("run-facts").innerText();
       const before = await facts();
       await until(other, async () => (await facts()) !== before, "more of its run");
-      await button(other, "Let go").click();
+      await button(other, "Stop watching").click();
       await other.getByTestId("run-state").getByText("it runs on").waitFor();
     } finally {
       await beside.close();

@@ -9,7 +9,7 @@ import { Player } from "../panels/run/player";
 import { StartPage } from "../panels/start_page";
 import { useStore, useStudio } from "../hooks/use";
 
-/** The part between the text and the side panel: it shows the system. */
+/** The panel in the middle: it shows the system. */
 export function Centre() {
   const studio = useStudio();
   const { project, problem } = useStore(studio.project, (all) => all);
@@ -28,7 +28,7 @@ export function Centre() {
   // The controls of the first pane are in the line of the run, below the toolbar.
   const players = beside ? panes.map((pane, at) => at > 0 && <Player key={pane.id} pane={pane} fixed={sameTime} />) : [];
   return (
-    <main className="centre">
+    <div className="centre">
       {view === "fleet" && project && project.processes.length > 0 ? (
         <>
           <FleetPage />
@@ -42,7 +42,7 @@ export function Centre() {
       ) : (
         <Nets players={players} />
       )}
-    </main>
+    </div>
   );
 }
 

@@ -17,7 +17,7 @@ export function LineBar() {
   const shown = useShown();
   if (!driving && shown === null) return null;
   return (
-    <section className="line-bar" aria-label="Run and emergency stop">
+    <section className="line-bar" aria-label="The run">
       {/* It is there even if the rest fails. */}
       <EmergencyBar />
       {shown !== null && (

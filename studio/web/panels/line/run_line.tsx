@@ -58,7 +58,7 @@ function Controls() {
     <>
       {paced && (
         <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
-          <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
+          <Icon name={paused ? "play" : "pause"} /> {paused ? "Resume" : "Pause"}
         </button>
       )}
       <button title={watched ? "The controller runs on" : "Ends the run"} onClick={() => void control({ command: "stop" })}>

@@ -82,7 +82,7 @@ export function StepPlayer() {
       <IconButton name="back" label="Step back" disabled={play.position === 0} onClick={() => player.back()} />
       <IconButton
         name={play.running ? "pause" : "play"}
-        label={play.running ? "Pause" : "Let it run"}
+        label={play.running ? "Pause" : "Play"}
         onClick={() => player.run(!play.running)}
       />
       <IconButton name="forward" label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()} />

@@ -68,7 +68,7 @@ function WhoWaits() {
   return (
     <>
       <div className="buttons">
-        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Close the lens" : "Who waits now?"}</button>
+        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Hide who waits" : "Who waits now?"}</button>
       </div>
       {problem && <p className="faint">{problem}</p>}
       {shown && (

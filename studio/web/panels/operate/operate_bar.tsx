@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import { EmergencyBar } from "../emergency_bar";
+import { EmergencyBar, useDriving } from "../emergency_bar";
 import { Icon } from "../icons";
 import { reason, stateTitles } from "../pane_title";
 
@@ -20,21 +20,13 @@ export function OperateBar() {
   );
 }
 
-/** Whether devices may move in real time: only then is there something that an emergency stop stops. */
-function useDrives(): boolean {
-  const studio = useStudio();
-  const { kind, state } = useStore(studio.runner.store, (all) => all);
-  const { controllers, told } = useStore(studio.emergency.store, (all) => all);
-  return controllers.length > 0 || told?.done === false || (kind === "run" && state === "running");
-}
-
 function StopPlace() {
   const studio = useStudio();
   const { kind, state } = useStore(studio.runner.store, (all) => all);
   const simulated = kind === "simulate" && (state === "running" || state === "paused");
-  if (useDrives() || !simulated) return <EmergencyBar always />;
+  if (useDriving() || !simulated) return <EmergencyBar always />;
   return (
-    <section className="emergency" aria-label="Stop of the simulation">
+    <section className="emergency emergency-part" aria-label="Stop of the simulation">
       <button
         className="emergency-stop of-simulation"
         title="Ends the simulated run"
@@ -51,7 +43,7 @@ function Operated() {
   const studio = useStudio();
   const name = useStore(studio.project, (all) => all.project?.name ?? "");
   const { kind, state, why } = useStore(studio.runner.store, (all) => all);
-  const drives = useDrives();
+  const drives = useDriving();
   const simulatedWorld = useSimulatedWorld();
   if (state === "idle") return <p role="status">Nothing runs.</p>;
   const going = state === "running" || state === "paused";

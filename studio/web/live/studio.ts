@@ -103,7 +103,7 @@ export class Studio {
    * panels: all panels of the page. linked: the address tells what is shown, and this tab keeps it.
    */
   constructor(
-    private readonly panels: readonly Places[],
+    readonly panels: readonly Places[],
     private readonly linked = true,
   ) {
     followDock(this.view, this.dock);

@@ -3,6 +3,8 @@ import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
+import { Dock } from "./dock";
+import { followDock } from "./dock_view";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -14,6 +16,7 @@ import { Play } from "./play";
 import { PlottedRecordings } from "./plotted";
 import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
+import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
@@ -71,9 +74,12 @@ export class Studio {
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly dock = new Dock();
+  /** The seconds that timelines and curves show. */
+  readonly watched = new Store({ seconds: 10 });
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
-    view: "net",
+    view: "structure",
     panel: "inspect",
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
@@ -93,15 +99,23 @@ export class Studio {
   private serverStart: string | undefined;
   /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
+  private readonly linkedPanel = readLink(location.hash).panel;
   private linking: ReturnType<typeof setTimeout> | undefined;
   private reloading = false;
 
-  constructor() {
+  /**
+   * panels: all panels of the page. linked: the address tells what is shown, and this tab keeps it.
+   */
+  constructor(
+    readonly panels: readonly Places[],
+    private readonly linked = true,
+  ) {
+    followDock(this.view, this.dock);
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
-      sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -137,7 +151,7 @@ export class Studio {
     const shown = this.recordings.store.get().open[0];
     const moment = this.wanted ?? (shown && { recording: shown.name, time: shown.store.get().time });
     const link = linkTo({ view, panel, selected, ...(moment ? { moment } : {}) });
-    if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+    if (this.linked && link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
   }
 
   /** The same for a time that may change with every frame: browsers limit how often an address changes. */
@@ -162,6 +176,10 @@ export class Studio {
   async open(): Promise<void> {
     try {
       const asked = this.api.project();
+      void asked.then(
+        (project) => this.beginDock(fileOf(project)),
+        () => this.beginDock(""),
+      );
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
@@ -174,6 +192,15 @@ export class Studio {
     if (this.wanted) void this.goTo(this.wanted);
     this.connection.open();
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
+  }
+
+  /** The panels as they were kept for this project, and the one that the address names. */
+  private beginDock(project: string): void {
+    // The page for operators has no panels of its own to keep.
+    if (this.panels.length === 0) return;
+    this.dock.choose(this.view.get().panel);
+    this.dock.begin(project, this.panels, innerWidth);
+    if (this.linkedPanel) this.dock.open(this.linkedPanel);
   }
 
   /** The project may have changed with the file: its name, its simulated world. */
@@ -203,6 +230,7 @@ export class Studio {
     if (!this.project.get().project) {
       const project = await this.api.project();
       this.project.set({ project, problem: "" });
+      this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
       this.plots.restore(fileOf(project));
@@ -228,6 +256,11 @@ export class Studio {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();
+  }
+
+  /** Opens the page for operators in a tab of its own, with the key of this one, but without its unsaved text. */
+  openOperatingPage(): void {
+    window.open(`operate#token=${this.api.token}`, "_blank", "noopener");
   }
 
   get unsaved(): boolean {

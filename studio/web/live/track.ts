@@ -1,10 +1,11 @@
 import type { NetModel } from "../model/net/net";
+import { EventLog } from "../model/run/event_log";
 import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
 import { ArrivalLog } from "../model/plots/arrivals";
-import type { Arrival, PathRow } from "../model/protocol";
+import type { Arrival, FiringRow, PathRow } from "../model/protocol";
 import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 
@@ -28,6 +29,7 @@ export class Track {
   readonly series: Series;
   /** When the inputs got new values of their senders, by path of the input. */
   readonly arrivals: ArrivalLog;
+  readonly log: EventLog;
   path: Pose[] = [];
   /** All firings so far. */
   firings = 0;
@@ -51,6 +53,7 @@ export class Track {
     this.timeline = whole ? new Timeline(net, Infinity) : new Timeline(net);
     this.series = whole ? new Series(Infinity) : new Series();
     this.arrivals = whole ? new ArrivalLog(Infinity) : new ArrivalLog();
+    this.log = whole ? new EventLog(net, Infinity) : new EventLog(net);
   }
 
   /** The number of firings that are only counted: there were too many to send, or no page was connected. */
@@ -60,6 +63,19 @@ export class Track {
 
   get end(): number {
     return Math.max(this.now, this.known);
+  }
+
+  fired(row: FiringRow): void {
+    this.timeline.add(row[0], row[1]);
+    this.log.fired(row);
+  }
+
+  /** The running behaviours at a time, by subsystem. Needed if firings are missing. */
+  tell(time: number, running: ReadonlyMap<number, string>): void {
+    for (const { path, segments } of this.timeline.tell(time, running)) {
+      const { behaviour } = segments.at(-1)!;
+      if (behaviour) this.log.add({ t: time, kind: "behaviour", who: path, text: `is in ${behaviour}` });
+    }
   }
 
   /** A live run is shown at its current time. */

@@ -17,6 +17,14 @@ const pause = 60;
 /** The type of a signal that is dragged. */
 export const dragged = "application/x-tessera-signal";
 
+/** A hook: whether there is a plot to show, and a run whose values are in it. */
+export function usePlot(): boolean {
+  const studio = useStudio();
+  const track = useStore(studio.scene.store, ({ panes }) => panes.some((one) => one.track !== null));
+  const plot = useStore(studio.plots.store, ({ plots }) => plots.length > 1 || plots.some(({ signals }) => signals.length > 0));
+  return track && plot;
+}
+
 /** The plot of the user: several signals of several runs over one axis of time. */
 export function PlotPanel() {
   const studio = useStudio();

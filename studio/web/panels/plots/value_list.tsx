@@ -112,7 +112,10 @@ function ValueRow({ signal, track, seconds, plotted }: { signal: Signal; track: 
         aria-pressed={plotted}
         draggable
         title={`${title}: ${plotted ? "remove from" : "add to"} the plot (click, or drag it there)`}
-        onClick={() => studio.plots.toggle(signal)}
+        onClick={() => {
+          studio.plots.toggle(signal);
+          if (!plotted) studio.dock.open("plots");
+        }}
         onDragStart={(event) => {
           event.dataTransfer.setData(dragged, JSON.stringify(signal));
           event.dataTransfer.effectAllowed = "copy";

@@ -3,10 +3,10 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { button, element, find, folder, onPage, tab } from "./page.mjs";
+import { button, element, find, folder, onNet, onPage, tab } from "./page.mjs";
 
 test("a fleet of a hundred opens folded, and any of its robots is found and looked into", () =>
-  onPage(folder("fleet"), async (page) => {
+  onNet(folder("fleet"), async (page) => {
     await page.locator(".sheet").first().waitFor();
     assert.equal(await page.locator(".page.agent.folded").count(), 100);
     assert.equal(await page.locator(".sheet").count(), 1);
@@ -31,6 +31,7 @@ test("ten thousand robots open with less than five megabytes, and one of them is
     let bytes = 0;
     network.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
     await page.goto(server.url);
+    await tab(page, "Net").click();
     await page.locator(".sheet .page").first().waitFor();
     assert.ok(bytes > 400_000 && bytes < 5e6, `${bytes} bytes`);
     await page.getByText("530002 places").waitFor();

@@ -12,7 +12,7 @@ import {
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
+import { useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
 import { keysNow, named } from "../live/editor";
 import { useLens } from "../hooks/use_lens";
@@ -31,29 +31,10 @@ import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useSteadyView } from "./steady_view";
+import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
 import { AgentNode, DeviceNode, SubsystemNode, SurroundingsContext, type Surroundings } from "./structure_nodes";
 
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
-
-/**
- * Shows all of a drawing, with the channels around its boxes, until the user moves it. Returns the function
- * to call after a move.
- */
-function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
-  const flow = useReactFlow();
-  const size = useFlow((state) => `${state.width} ${state.height}`);
-  const moved = useRef(false);
-  useEffect(() => {
-    if (size.startsWith("0 ") || !whole || moved.current) return;
-    const { width, height } = whole;
-    // A small system is not drawn larger than it is.
-    const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
-    const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
-    void flow.fitBounds(box, { duration: 0, padding: 0.03 });
-  }, [size, whole, flow]);
-  // Moves that the page itself makes have no event.
-  return (event) => void (moved.current ||= event !== null);
-}
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -188,6 +169,8 @@ function Drawing() {
   const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
   useSteadyView(drawn === nothing ? undefined : whole);
   const move = useWholeUntilMoved(drawn === nothing ? undefined : whole);
+  const comeNear = useComeNear(drawn, move);
+  useNearness(drawn, comeNear);
   const edges = useMemo(() => wiresOf(drawn), [drawn]);
   const stuck = useMemo(
     () => new Set((lens?.waits ?? []).flatMap(({ channel }) => channelOf(drawn.structure, channel)?.index ?? [])),
@@ -212,11 +195,9 @@ function Drawing() {
   // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
   const click = (event: MouseEvent) => dragged.current || select(selectionOf(event.target as Element));
-  /** Flies to an agent, or to a subsystem in it. */
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);
-    const box = path === null ? undefined : drawing.boxes.get(path.split(".").slice(0, 2).join("."));
-    if (box) void flow.fitBounds(box, { duration: still.matches ? 0 : 350, padding: 0.06 });
+    if (path !== null) comeNear(path);
   };
   const key = (event: KeyboardEvent) => {
     const thing = selected === null ? undefined : findThing(structure, selected);

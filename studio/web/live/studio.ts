@@ -101,7 +101,7 @@ export class Studio {
   private reloading = false;
 
   /** panels: all panels of the page. */
-  constructor(private readonly panels: readonly Places[]) {
+  constructor(readonly panels: readonly Places[]) {
     followDock(this.view, this.dock);
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);

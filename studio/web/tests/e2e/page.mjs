@@ -112,7 +112,7 @@ export const checked = (page) => page.locator('.app[aria-busy="true"]').waitFor(
 /** Waits until the text as it is now has no problems. */
 export async function noProblems(page) {
   await checked(page);
-  await page.getByText("No problems").waitFor();
+  await page.getByTestId("problem-count").getByText("No problems").waitFor();
 }
 
 /** The text of the page that is not saved, once the last edit is done; undefined: all is saved. */

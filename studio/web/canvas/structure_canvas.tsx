@@ -168,8 +168,9 @@ function Drawing() {
   const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
   const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
   useSteadyView(drawn === nothing ? undefined : whole);
-  const move = useWholeUntilMoved(drawn === nothing ? undefined : whole);
-  const comeNear = useComeNear(drawn, move);
+  const moved = useRef(false);
+  const comeNear = useComeNear(drawn, moved);
+  useWholeUntilMoved(drawn, whole, comeNear, moved);
   useNearness(drawn, comeNear);
   const edges = useMemo(() => wiresOf(drawn), [drawn]);
   const stuck = useMemo(
@@ -209,7 +210,10 @@ function Drawing() {
     const added = named("agent", keysNow(["agents"]), (name) => insert(["agents"], name, freshAgent));
     void studio.change(added.wish, () => ({ selected: added.name, panel: "inspect" }));
   };
-  const overview = () => void flow.fitBounds(whole, { duration: still.matches ? 0 : 350, padding: 0.03 });
+  const overview = () => {
+    moved.current = false;
+    void flow.fitBounds(whole, { duration: still.matches ? 0 : 350, padding: 0.03 });
+  };
   const counts = zoom * mostBundleLetters >= leastPixels;
   return (
     <div className="canvas structure" data-testid="structure">
@@ -243,7 +247,8 @@ function Drawing() {
             nodes={nodes}
             edges={edges}
             nodeTypes={nodeTypes}
-            onMove={move}
+            // Moves that the page itself makes have no event.
+            onMove={(event) => void (moved.current ||= event !== null)}
             onConnect={connect}
             onConnectStart={() => (dragged.current = true)}
             onConnectEnd={dragEnds}

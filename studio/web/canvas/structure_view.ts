@@ -15,23 +15,28 @@ const duration = () => (still.matches ? 0 : 350);
 const nearest = 1.25;
 
 /**
- * Shows all of a drawing, with the channels around its boxes, until the user moves it. Returns the function
- * to call after a move.
+ * Shows all of a drawing, with the channels around its boxes, until the user moves it. If an edit makes it too large for
+ * its letters, it stays near to what was edited. Returns the function to call after a move.
  */
-export function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
+export function useWholeUntilMoved(drawn: Drawn, whole: Box, near: (path: string) => void, moved: { current: boolean }): void {
   const flow = useReactFlow();
+  const studio = useStudio();
   const size = useFlow((state) => `${state.width} ${state.height}`);
-  const moved = useRef(false);
+  const last = useRef<{ whole: Box; readable: boolean } | null>(null);
   useEffect(() => {
-    if (size.startsWith("0 ") || !whole || moved.current) return;
+    const [across, down] = size.split(" ").map(Number) as [number, number];
+    if (across === 0 || drawn === nothing || moved.current) return;
     const { width, height } = whole;
     // A small system is not drawn larger than it is.
     const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
     const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
-    void flow.fitBounds(box, { duration: 0, padding: 0.03 });
-  }, [size, whole, flow]);
-  // Moves that the page itself makes have no event.
-  return useCallback((event) => void (moved.current ||= event !== null), []);
+    const readable = Math.min(across / least.width, down / least.height) * 0.97 >= drawn.levels.all;
+    const { selected } = studio.view.get();
+    const isEdited = last.current !== null && last.current.whole !== whole && last.current.readable;
+    last.current = { whole, readable };
+    if (isEdited && !readable && selected?.includes(".")) near(selected);
+    else void flow.fitBounds(box, { duration: 0, padding: 0.03 });
+  }, [size, whole, drawn, flow, near, moved, studio]);
 }
 
 /** The boxes of an element: all of it is to be visible, and its middle if that is not possible. */
@@ -55,7 +60,7 @@ function boxesOf({ structure, drawing }: Drawn, selection: string): { whole: Box
 const partOf = (path: string) => path.split(".").slice(0, 2).join(".");
 
 /** A function that moves the view to an element, so near that what is in a subsystem can be read. */
-export function useComeNear(drawn: Drawn, move: (event: unknown) => void): (path: string) => void {
+export function useComeNear(drawn: Drawn, moved: { current: boolean }): (path: string) => void {
   const flow = useReactFlow();
   const store = useStoreApi();
   return useCallback(
@@ -63,7 +68,7 @@ export function useComeNear(drawn: Drawn, move: (event: unknown) => void): (path
       const found = boxesOf(drawn, path);
       const { width, height } = store.getState();
       if (!found || width === 0) return;
-      move({});
+      moved.current = true;
       const { whole, middle } = found;
       const fits = 0.92 * Math.min(width / whole.width, height / whole.height);
       const least = path.includes(".") ? drawn.levels.all : 0;
@@ -71,7 +76,7 @@ export function useComeNear(drawn: Drawn, move: (event: unknown) => void): (path
       const at = fits >= zoom ? whole : middle;
       void flow.setCenter(at.x + at.width / 2, at.y + at.height / 2, { zoom, duration: duration() });
     },
-    [drawn, flow, store, move],
+    [drawn, flow, store, moved],
   );
 }
 

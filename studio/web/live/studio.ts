@@ -89,6 +89,7 @@ export class Studio {
     ...linkedView(),
     line: null,
     flight: null,
+    near: null,
     folds: new Map(),
     searching: false,
   });
@@ -339,6 +340,12 @@ export class Studio {
 
   showLine(line: number): void {
     this.view.set({ line: { line, request: (this.view.get().line?.request ?? 0) + 1 } });
+  }
+
+  /** Selects an element, and shows it in the structure from near. */
+  comeNear(path: string, structure: Structure): void {
+    this.choose(path, structure);
+    this.view.set({ view: "structure", near: path });
   }
 
   /** Moves the drawing of the net to an element. */

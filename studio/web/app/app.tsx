@@ -1,7 +1,7 @@
 import { useEffect } from "react";
 import { ConflictDialog } from "../panels/text/conflict_dialog";
 import { ConnectionBanner } from "../panels/connection_banner";
-import { EmergencyBar } from "../panels/emergency_bar";
+import { LineBar } from "../panels/line/line_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { Toolbar } from "../panels/toolbar";
@@ -10,7 +10,6 @@ import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
 import { Boundary } from "./boundary";
 import { Dock } from "./dock";
-import { WholePlayer } from "../panels/run/player";
 import { useStore, useStudio } from "../hooks/use";
 
 export function App() {
@@ -24,13 +23,12 @@ export function App() {
   useShortcuts();
   return (
     <div className="app" aria-busy={busy}>
-      <EmergencyBar />
       <Toolbar />
+      <LineBar />
       <ConnectionBanner />
       <Boundary>
         <Dock />
       </Boundary>
-      <WholePlayer />
       <Problems />
       {searching && <Search />}
       <ConflictDialog />

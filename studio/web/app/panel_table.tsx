@@ -3,6 +3,7 @@ import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Places } from "../model/dock/ready_layouts";
 import type { PanelName } from "../model/view_state";
 import { InspectPanel } from "../panels/inspect_panel";
+import { PlotPanel, usePlot } from "../panels/plots/plot_panel";
 import { Timelines, ValueLists, Worlds } from "../panels/plots/watch";
 import { PlayPanel } from "../panels/run/play_panel";
 import { RecordingsPanel } from "../panels/run/recordings_panel";
@@ -15,8 +16,6 @@ const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export interface Panel extends Places {
   name: PanelName;
-  /** The text of its tab. */
-  title: string;
   component: ComponentType;
   /** Whether its component stays while another tab is in front of it. */
   stays?: boolean;
@@ -61,7 +60,15 @@ export const panelTable: readonly Panel[] = [
     operate: "left",
     closed: ["operate"],
   },
-  { name: "inspect", title: "Element", component: Element, edit: "right", debug: "right", operate: "middle" },
+  {
+    name: "inspect",
+    title: "Element",
+    component: Element,
+    edit: "right",
+    debug: "right",
+    operate: "middle",
+    closed: ["operate"],
+  },
   { name: "verify", title: "Verify", component: Verify, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
   { name: "play", title: "Play", component: Play, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
   { name: "run", title: "Run", component: Run, edit: "right", debug: "right", operate: "right" },
@@ -84,5 +91,6 @@ export const panelTable: readonly Panel[] = [
     debug: "middle",
     operate: "corner",
   },
+  { name: "plots", title: "Plots", component: PlotPanel, useContent: usePlot, edit: "below", debug: "below", operate: "below" },
   { name: "world", title: "World", component: Worlds, useContent: useWorld, edit: "end", debug: "end", operate: "end" },
 ];

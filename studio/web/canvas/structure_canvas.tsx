@@ -12,7 +12,7 @@ import {
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
+import { useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
 import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
@@ -31,29 +31,10 @@ import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useSteadyView } from "./steady_view";
 import { selectionAt, StructureHands } from "./structure_hands";
+import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
 import { AgentNode, DeviceNode, SubsystemNode, SurroundingsContext, type Surroundings } from "./structure_nodes";
 
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
-
-/**
- * Shows all of a drawing, with the channels around its boxes, until the user moves it. Returns the function
- * to call after a move.
- */
-function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
-  const flow = useReactFlow();
-  const size = useFlow((state) => `${state.width} ${state.height}`);
-  const moved = useRef(false);
-  useEffect(() => {
-    if (size.startsWith("0 ") || !whole || moved.current) return;
-    const { width, height } = whole;
-    // A small system is not drawn larger than it is.
-    const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
-    const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
-    void flow.fitBounds(box, { duration: 0, padding: 0.03 });
-  }, [size, whole, flow]);
-  // Moves that the page itself makes have no event.
-  return (event) => void (moved.current ||= event !== null);
-}
 
 const still = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -184,7 +165,10 @@ function Drawing() {
   const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
   const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
   useSteadyView(drawn === nothing ? undefined : whole);
-  const move = useWholeUntilMoved(drawn === nothing ? undefined : whole);
+  const moved = useRef(false);
+  const comeNear = useComeNear(drawn, moved);
+  useWholeUntilMoved(drawn, whole, comeNear, moved);
+  useNearness(drawn, comeNear);
   const edges = useMemo(() => wiresOf(drawn), [drawn]);
   const stuck = useMemo(
     () => new Set((lens?.waits ?? []).flatMap(({ channel }) => channelOf(drawn.structure, channel)?.index ?? [])),
@@ -209,18 +193,19 @@ function Drawing() {
   // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
   const click = (event: MouseEvent) => dragged.current || select(selectionAt(event.target as Element));
-  /** Flies to an agent, or to a subsystem in it. */
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);
-    const box = path === null ? undefined : drawing.boxes.get(path.split(".").slice(0, 2).join("."));
-    if (box) void flow.fitBounds(box, { duration: still.matches ? 0 : 350, padding: 0.06 });
+    if (path !== null) comeNear(path);
   };
   const area = useRef<HTMLDivElement>(null);
   const drag = () => {
     dragged.current = true;
     addEventListener("pointerup", dragEnds, { once: true });
   };
-  const overview = () => void flow.fitBounds(whole, { duration: still.matches ? 0 : 350, padding: 0.03 });
+  const overview = () => {
+    moved.current = false;
+    void flow.fitBounds(whole, { duration: still.matches ? 0 : 350, padding: 0.03 });
+  };
   const counts = zoom * mostBundleLetters >= leastPixels;
   return (
     <div className="canvas structure" data-testid="structure">
@@ -255,7 +240,8 @@ function Drawing() {
             nodes={nodes}
             edges={edges}
             nodeTypes={nodeTypes}
-            onMove={move}
+            // Moves that the page itself makes have no event.
+            onMove={(event) => void (moved.current ||= event !== null)}
             onConnect={connect}
             onConnectStart={() => (dragged.current = true)}
             onConnectEnd={dragEnds}

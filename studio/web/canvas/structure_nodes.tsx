@@ -67,13 +67,7 @@ export function AgentNode({ data, width = 0, height = 0 }: NodeProps) {
   const text = step === 0 ? undefined : far ? agentFilled(agent, box, step, measured) : agentAbove(agent, box, step, measured);
   return (
     <div className={`agent-box${selected ? " selected" : ""}${ends.includes(agent.name) ? " end" : ""}`}>
-      <button
-        className="agent-name"
-        data-path={agent.name}
-        aria-pressed={selected}
-        title={agent.name + note}
-        aria-label={agent.name + note}
-      >
+      <button className="agent-name" data-path={agent.name} aria-pressed={selected} title={agent.name + note}>
         <span className="agent-title">
           {step === 0 ? agent.name : text ? <Lines of={text} step={step} notes={(text as FilledBox).notes} /> : null}
         </span>
@@ -102,7 +96,7 @@ export function SubsystemNode({ data, width = 0, height = 0 }: NodeProps) {
   const kind = kindTitle[subsystem.kind];
   const box = { x: 0, y: 0, width, height };
   const far = step > 0 && detailAt(step, levels) === "subsystems" && subsystemFilled(subsystem, box, step, measured, now);
-  const title = `${subsystem.path}\n${kind}${rate && `, ${rate}`}`;
+  const title = `${subsystem.path}\n${kind}${rate && `, ${rate}`}${now ? `\n${now} is running` : ""}`;
   return (
     <div className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}>
       <button
@@ -110,7 +104,6 @@ export function SubsystemNode({ data, width = 0, height = 0 }: NodeProps) {
         data-path={subsystem.path}
         aria-pressed={isSelected}
         title={title}
-        aria-label={`${subsystem.name}, ${kind}${rate && `, ${rate}`}${now ? `, ${now} is running` : ""}`}
         style={far ? undefined : { height: head - 2 }}
       >
         {far ? (

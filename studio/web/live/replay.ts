@@ -124,13 +124,14 @@ export class Replay {
 
   private trackOf(recording: Recording): Track {
     const track = new Track(this.net, true);
-    if (recording.marking) track.timeline.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
-    for (const [time, transition] of recording.firings) track.timeline.add(time, transition);
+    if (recording.marking) track.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
+    for (const row of recording.firings) track.fired(row);
     // Those of other parts are loaded when they are shown.
     track.firings = track.listed = recording.total;
     track.known = this.end;
     for (const [path, samples] of Object.entries(recording.values))
       for (const [time, value] of samples) track.series.add(time, path, value);
+    track.arrived(recording.arrivals ?? {});
     track.pathUpTo(this.path);
     return track;
   }
@@ -180,6 +181,11 @@ export class Replay {
       times: firings.map(([time]) => time),
       begin: rest ? this.track.now : this.begin,
     };
+  }
+
+  /** The last firing at the shown time among those of the loaded part, and those before; empty: there is none. */
+  fired(most: number): readonly FiringRow[] {
+    return this.firings.slice(Math.max(0, this.index - most), this.index);
   }
 
   /** Goes to the next or the previous time at which a transition fired. */

@@ -21,6 +21,7 @@ import type {
   SubsystemsEvent,
   ValuesEvent,
 } from "../model/protocol";
+import { noteCommand } from "./run_log";
 import { goesOn, idle, type RunnerState, type Wishes } from "./runner_state";
 import { Stage } from "./stage";
 import { Store } from "./store";
@@ -28,7 +29,7 @@ import { Track } from "./track";
 import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "layout" | "verify" | "deployment" | "driving">;
+type RunEventName = Exclude<keyof Events, "hello" | "spec" | "layout" | "verify" | "deployment" | "driving" | "sweep">;
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
@@ -264,20 +265,23 @@ export class Runner {
     track.known = Math.max(track.known, t);
     track.listed += firings.length;
     this.counted(total);
-    for (const [time, transition] of firings) {
-      track.timeline.add(time, transition);
+    for (const row of firings) {
+      const [, transition] = row;
+      track.fired(row);
       stage.fired(transition, marking === undefined && total > this.marked);
     }
     this.marked = Math.max(this.marked, total);
     if (!marking || !this.setMarked(marking, total)) return;
-    track.timeline.tell(t, runningBehaviours(track.net, stage.marking));
+    track.tell(t, runningBehaviours(track.net, stage.marking));
   }
 
-  private valued({ t, values }: ValuesEvent | RunInfo): void {
+  private valued(event: ValuesEvent | RunInfo): void {
+    const { t, values } = event;
     const { track } = this;
     track?.reached(t);
     // The requested values may be older than values received since.
     track?.values(track.now, values);
+    if ("arrivals" in event && event.arrivals) track?.arrived(event.arrivals, event.arrivals_dropped);
   }
 
   /**
@@ -322,6 +326,7 @@ export class Runner {
     if (run === null) return;
     try {
       await this.api.control(run, request);
+      noteCommand(this.track, request);
       this.store.set({ problem: "" });
     } catch (error) {
       this.store.set({ problem: message(error) });
@@ -347,7 +352,9 @@ export class Runner {
     const { run } = this.store.get();
     if (run === null) return "There is no run.";
     try {
-      await this.api.control(run, { command: "set", path, text });
+      const request: ControlRequest = { command: "set", path, text };
+      await this.api.control(run, request);
+      noteCommand(this.track, request);
       return "";
     } catch (error) {
       return message(error);

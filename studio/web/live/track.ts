@@ -1,9 +1,11 @@
 import type { NetModel } from "../model/net/net";
+import { EventLog } from "../model/run/event_log";
 import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
-import type { PathRow } from "../model/protocol";
+import { ArrivalLog } from "../model/plots/arrivals";
+import type { Arrival, FiringRow, PathRow } from "../model/protocol";
 import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 
@@ -25,6 +27,9 @@ export class Track {
   readonly id = (made += 1);
   readonly timeline: Timeline;
   readonly series: Series;
+  /** When the inputs got new values of their senders, by path of the input. */
+  readonly arrivals: ArrivalLog;
+  readonly log: EventLog;
   path: Pose[] = [];
   /** All firings so far. */
   firings = 0;
@@ -47,6 +52,8 @@ export class Track {
   ) {
     this.timeline = whole ? new Timeline(net, Infinity) : new Timeline(net);
     this.series = whole ? new Series(Infinity) : new Series();
+    this.arrivals = whole ? new ArrivalLog(Infinity) : new ArrivalLog();
+    this.log = whole ? new EventLog(net, Infinity) : new EventLog(net);
   }
 
   /** The number of firings that are only counted: there were too many to send, or no page was connected. */
@@ -58,6 +65,19 @@ export class Track {
     return Math.max(this.now, this.known);
   }
 
+  fired(row: FiringRow): void {
+    this.timeline.add(row[0], row[1]);
+    this.log.fired(row);
+  }
+
+  /** The running behaviours at a time, by subsystem. Needed if firings are missing. */
+  tell(time: number, running: ReadonlyMap<number, string>): void {
+    for (const { path, segments } of this.timeline.tell(time, running)) {
+      const { behaviour } = segments.at(-1)!;
+      if (behaviour) this.log.add({ t: time, kind: "behaviour", who: path, text: `is in ${behaviour}` });
+    }
+  }
+
   /** A live run is shown at its current time. */
   reached(time: number): void {
     this.now = Math.max(this.now, time);
@@ -65,6 +85,17 @@ export class Track {
 
   values(time: number, values: Readonly<Record<string, unknown>>): void {
     for (const [path, value] of Object.entries(values)) this.series.add(time, path, value);
+  }
+
+  /** What came through channels. An input whose last value is not valid has a gap. dropped: some are not listed. */
+  arrived(arrivals: Readonly<Record<string, readonly Arrival[]>>, dropped = 0): void {
+    if (dropped > 0) this.arrivals.interrupt(this.now);
+    for (const [path, rows] of Object.entries(arrivals))
+      for (const [time, written, valid] of rows) {
+        if (!valid) this.series.lose(time, path);
+        else if (this.arrivals.isInvalid(path)) this.series.regain(time, path);
+        this.arrivals.add(path, time, written, valid);
+      }
   }
 
   pose(pose: Pose): void {

@@ -51,7 +51,10 @@ const options = {
   // From above to below in the order of the file: what leads back is an arrow upwards.
   "elk.layered.cycleBreaking.strategy": "MODEL_ORDER",
   "elk.layered.nodePlacement.strategy": "NETWORK_SIMPLEX",
-  "elk.separateConnectedComponents": "false",
+  // Behaviours that no entry leads to yet stand in rows.
+  "elk.separateConnectedComponents": "true",
+  "elk.spacing.componentComponent": "14",
+  "elk.aspectRatio": "1.2",
   "org.eclipse.elk.json.edgeCoords": "ROOT",
   "org.eclipse.elk.json.shapeCoords": "ROOT",
 };

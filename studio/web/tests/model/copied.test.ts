@@ -61,7 +61,7 @@ describe("an element in the clipboard", () => {
     ] as const) {
       const copied = readCopied(copiedText(structure, thing(path))!.replaceAll("\n", "\r\n"))!;
       expect(copied.kind).toBe(kind);
-      expect(copied.text).toBe(elementText(structure.yaml, (thing(path).of as { yaml: string[] }).yaml));
+      expect(copied.text).toBe(elementText(structure.yaml, (thing(path).of as unknown as { yaml: string[] }).yaml));
     }
   });
 

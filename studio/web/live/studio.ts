@@ -13,6 +13,7 @@ import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
+import { Guide } from "./guide";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -67,6 +68,7 @@ export class Studio {
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly guide = new Guide(localStorage);
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
     view: "structure",

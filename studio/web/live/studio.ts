@@ -3,6 +3,8 @@ import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
+import { Dock } from "./dock";
+import { followDock } from "./dock_view";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -12,6 +14,7 @@ import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
+import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
 import { Guide } from "./guide";
 import { Lens } from "./lens";
@@ -69,6 +72,9 @@ export class Studio {
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
   readonly guide = new Guide(localStorage);
+  readonly dock = new Dock();
+  /** The seconds that timelines and curves show. */
+  readonly watched = new Store({ seconds: 10 });
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
     view: "structure",
@@ -81,6 +87,7 @@ export class Studio {
     ...linkedView(),
     line: null,
     flight: null,
+    near: null,
     folds: new Map(),
     searching: false,
   });
@@ -91,15 +98,23 @@ export class Studio {
   private serverStart: string | undefined;
   /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
+  private readonly linkedPanel = readLink(location.hash).panel;
   private linking: ReturnType<typeof setTimeout> | undefined;
   private reloading = false;
 
-  constructor() {
+  /**
+   * panels: all panels of the page. linked: the address tells what is shown, and this tab keeps it.
+   */
+  constructor(
+    readonly panels: readonly Places[],
+    private readonly linked = true,
+  ) {
+    followDock(this.view, this.dock);
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
-      sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -135,7 +150,7 @@ export class Studio {
     const shown = this.recordings.store.get().open[0];
     const moment = this.wanted ?? (shown && { recording: shown.name, time: shown.store.get().time });
     const link = linkTo({ view, panel, selected, ...(moment ? { moment } : {}) });
-    if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+    if (this.linked && link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
   }
 
   /** The same for a time that may change with every frame: browsers limit how often an address changes. */
@@ -160,6 +175,10 @@ export class Studio {
   async open(): Promise<void> {
     try {
       const asked = this.api.project();
+      void asked.then(
+        (project) => this.beginDock(fileOf(project)),
+        () => this.beginDock(""),
+      );
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
@@ -171,6 +190,15 @@ export class Studio {
     if (this.wanted) void this.goTo(this.wanted);
     this.connection.open();
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
+  }
+
+  /** The panels as they were kept for this project, and the one that the address names. */
+  private beginDock(project: string): void {
+    // The page for operators has no panels of its own to keep.
+    if (this.panels.length === 0) return;
+    this.dock.choose(this.view.get().panel);
+    this.dock.begin(project, this.panels, innerWidth);
+    if (this.linkedPanel) this.dock.open(this.linkedPanel);
   }
 
   /** The project may have changed with the file: its name, its simulated world. */
@@ -200,6 +228,7 @@ export class Studio {
     if (!this.project.get().project) {
       const project = await this.api.project();
       this.project.set({ project, problem: "" });
+      this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
     } else if (known !== undefined && known !== start) {
@@ -224,6 +253,11 @@ export class Studio {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();
+  }
+
+  /** Opens the page for operators in a tab of its own, with the key of this one, but without its unsaved text. */
+  openOperatingPage(): void {
+    window.open(`operate#token=${this.api.token}`, "_blank", "noopener");
   }
 
   get unsaved(): boolean {
@@ -302,6 +336,12 @@ export class Studio {
 
   showLine(line: number): void {
     this.view.set({ line: { line, request: (this.view.get().line?.request ?? 0) + 1 } });
+  }
+
+  /** Selects an element, and shows it in the structure from near. */
+  comeNear(path: string, structure: Structure): void {
+    this.choose(path, structure);
+    this.view.set({ view: "structure", near: path });
   }
 
   /** Moves the drawing of the net to an element. */

@@ -226,9 +226,9 @@ test("at 200 % of a usual window all parts are reached, and none covers another"
     await tab(page, "Verify").waitFor({ state: "attached" });
     await drawn(page);
     const boxes = await page.evaluate(() =>
-      [".toolbar", ".centre", ".side.left", ".side.right", ".problems, .status"].flatMap((one) => {
-        const part = document.querySelector(one);
-        if (!part) return [];
+      [...document.querySelectorAll(".toolbar, .dock [role=tabpanel], .problems")].flatMap((part) => {
+        if (part.offsetParent === null) return [];
+        const one = part.id || part.className;
         const { top, bottom, left, right } = part.getBoundingClientRect();
         return [{ one, top, bottom, left, right }];
       }),

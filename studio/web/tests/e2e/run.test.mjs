@@ -122,7 +122,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await tab(page, "Recordings").click();
     await page.locator(".recordings button").first().click();
     await page.getByRole("slider", { name: "Time" }).waitFor();
-    const replayed = page.getByRole("region", { name: /^2/ }).locator(".watch-pane");
+    const replayed = page.getByRole("region", { name: /^Values of 2/ });
     await replayed.getByText("robot.control.motion.linear").waitFor();
     await button(page, "Play").click();
     await until(

@@ -87,6 +87,8 @@ test("in a narrow window the head of the world shows all of its buttons, and nam
     await page.getByRole("button", { name: /^three\.tsr/ }).click();
     await space(page).waitFor();
     await page.setViewportSize({ width: 640, height: 900 });
+    await tab(page, "World").click();
+    await space(page).waitFor();
     const parts = page.locator(".watch-pane.world .watch-title :is(select, button)");
     const pane = await page.locator(".watch-pane.world").boundingBox();
     const boxes = await Promise.all((await parts.all()).map((one) => one.boundingBox()));

@@ -23,3 +23,9 @@ export function detailAt(zoom: number): Detail {
 /** The lines of a name that fit into a box of this height: one to three, of letters of so many pixels. */
 export const linesIn = (height: number, zoom: number, letters: number) =>
   Math.min(3, Math.max(1, Math.floor((height * zoom - 8) / (letters * 1.25))));
+
+/**
+ * The distance of a sheet, by the pixels of its unit: 2 means that lines and letters would be four times too large,
+ * -1 that they are small, -3 that they are dots.
+ */
+export const nearness = (pixels: number) => Math.min(5, Math.max(-3, Math.floor(Math.log2(pixels / 0.95))));

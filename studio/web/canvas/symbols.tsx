@@ -1,7 +1,10 @@
 import { memo, type CSSProperties } from "react";
 import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/net/geometry";
-import { conditionText, nameLines, operationText, pageName, spoken } from "../model/net/labels";
+import { conditionText, operationText, pageName, spoken } from "../model/net/labels";
 import type { NetModel, Page } from "../model/net/net";
+import { strokesOf } from "../model/net/strokes";
+import { mostFarArcs } from "./painted/arcs";
+import { closedName, layerSize, runningSize } from "./closed_name";
 
 /** The paper's graphic language: circle place, double circle page, bar transition, dashed fused place. */
 
@@ -177,75 +180,42 @@ function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open
   );
 }
 
-/** Widths in pixels of boxes with a cut name, and the space beside it. */
-const cutWidths = [40, 56, 76, 100, 130, 170, 220];
-const rim = 10;
-/** The width of a letter, as a part of its height. */
-const letter = 0.62;
-/** The distance of lines, as a part of the height of a letter. */
-const pitch = 1.15;
-
 /**
  * The name in the middle of a page, broken into the lines that allow the largest letters; cut if the whole
  * name is too small.
  */
 function ClosedName({ page, box, child }: { page: Page; box: Box; child: number }) {
-  const name = pageName(page);
-  const middle = { x: box.x + box.width / 2, textAnchor: "middle" as const };
-  const fitting = (lines: string[]) => {
-    const longest = Math.max(4, ...lines.map(({ length }) => length)) * letter;
-    const size = Math.min(34, (box.width - 30) / longest, (box.height - 12) / (lines.length * pitch + 1.6));
-    // Far away, letters grow to their ten pixels if they fit into the frame.
-    const largest = Math.min((box.width - 12) / longest, (box.height - 8) / (lines.length * pitch));
-    return { lines, size, more: largest / size };
-  };
-  const ways = [1, 2, 3].map((most) => fitting(nameLines(name, most)));
-  const { lines, size, more } = ways.reduce((best, one) => (one.size > best.size * 1.15 ? one : best));
-  const centre = box.y + box.height / 2;
-  const below = centre + size / 3 + ((lines.length - 1) * size * pitch) / 2;
+  const { lines, cuts, x, y, size, more, layerAt, runningAt } = closedName(pageName(page), box);
+  const middle = { x, textAnchor: "middle" as const };
   const style = { "--u": size, "--more": more } as CSSProperties;
-  // The width in pixels at which the whole name becomes readable.
-  const whole = (10 / (size * more)) * box.width;
   return (
     <g className="closed-name">
-      {lines.map((line, at) => (
-        <text
-          key={at}
-          className="label large"
-          {...middle}
-          y={centre}
-          dy={`${(at - (lines.length - 1) / 2) * pitch + 0.35}em`}
-          style={style}
-        >
-          {line}
+      {lines.map(({ text, shift }, at) => (
+        <text key={at} className="label large" {...middle} y={y} dy={`${shift}em`} style={style}>
+          {text}
         </text>
       ))}
-      {cutWidths.map((width, at) => {
-        const room = Math.floor((width - rim) / (10 * letter));
-        if (width >= whole) return null;
-        const to = Math.min(whole, cutWidths[at + 1] ?? Infinity);
-        return (
-          <text
-            key={width}
-            className="label cut"
-            {...middle}
-            y={centre}
-            dominantBaseline="central"
-            style={{ "--from": width / box.width, "--to": to / box.width } as CSSProperties}
-          >
-            {name.length > room ? `${name.slice(0, room - 1)}…` : name}
-          </text>
-        );
-      })}
-      <text className="label layer" {...middle} y={below + size * 0.75} style={{ "--u": size * 0.52 } as CSSProperties}>
+      {cuts.map(({ text, from, to }) => (
+        <text
+          key={from}
+          className="label cut"
+          {...middle}
+          y={y}
+          dominantBaseline="central"
+          style={{ "--from": from, "--to": to } as CSSProperties}
+        >
+          {text}
+        </text>
+      ))}
+      <text className="label layer" {...middle} y={layerAt} style={{ "--u": layerSize(size) } as CSSProperties}>
         {page.layer}
       </text>
       <text
         className="label running"
         data-running={child}
         {...middle}
-        y={below + size * 1.75}
-        style={{ "--u": size * 0.75 } as CSSProperties}
+        y={runningAt}
+        style={{ "--u": runningSize(size) } as CSSProperties}
       />
     </g>
   );
@@ -273,11 +243,22 @@ function around(points: readonly Point[]): Box {
   return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
 }
 
+/** A path of lines that do not touch. */
+function separate(lines: Float32Array): string {
+  let path = "";
+  for (let at = 0; at < lines.length; at += 4)
+    path += `M${[0, 1].map((i) => tenth(lines[at + i]!)).join(" ")}L${[2, 3].map((i) => tenth(lines[at + i]!)).join(" ")}`;
+  return path;
+}
+const tenth = (value: number) => Math.round(value * 10) / 10;
+
 export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
-  // So many arcs, so far away, would only be a grey area.
-  if (far && sheet.routes.length > 6000) return null;
-  if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
+  if (far && sheet.routes.length > mostFarArcs) return null;
+  if (far) {
+    const lines = [...strokesOf(net, page, sheet, true).values()].flatMap((one) => [one.lines, one.slanted]);
+    return <path className="arc" d={lines.map(separate).join("")} />;
+  }
   const isDrawn = within(clip);
   return sheet.routes.map((route, at) => {
     if (clip && !isDrawn(around(route.points))) return null;

@@ -1,26 +1,19 @@
-import { lazy, Suspense, useEffect } from "react";
+import { useEffect } from "react";
 import { ConflictDialog } from "../panels/text/conflict_dialog";
 import { ConnectionBanner } from "../panels/connection_banner";
-import { EmergencyBar } from "../panels/emergency_bar";
+import { LineBar } from "../panels/line/line_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
-import { SidePanel } from "../panels/side_panel";
 import { Toolbar } from "../panels/toolbar";
 import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
-import { Watches } from "../panels/plots/watch";
 import { Boundary } from "./boundary";
-import { Centre } from "./centre";
-import { WholePlayer } from "../panels/run/player";
-import { Split } from "./split";
+import { Dock } from "./dock";
 import { useStore, useStudio } from "../hooks/use";
-
-const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export function App() {
   const studio = useStudio();
   const theme = useStore(studio.view, (view) => view.theme);
-  const text = useStore(studio.view, (view) => view.text);
   const searching = useStore(studio.view, (view) => view.searching);
   useEffect(() => {
     document.documentElement.dataset.theme = theme;
@@ -29,29 +22,12 @@ export function App() {
   useShortcuts();
   return (
     <div className="app" aria-busy={busy}>
-      <EmergencyBar />
       <Toolbar />
+      <LineBar />
       <ConnectionBanner />
-      <Split
-        left={
-          text ? (
-            <Suspense fallback={<div className="pane-empty">Loading the text…</div>}>
-              <TextPane />
-            </Suspense>
-          ) : null
-        }
-        right={
-          <Boundary>
-            <SidePanel />
-          </Boundary>
-        }
-      >
-        <Boundary>
-          <Centre />
-        </Boundary>
-      </Split>
-      <WholePlayer />
-      <Watches />
+      <Boundary>
+        <Dock />
+      </Boundary>
       <Problems />
       {searching && <Search />}
       <ConflictDialog />

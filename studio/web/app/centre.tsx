@@ -9,7 +9,7 @@ import { Player } from "../panels/run/player";
 import { StartPage } from "../panels/start_page";
 import { useStore, useStudio } from "../hooks/use";
 
-/** The part between the text and the side panel: it shows the system. */
+/** The panel in the middle: it shows the system. */
 export function Centre() {
   const studio = useStudio();
   const { project, problem } = useStore(studio.project, (all) => all);
@@ -25,16 +25,10 @@ export function Centre() {
     return <Empty title={`${project?.file ?? "The file"} cannot be read`} text={`${unreadable}. It stays as it is.`} />;
   if (blank) return <StartPage />;
   const beside = panes.length > 1;
-  // The structure view has no named panes.
-  const named = beside && view === "net";
-  // The view of a single pane is as wide as the window: see WholePlayer.
-  const players = beside
-    ? panes.map((pane, at) => (
-        <Player key={pane.id} pane={pane} beside={pane.replay ? named : true} fixed={sameTime && at === 1} />
-      ))
-    : [];
+  // The controls of the first pane are in the line of the run, below the toolbar.
+  const players = beside ? panes.map((pane, at) => at > 0 && <Player key={pane.id} pane={pane} fixed={sameTime} />) : [];
   return (
-    <main className="centre">
+    <div className="centre">
       {view === "fleet" && project && project.processes.length > 0 ? (
         <>
           <FleetPage />
@@ -48,7 +42,7 @@ export function Centre() {
       ) : (
         <Nets players={players} />
       )}
-    </main>
+    </div>
   );
 }
 

@@ -3,10 +3,11 @@ import { StrictMode } from "react";
 import { createRoot } from "react-dom/client";
 import { Studio } from "../live/studio";
 import { App } from "./app";
+import { panelTable } from "./panel_table";
 import "./style.css";
 import { StudioContext } from "../hooks/use";
 
-const studio = new Studio();
+const studio = new Studio(panelTable);
 void studio.open();
 createRoot(document.getElementById("root")!).render(
   <StrictMode>

@@ -124,8 +124,8 @@ export class Replay {
 
   private trackOf(recording: Recording): Track {
     const track = new Track(this.net, true);
-    if (recording.marking) track.timeline.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
-    for (const [time, transition] of recording.firings) track.timeline.add(time, transition);
+    if (recording.marking) track.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
+    for (const row of recording.firings) track.fired(row);
     // Those of other parts are loaded when they are shown.
     track.firings = track.listed = recording.total;
     track.known = this.end;
@@ -180,6 +180,11 @@ export class Replay {
       times: firings.map(([time]) => time),
       begin: rest ? this.track.now : this.begin,
     };
+  }
+
+  /** The last firing at the shown time among those of the loaded part, and those before; empty: there is none. */
+  fired(most: number): readonly FiringRow[] {
+    return this.firings.slice(Math.max(0, this.index - most), this.index);
   }
 
   /** Goes to the next or the previous time at which a transition fired. */

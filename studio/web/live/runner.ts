@@ -21,6 +21,7 @@ import type {
   SubsystemsEvent,
   ValuesEvent,
 } from "../model/protocol";
+import { noteCommand } from "./run_log";
 import { goesOn, idle, type RunnerState, type Wishes } from "./runner_state";
 import { Stage } from "./stage";
 import { Store } from "./store";
@@ -264,13 +265,14 @@ export class Runner {
     track.known = Math.max(track.known, t);
     track.listed += firings.length;
     this.counted(total);
-    for (const [time, transition] of firings) {
-      track.timeline.add(time, transition);
+    for (const row of firings) {
+      const [, transition] = row;
+      track.fired(row);
       stage.fired(transition, marking === undefined && total > this.marked);
     }
     this.marked = Math.max(this.marked, total);
     if (!marking || !this.setMarked(marking, total)) return;
-    track.timeline.tell(t, runningBehaviours(track.net, stage.marking));
+    track.tell(t, runningBehaviours(track.net, stage.marking));
   }
 
   private valued({ t, values }: ValuesEvent | RunInfo): void {
@@ -322,6 +324,7 @@ export class Runner {
     if (run === null) return;
     try {
       await this.api.control(run, request);
+      noteCommand(this.track, request);
       this.store.set({ problem: "" });
     } catch (error) {
       this.store.set({ problem: message(error) });
@@ -347,7 +350,9 @@ export class Runner {
     const { run } = this.store.get();
     if (run === null) return "There is no run.";
     try {
-      await this.api.control(run, { command: "set", path, text });
+      const request: ControlRequest = { command: "set", path, text };
+      await this.api.control(run, request);
+      noteCommand(this.track, request);
       return "";
     } catch (error) {
       return message(error);

@@ -3,6 +3,8 @@ import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
+import { Dock } from "./dock";
+import { followDock } from "./dock_view";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -12,6 +14,7 @@ import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
 import { causesOf } from "../model/causes";
+import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
@@ -67,9 +70,12 @@ export class Studio {
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly dock = new Dock();
+  /** The seconds that timelines and curves show. */
+  readonly watched = new Store({ seconds: 10 });
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
   readonly view = new Store<ViewState>({
-    view: "net",
+    view: "structure",
     panel: "inspect",
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
@@ -89,10 +95,13 @@ export class Studio {
   private serverStart: string | undefined;
   /** The time in the address, until its recording is open. */
   private wanted = readLink(location.hash).moment;
+  private readonly linkedPanel = readLink(location.hash).panel;
   private linking: ReturnType<typeof setTimeout> | undefined;
   private reloading = false;
 
-  constructor() {
+  /** panels: all panels of the page. */
+  constructor(readonly panels: readonly Places[]) {
+    followDock(this.view, this.dock);
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
@@ -158,6 +167,10 @@ export class Studio {
   async open(): Promise<void> {
     try {
       const asked = this.api.project();
+      void asked.then(
+        (project) => this.beginDock(fileOf(project)),
+        () => this.beginDock(""),
+      );
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
@@ -169,6 +182,13 @@ export class Studio {
     if (this.wanted) void this.goTo(this.wanted);
     this.connection.open();
     if (this.project.get().project) shareToken(this.api.token, (token) => this.connection.openWith(token));
+  }
+
+  /** The panels as they were kept for this project, and the one that the address names. */
+  private beginDock(project: string): void {
+    this.dock.choose(this.view.get().panel);
+    this.dock.begin(project, this.panels, innerWidth);
+    if (this.linkedPanel) this.dock.open(this.linkedPanel);
   }
 
   /** The project may have changed with the file: its name, its simulated world. */
@@ -198,6 +218,7 @@ export class Studio {
     if (!this.project.get().project) {
       const project = await this.api.project();
       this.project.set({ project, problem: "" });
+      this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
     } else if (known !== undefined && known !== start) {

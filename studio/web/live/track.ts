@@ -1,9 +1,10 @@
 import type { NetModel } from "../model/net/net";
+import { EventLog } from "../model/run/event_log";
 import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
-import type { PathRow } from "../model/protocol";
+import type { FiringRow, PathRow } from "../model/protocol";
 import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 
@@ -25,6 +26,7 @@ export class Track {
   readonly id = (made += 1);
   readonly timeline: Timeline;
   readonly series: Series;
+  readonly log: EventLog;
   path: Pose[] = [];
   /** All firings so far. */
   firings = 0;
@@ -47,6 +49,7 @@ export class Track {
   ) {
     this.timeline = whole ? new Timeline(net, Infinity) : new Timeline(net);
     this.series = whole ? new Series(Infinity) : new Series();
+    this.log = whole ? new EventLog(net, Infinity) : new EventLog(net);
   }
 
   /** The number of firings that are only counted: there were too many to send, or no page was connected. */
@@ -56,6 +59,19 @@ export class Track {
 
   get end(): number {
     return Math.max(this.now, this.known);
+  }
+
+  fired(row: FiringRow): void {
+    this.timeline.add(row[0], row[1]);
+    this.log.fired(row);
+  }
+
+  /** The running behaviours at a time, by subsystem. Needed if firings are missing. */
+  tell(time: number, running: ReadonlyMap<number, string>): void {
+    for (const { path, segments } of this.timeline.tell(time, running)) {
+      const { behaviour } = segments.at(-1)!;
+      if (behaviour) this.log.add({ t: time, kind: "behaviour", who: path, text: `is in ${behaviour}` });
+    }
   }
 
   /** A live run is shown at its current time. */

@@ -2,7 +2,18 @@
 
 export const viewNames = ["net", "structure", "fleet"] as const;
 export type View = (typeof viewNames)[number];
-export const panelNames = ["inspect", "verify", "play", "run", "recordings"] as const;
+export const panelNames = [
+  "drawing",
+  "text",
+  "inspect",
+  "verify",
+  "play",
+  "run",
+  "recordings",
+  "timeline",
+  "values",
+  "world",
+] as const;
 export type PanelName = (typeof panelNames)[number];
 
 export interface ViewState {

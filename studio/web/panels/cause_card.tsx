@@ -65,7 +65,7 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
             aria-pressed={shown}
             onClick={() => (shown ? studio.lens.close() : studio.lens.show(net, cause.atEnd, cause.title))}
           >
-            {shown ? "Close the lens" : "Show who is stuck"}
+            {shown ? "Hide who is stuck" : "Show who is stuck"}
           </button>
         )}
         {withRun?.steps && <button onClick={showRun}>Show the run ({withRun.steps.length} firings)</button>}

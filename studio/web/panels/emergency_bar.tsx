@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { useEffect, useLayoutEffect, useRef, useState, type RefObject } from "react";
 import { createPortal } from "react-dom";
 import { useStore, useStudio } from "../hooks/use";
 import { stoppedOf, type Stopped } from "../live/emergency";
@@ -19,27 +19,62 @@ function useOpenDialog(): Element | null {
   return dialog;
 }
 
-/** At the top of the window while anything drives devices, also over an open dialog. */
-export function EmergencyBar() {
+/** Whether anything drives devices, or a command was given that somebody did not obey: that stays to be read. */
+export function useDriving(): boolean {
   const studio = useStudio();
   const { controllers, told } = useStore(studio.emergency.store, (all) => all);
   const ownRun = useStore(studio.runner.store, ({ kind, state }) => kind === "run" && state === "running");
+  return controllers.length > 0 || ownRun || !(told?.done ?? true);
+}
+
+/** The place of an element in the window, as long as it is needed. */
+function usePlace(of: RefObject<HTMLElement | null>, on: boolean): { top: number; left: number } {
+  const [place, setPlace] = useState({ top: 0, left: 0 });
+  useLayoutEffect(() => {
+    if (!on) return;
+    const look = () => {
+      const { top = 0, left = 0 } = of.current?.getBoundingClientRect() ?? {};
+      setPlace({ top: Math.max(0, top), left: Math.max(0, left) });
+    };
+    look();
+    addEventListener("resize", look);
+    addEventListener("scroll", look, true);
+    return () => {
+      removeEventListener("resize", look);
+      removeEventListener("scroll", look, true);
+    };
+  }, [of, on]);
+  return place;
+}
+
+/** In the line of the run while anything drives devices, and at the same place over an open dialog. */
+export function EmergencyBar() {
+  const driving = useDriving();
   const dialog = useOpenDialog();
-  // A command that somebody did not obey stays to be read.
-  if (controllers.length === 0 && !ownRun && (told?.done ?? true)) return null;
+  const here = useRef<HTMLDivElement>(null);
+  const place = usePlace(here, driving && dialog !== null);
+  if (!driving) return null;
   return (
     <>
-      <Bar />
-      {dialog && createPortal(<Bar over />, dialog)}
+      <div ref={here} className="emergency">
+        <Bar />
+      </div>
+      {dialog &&
+        createPortal(
+          <div className="emergency over" style={place}>
+            <Bar />
+          </div>,
+          dialog,
+        )}
     </>
   );
 }
 
-function Bar({ over = false }: { over?: boolean }) {
+function Bar() {
   const studio = useStudio();
   const { asked } = useStore(studio.emergency.store, (all) => all);
   return (
-    <section className={over ? "emergency over" : "emergency"} aria-label="Emergency stop">
+    <section className="emergency-part" aria-label="Emergency stop">
       <button
         className="emergency-stop"
         title="The safe command for all devices of all running controllers, until you reset it"

@@ -3,6 +3,7 @@ const paths: Record<string, string> = {
   undo: "M5.5 3L2.5 6l3 3M2.5 6H9.5a4 4 0 0 1 0 8H6",
   redo: "M10.5 3l3 3l-3 3M13.5 6H6.5a4 4 0 0 0 0 8H10",
   text: "M3 3.5h10M3 6.5h7M3 9.5h10M3 12.5h6",
+  panels: "M2.5 3h11v10h-11zM6 3v10M6 9h7.5",
   theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 0 1 0 12",
   play: "M5 3l8 5l-8 5z",
   pause: "M5 3v10M11 3v10",

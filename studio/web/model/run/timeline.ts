@@ -68,15 +68,16 @@ export class Timeline {
     this.enter(lane, time, this.enteredBy(transition));
   }
 
-  /** The running behaviours at a time, by subsystem. Needed if firings are missing. */
-  tell(time: number, running: ReadonlyMap<number, string>): void {
-    for (const lane of this.lanes) this.enter(lane, time, running.get(lane.subsystem) ?? "");
+  /** The running behaviours at a time, by subsystem. Needed if firings are missing. Returns the lanes that this changes. */
+  tell(time: number, running: ReadonlyMap<number, string>): Lane[] {
+    return this.lanes.filter((lane) => this.enter(lane, time, running.get(lane.subsystem) ?? ""));
   }
 
-  private enter(lane: Lane, time: number, behaviour: string): void {
-    if ((lane.segments.at(-1)?.behaviour ?? "") === behaviour) return;
+  private enter(lane: Lane, time: number, behaviour: string): boolean {
+    if ((lane.segments.at(-1)?.behaviour ?? "") === behaviour) return false;
     if (lane.segments.length >= this.limit) lane.since = bounded(lane.segments, this.limit)[0]!.start;
     lane.segments.push({ start: time, behaviour });
+    return true;
   }
 
   /** The behaviour that ran at a time, "" for none; undefined: that is no longer known. */

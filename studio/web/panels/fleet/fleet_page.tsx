@@ -32,13 +32,13 @@ export function FleetPage() {
             : `${names.length} processes`}
         </h2>
         {watching ? (
-          <button onClick={() => void studio.runner.control({ command: "stop" })}>Let go</button>
+          <button onClick={() => void studio.runner.control({ command: "stop" })}>Stop watching</button>
         ) : (
           <button className="primary" disabled={busy} onClick={() => void studio.run({ kind: "deployment" })}>
             Watch all processes
           </button>
         )}
-        {busy && !watching && <span className="faint">Another run is shown; end it or let it go first.</span>}
+        {busy && !watching && <span className="faint">Another run is shown. Stop it, or stop watching it, first.</span>}
         {problem && <span className="problem-hint">{problem}</span>}
         {!busy && kind === "deployment" && why && <span role="status">{reason(why)}</span>}
       </header>

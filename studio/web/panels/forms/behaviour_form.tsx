@@ -145,15 +145,13 @@ function GroupForm(shown: Shown) {
       />
       <Sets {...shown} what="group" />
       <NextForm structure={structure} behaviour={behaviour} subsystem={subsystem} />
-      <div className="buttons">
-        {!behaviour.template && (
-          <>
-            <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
-            <button onClick={() => add("group", edits.addGroup)}>Add group</button>
-          </>
-        )}
-        <Remove what="group" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
-      </div>
+      {!behaviour.template && (
+        <div className="buttons">
+          <button onClick={() => add("act", edits.addBehaviour)}>Add behaviour</button>
+          <button onClick={() => add("group", edits.addGroup)}>Add group</button>
+        </div>
+      )}
+      <Remove what="group" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
     </>
   );
 }
@@ -273,9 +271,7 @@ function OneForm(shown: Shown) {
       />
       <CodeForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
-      <div className="buttons">
-        <Remove what="behaviour" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
-      </div>
+      <Remove what="behaviour" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
     </>
   );
 }
@@ -325,7 +321,7 @@ function NextForm({ structure, behaviour, subsystem }: Shown) {
           )}
         </div>
       ))}
-      <button onClick={() => void edit(edits.addNext(behaviour, { to: other, when: "" }))}>Add what follows</button>
+      <button onClick={() => void edit(edits.addNext(behaviour, { to: other, when: "" }))}>Add a next behaviour</button>
     </fieldset>
   );
 }

@@ -60,9 +60,7 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
         onChange={(timeout) => set({ timeout })}
       />
       {structure.yaml.map(at) && <ObjectFields structure={structure} at={at} shapes={timeouts} />}
-      <div className="buttons">
-        <Remove what="channel" at={at} select={null} />
-      </div>
+      <Remove what="channel" at={at} select={null} />
     </>
   );
 }

@@ -93,8 +93,8 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
       <div className="buttons">
         <AddSubsystem agent={agent} />
         {!agent.template && <button onClick={() => void edit(edits.makeTemplate(agent), agent.name)}>Make it a template</button>}
-        <Remove what="agent" at={agent.yaml} select={null} />
       </div>
+      <Remove what="agent" at={agent.yaml} select={null} />
     </>
   );
 }
@@ -171,7 +171,6 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         <button onClick={() => addBuffer("input", "input")}>Add input</button>
         <button onClick={() => addBuffer("output", "output")}>Add output</button>
         {subsystem.kind !== "control" && <button onClick={() => addBuffer("real", "device")}>Add real buffer</button>}
-        <Remove what="subsystem" at={subsystem.yaml} select={agent.name} />
       </div>
       <ObjectFields structure={structure} at={subsystem.yaml} shapes={optionsOf[subsystem.kind]} />
       <MapForm
@@ -208,6 +207,7 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
           help={{ ...safeHelp(subsystem), ...limitsHelp(structure, subsystem) }}
         />
       )}
+      <Remove what="subsystem" at={subsystem.yaml} select={agent.name} />
     </>
   );
 }
@@ -262,9 +262,7 @@ function BufferForm({ structure, buffer, subsystem }: { structure: Structure; bu
       <TypeInputs structure={structure} value={buffer.type} onChange={(change) => edit(changed(buffer.yaml, change))} />
       <LimitsForm structure={structure} subsystem={subsystem} buffer={buffer} />
       <ConnectForm key={buffer.selection} structure={structure} buffer={buffer} />
-      <div className="buttons">
-        <Remove what="buffer" at={buffer.yaml} select={subsystem.path} />
-      </div>
+      <Remove what="buffer" at={buffer.yaml} select={subsystem.path} />
     </>
   );
 }

@@ -42,7 +42,7 @@ export function useEdit() {
     });
 }
 
-/** Removes an element. It asks first if something else goes or changes with it. */
+/** Removes an element; it stands at the end of a form, apart from what adds. It asks first if something else goes or changes with it. */
 export function Remove({ what, at, select }: RemoveProps) {
   const studio = useStudio();
   const edit = useEdit();
@@ -59,9 +59,11 @@ export function Remove({ what, at, select }: RemoveProps) {
   };
   if (!asking)
     return (
-      <button className="danger" onClick={() => void removeIfAlone()}>
-        Remove {what}
-      </button>
+      <div className="buttons apart">
+        <button className="danger" onClick={() => void removeIfAlone()}>
+          Remove {what}
+        </button>
+      </div>
     );
   return (
     <div className="asked" role="group" aria-label={`Remove ${what}?`}>

@@ -140,7 +140,7 @@ export function ObjectFields(props: ObjectFieldsProps) {
       })}
       {left.length > 0 && (
         <Choice
-          label="Also give"
+          label="Add a setting"
           value=""
           choices={[{ value: "", title: "…" }, ...left.map((one) => ({ value: one.key, title: label(one) }))]}
           onChange={(key) => want([...wanted, key])}

@@ -127,12 +127,14 @@ export function TemplateForm({ structure, template }: { structure: Structure; te
       <div className="buttons">
         <AddSubsystem agent={template} />
         <button onClick={addAgent}>Add an agent of it</button>
-        {!used && (
+      </div>
+      {!used && (
+        <div className="buttons apart">
           <button className="danger" onClick={() => void edit(edits.remove(template.yaml), null)}>
             Remove template
           </button>
-        )}
-      </div>
+        </div>
+      )}
     </>
   );
 }

@@ -1,6 +1,5 @@
-import { useLayoutEffect, useRef, useState } from "react";
-import { useHasWorld, useStore, useStudio } from "../../hooks/use";
-import type { Replay } from "../../live/replay";
+import { useLayoutEffect, useRef } from "react";
+import { useStore, useStudio } from "../../hooks/use";
 import type { Track } from "../../live/track";
 import { drawTimeline, timeAt } from "./draw_timeline";
 import { Painted } from "../world/painted";
@@ -8,86 +7,101 @@ import { usePaneTitle } from "../pane_title";
 import { ValueList } from "./value_list";
 import { WorldPane } from "../world/world_pane";
 
-/** The panels below the drawing during a run or replay: timeline, values, and the world from above. */
-export function Watches() {
+/** The run or recording of each pane, with the one beside it. */
+function useWatched() {
   const studio = useStudio();
   const { panes, sameTime } = useStore(studio.scene.store, (all) => all);
-  const [seconds, setSeconds] = useState(10);
   const title = usePaneTitle();
   const watched = panes.filter(({ track }) => track !== null);
-  if (watched.length === 0) return null;
+  return watched.map((pane, at) => ({
+    id: pane.id,
+    label: watched.length > 1 ? title(pane) : "Run",
+    /** Its title, if there are two. */
+    title: watched.length > 1 ? title(pane) : "",
+    track: pane.track!,
+    replay: pane.replay,
+    /** Whether its time is that of the pane beside it. */
+    fixed: sameTime && at === 1,
+    beside: watched[1 - at]?.track ?? null,
+  }));
+}
+
+/** Behaviours and firings over time, of each run or recording that is shown. */
+export function Timelines() {
+  const studio = useStudio();
+  const seconds = useStore(studio.watched, (all) => all.seconds);
   return (
-    <div className={`watches${watched.length > 1 ? " two" : ""}`}>
-      {watched.map((pane, at) => (
-        <Watch
-          key={pane.id}
-          label={watched.length > 1 ? title(pane) : "Run"}
-          track={pane.track!}
-          replay={pane.replay}
-          seconds={seconds}
-          onSeconds={setSeconds}
-          fixed={sameTime && at === 1}
-          beside={watched[1 - at]?.track ?? null}
-        />
+    <div className="watches">
+      {useWatched().map(({ id, label, title, track, replay, fixed }) => (
+        <section key={id} className="watch-pane timeline" aria-label={`Timeline of ${label}`}>
+          <div className="watch-title">
+            {title && <h2 title={title}>{title}</h2>}
+            <Facts track={track} />
+            <span className="spring" />
+            <select
+              aria-label="Time shown"
+              value={seconds}
+              onChange={(event) => studio.watched.set({ seconds: Number(event.target.value) })}
+            >
+              {[1, 3, 10, 60, 600].map((choice) => (
+                <option key={choice} value={choice}>
+                  {choice < 60 ? `${choice} s` : `${choice / 60} min`}
+                </option>
+              ))}
+            </select>
+          </div>
+          <Painted
+            label="Behaviours and firings of each subsystem over time"
+            draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)}
+            of={() => `${track.id} ${track.now} ${track.firings} ${seconds}`}
+            onPick={replay && !fixed ? (x, width) => replay.seek(timeAt(track, seconds, x, width)) : undefined}
+          />
+        </section>
       ))}
     </div>
   );
 }
 
-interface WatchProps {
-  label: string;
-  track: Track;
-  replay: Replay | null;
-  seconds: number;
-  onSeconds: (seconds: number) => void;
-  /** Whether its time is that of the pane beside it. */
-  fixed: boolean;
-  beside: Track | null;
+/** The values of each run or recording that is shown. */
+export function ValueLists() {
+  const studio = useStudio();
+  const seconds = useStore(studio.watched, (all) => all.seconds);
+  return (
+    <div className="watches">
+      {useWatched().map(({ id, label, title, track, replay, beside }) => (
+        <section key={id} className="watch-pane values" aria-label={`Values of ${label}`}>
+          {title && (
+            <div className="watch-title">
+              <h2 title={title}>{title}</h2>
+            </div>
+          )}
+          <ValueList
+            track={track}
+            beside={beside}
+            seconds={seconds}
+            none={replay ? "This recording holds no values" : "No values yet"}
+          />
+        </section>
+      ))}
+    </div>
+  );
 }
 
-function Watch({ label, track, replay, seconds, onSeconds, fixed, beside }: WatchProps) {
-  const hasWorld = useHasWorld();
+/** The world of each run or recording that is shown. */
+export function Worlds() {
   return (
-    <section className={`watch${hasWorld ? "" : " without-world"}`} aria-label={label}>
-      <div className="watch-pane timeline">
-        <div className="watch-title">
-          <h2>Timeline</h2>
-          <Facts track={track} />
-          <span className="spring" />
-          <select aria-label="Time shown" value={seconds} onChange={(event) => onSeconds(Number(event.target.value))}>
-            {[1, 3, 10, 60, 600].map((choice) => (
-              <option key={choice} value={choice}>
-                {choice < 60 ? `${choice} s` : `${choice / 60} min`}
-              </option>
-            ))}
-          </select>
-        </div>
-        <Painted
-          label="Behaviours and firings of each subsystem over time"
-          draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)}
-          of={() => `${track.id} ${track.now} ${track.firings} ${seconds}`}
-          onPick={replay && !fixed ? (x, width) => replay.seek(timeAt(track, seconds, x, width)) : undefined}
-        />
-      </div>
-      <div className="watch-pane values">
-        <div className="watch-title">
-          <h2>Values</h2>
-        </div>
-        <ValueList
-          track={track}
-          beside={beside}
-          seconds={seconds}
-          none={replay ? "This recording holds no values" : "No values yet"}
-        />
-      </div>
-      {hasWorld && (
-        <WorldPane
-          track={track}
-          beside={beside}
-          none={`${replay ? "This recording holds no path" : "No path"} of a single robot`}
-        />
-      )}
-    </section>
+    <div className="watches">
+      {useWatched().map(({ id, label, title, track, replay, beside }) => (
+        <section key={id} className="watch-world" aria-label={`World of ${label}`}>
+          <WorldPane
+            title={title}
+            track={track}
+            beside={beside}
+            none={`${replay ? "This recording holds no path" : "No path"} of a single robot`}
+          />
+        </section>
+      ))}
+    </div>
   );
 }
 

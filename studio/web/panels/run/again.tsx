@@ -31,15 +31,15 @@ export function Again() {
     <div className="again">
       <button
         disabled={!current || wrong}
-        title="Builds the code as it is now, makes the same run again from its beginning, as fast as possible, and goes on from this second"
+        title="Builds the code as it is now, repeats the same run from its beginning as fast as possible, and continues at this second"
         onClick={() => void again()}
       >
-        {dirty ? "Save, and again from" : "Again from"}
+        {dirty ? "Save and restart at" : "Restart at"}
       </button>
       <input
         type="text"
         inputMode="decimal"
-        aria-label="Again from, in seconds"
+        aria-label="Restart at, in seconds"
         aria-invalid={wrong}
         value={typed}
         placeholder={now.toFixed(2)}

@@ -54,7 +54,7 @@ function OperatorPanel({ panel }: { panel: PanelShown }) {
       <div className="operator-head">
         <span className="path">{panel.path}</span>
         <button aria-pressed={operated} onClick={() => (operated ? operator.letGo(panel.path) : operator.take(panel))}>
-          {operated ? "Let go" : "Operate"}
+          {operated ? "Stop operating" : "Operate"}
         </button>
       </div>
       <p className="faint" role="status">

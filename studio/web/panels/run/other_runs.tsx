@@ -15,8 +15,8 @@ export function OtherRuns() {
   const others = useStore(studio.runner.store, (all) => all.others);
   if (others.length === 0) return null;
   return (
-    <section aria-label="Other runs that go on">
-      <h3>Other runs that go on</h3>
+    <section aria-label="Other active runs">
+      <h3>Other active runs</h3>
       <ul className="choice-list">
         {others.map(({ run, kind, state }) => (
           <li key={run}>
@@ -28,10 +28,10 @@ export function OtherRuns() {
                 Follow
               </button>
               <button
-                aria-label={`${kind === "attach" || kind === "deployment" ? "Let go of" : "Stop"} run ${run}`}
+                aria-label={`${kind === "attach" || kind === "deployment" ? "Stop watching" : "Stop"} run ${run}`}
                 onClick={() => void studio.runner.stopOther(run)}
               >
-                {kind === "attach" || kind === "deployment" ? "Let go" : "Stop"}
+                {kind === "attach" || kind === "deployment" ? "Stop watching" : "Stop"}
               </button>
             </div>
           </li>

@@ -18,7 +18,7 @@ export function PlayPanel() {
           </button>
         </div>
         <p className="faint">
-          Fire what can fire by clicking it in the drawing, choose how conditions fall, or let it run. Nothing is compiled.
+          Fire what can fire by clicking it in the drawing, choose which conditions hold, or press Play. Nothing is compiled.
         </p>
       </>
     );
@@ -72,7 +72,7 @@ function Choices({ net }: { net: NetModel }) {
       </ul>
       {free.length > 0 && (
         <>
-          <h3>How conditions fall</h3>
+          <h3>Conditions</h3>
           <ul className="choice-list">
             {free.map((index) => (
               <li key={index}>

@@ -1,37 +1,16 @@
-import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import type { Replay } from "../../live/replay";
 import type { Pane } from "../../live/scene";
-import type { Track } from "../../live/track";
 import { clock } from "../plots/clock";
 import { IconButton } from "../icons";
-import { stateTitles } from "../pane_title";
 
-/**
- * The controls below a drawing with steps: back, forward, run, and any position.
- * `beside`: there is another pane.
- */
-export function Player({ pane, beside, fixed }: { pane: Pane; beside: boolean; fixed: boolean }) {
-  if (pane.replay) return <RecordingPlayer replay={pane.replay} beside={beside} fixed={fixed} />;
-  if (pane.track) return beside ? <RunBar track={pane.track} /> : null;
-  return <StepPlayer />;
+/** The controls of a recording beside another pane. Those of the first pane are in the line of the run. */
+export function Player({ pane, fixed }: { pane: Pane; fixed: boolean }) {
+  return pane.replay && <RecordingPlayer replay={pane.replay} beside fixed={fixed} />;
 }
 
-/** The controls of the only pane, as wide as the window: a long recording needs the width. */
-export function WholePlayer() {
-  const studio = useStudio();
-  const panes = useStore(studio.scene.store, (all) => all.panes);
-  const loaded = useStore(studio.draft.store, (draft) => draft.loaded);
-  const only = panes.length === 1 ? panes[0] : undefined;
-  if (!loaded || !only) return null;
-  return (
-    <div className="whole-player">
-      <Player key={only.id} pane={only} beside={false} fixed={false} />
-    </div>
-  );
-}
-
-function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: boolean; fixed: boolean }) {
+/** Back, forward, play, and any time of a recording. beside: there is another pane, and this one has a title. */
+export function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: boolean; fixed: boolean }) {
   const studio = useStudio();
   const { time, playing, speed, loading } = useStore(replay.store, (all) => all);
   const { name, first, last } = replay;
@@ -90,37 +69,8 @@ function RecordingPlayer({ replay, beside, fixed }: { replay: Replay; beside: bo
   );
 }
 
-/** The most important controls of a run beside another pane. */
-function RunBar({ track }: { track: Track }) {
-  const studio = useStudio();
-  const { state, kind } = useStore(studio.runner.store, (all) => all);
-  const position = useRef<HTMLSpanElement>(null);
-  useEffect(() => {
-    const tell = () => {
-      if (position.current) position.current.textContent = `${clock(track.now)} s`;
-    };
-    tell();
-    const timer = setInterval(tell, 100);
-    return () => clearInterval(timer);
-  }, [track]);
-  const paused = state === "paused";
-  return (
-    <div className="player" role="group" aria-label="The run">
-      {kind !== "run" && kind !== "deployment" && (paused || state === "running") && (
-        <IconButton
-          name={paused ? "play" : "pause"}
-          label={paused ? "Let the run go on" : "Pause the run"}
-          onClick={() => void studio.runner.control({ command: paused ? "resume" : "pause" })}
-        />
-      )}
-      <span className="faint">{stateTitles[state]}</span>
-      <span className="spring" />
-      <span ref={position} className="position" />
-    </div>
-  );
-}
-
-function StepPlayer() {
+/** Steps in both directions, for the token game and for counterexamples. */
+export function StepPlayer() {
   const studio = useStudio();
   const play = useStore(studio.play.store, (all) => all);
   if (play.what === "nothing") return null;
@@ -132,7 +82,7 @@ function StepPlayer() {
       <IconButton name="back" label="Step back" disabled={play.position === 0} onClick={() => player.back()} />
       <IconButton
         name={play.running ? "pause" : "play"}
-        label={play.running ? "Pause" : "Let it run"}
+        label={play.running ? "Pause" : "Play"}
         onClick={() => player.run(!play.running)}
       />
       <IconButton name="forward" label="Step forward" disabled={play.position >= play.length} onClick={() => player.forward()} />

@@ -1,12 +1,10 @@
-import { useState } from "react";
 import { useRunning } from "../../hooks/use_stage";
 import { useStore, useStudio } from "../../hooks/use";
 import { titleOf } from "../../live/breakpoints";
 import { goesOn } from "../../live/runner_state";
 import { sentence } from "../../model/net/labels";
 import { Again } from "./again";
-import { Choice } from "../forms/field";
-import { Icon, IconButton } from "../icons";
+import { IconButton } from "../icons";
 import { OtherRuns } from "./other_runs";
 import { OperatorPanels } from "./operator_panel";
 import { OutcomeOf } from "./outcome";
@@ -36,7 +34,7 @@ export function RunPanel() {
           <button onClick={() => studio.showRun()}>Show it in the drawing</button>
         </div>
       )}
-      {active ? <Controls /> : <StartForm />}
+      {!active && <StartForm />}
       <OtherRuns />
       <Again />
       {["running", "paused", "ended", "failed"].includes(runner.state) && runner.shown && <WhoWaits />}
@@ -59,81 +57,6 @@ export function RunPanel() {
   );
 }
 
-function Controls() {
-  const studio = useStudio();
-  const { state, kind, speed } = useStore(studio.runner.store, (all) => all);
-  const net = useStore(studio.draft.store, (draft) => draft.net);
-  const [subsystem, setSubsystem] = useState("");
-  const control = studio.runner.control.bind(studio.runner);
-  const paused = state === "paused";
-  // On the steady clock, a run cannot be paused.
-  const paced = kind !== "run" && kind !== "deployment";
-  const subsystems = net?.subsystemPages().map((page) => net.page(page).path) ?? [];
-  return (
-    <>
-      <div className="buttons" style={{ marginTop: 0 }}>
-        {paced && (
-          <button disabled={state === "building"} onClick={() => void control({ command: paused ? "resume" : "pause" })}>
-            <Icon name={paused ? "play" : "pause"} /> {paused ? "Go on" : "Pause"}
-          </button>
-        )}
-        <button onClick={() => void control({ command: "stop" })}>
-          <Icon name="stop" /> {kind === "attach" || kind === "deployment" ? "Let go" : "Stop"}
-        </button>
-      </div>
-      {paced && (
-        <>
-          <div className="buttons">
-            <button disabled={!paused} onClick={() => void control({ command: "step_firing" })}>
-              Step one firing
-            </button>
-            <button
-              disabled={!paused}
-              onClick={() =>
-                void control({
-                  command: "step_iteration",
-                  ...(subsystem || subsystems[0] ? { subsystem: subsystem || subsystems[0]! } : {}),
-                })
-              }
-            >
-              Step one iteration
-            </button>
-          </div>
-          {subsystems.length > 1 && (
-            <Choice
-              label="Iteration of"
-              value={subsystem || subsystems[0]!}
-              onChange={setSubsystem}
-              choices={subsystems.map((path) => ({ value: path, title: path }))}
-            />
-          )}
-          <SpeedSlider speed={speed} onChange={(value) => void studio.runner.setSpeed(value)} />
-        </>
-      )}
-    </>
-  );
-}
-
-function SpeedSlider({ speed, onChange }: { speed: number; onChange: (speed: number) => void }) {
-  const exact = (power: number) => Number((10 ** power).toPrecision(2));
-  return (
-    <div className="field">
-      <label htmlFor="speed">
-        Speed <strong>{speed} ×</strong>
-      </label>
-      <input
-        id="speed"
-        type="range"
-        min={-1}
-        max={2}
-        step={0.1}
-        value={Math.log10(speed)}
-        onChange={(event) => onChange(exact(Number(event.target.value)))}
-      />
-    </div>
-  );
-}
-
 /** The subsystems that cannot go on now, and those that they wait for. */
 function WhoWaits() {
   const studio = useStudio();
@@ -145,7 +68,7 @@ function WhoWaits() {
   return (
     <>
       <div className="buttons">
-        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Close the lens" : "Who waits now?"}</button>
+        <button onClick={() => (shown ? studio.lens.close() : void look())}>{shown ? "Hide who waits" : "Who waits now?"}</button>
       </div>
       {problem && <p className="faint">{problem}</p>}
       {shown && (

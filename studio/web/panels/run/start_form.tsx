@@ -1,15 +1,16 @@
 import { useCallback, useEffect, useState } from "react";
 import { useHasWorld, useStore, useStudio, useUnsaved } from "../../hooks/use";
 import { message } from "../../live/api";
-import type { Project, RunRequest } from "../../model/protocol";
+import { numberIn, startRequest } from "../../live/start_request";
+import type { Project } from "../../model/protocol";
 import { Choice, Field } from "../forms/field";
 
 const kindsOf = (hasWorld: boolean, deployed: boolean) =>
   [
     { value: "simulate", title: hasWorld ? "in the simulated world" : "on the simulated clock" },
     { value: "run", title: "on the steady clock, as on the robot" },
-    { value: "attach", title: "nothing: watch one that runs already" },
-    ...(deployed ? [{ value: "deployment", title: "nothing: watch all processes that run already" } as const] : []),
+    { value: "attach", title: "no new run: watch one that is running" },
+    ...(deployed ? [{ value: "deployment", title: "no new run: watch all running processes" } as const] : []),
   ] as const;
 
 function KindChoice() {
@@ -21,11 +22,10 @@ function KindChoice() {
   return <Choice label="Run" value={kind} onChange={(kind) => wishes.set({ kind })} choices={kinds} />;
 }
 
-const number = (text: string) => (text.trim() === "" ? NaN : Number(text));
 const wrongSpeed = (text: string) =>
-  number(text) >= 0 ? undefined : "A number: simulated seconds a second; 0: as fast as possible";
+  numberIn(text) >= 0 ? undefined : "A number: simulated seconds a second; 0: as fast as possible";
 const wrongSeed = (text: string) =>
-  Number.isSafeInteger(number(text)) && number(text) >= 0 ? undefined : "A whole number, not negative";
+  Number.isSafeInteger(numberIn(text)) && numberIn(text) >= 0 ? undefined : "A whole number, not negative";
 
 /** Controllers that were started elsewhere and can be followed. */
 function AttachForm() {
@@ -60,7 +60,7 @@ function AttachForm() {
         <button className="primary" disabled={!socket} onClick={() => void studio.run({ kind: "attach", socket })}>
           Watch it
         </button>
-        <button onClick={() => void look()}>Look again</button>
+        <button onClick={() => void look()}>Refresh</button>
       </div>
     </>
   );
@@ -86,7 +86,7 @@ function DeploymentForm() {
 }
 
 /** The possible floors of the simulated world; nothing if that world has no floor picture. */
-const tracksOf = (project: Project | null) =>
+export const tracksOf = (project: Project | null) =>
   project?.simulation?.track
     ? (project.worlds.find(({ name }) => name === project.simulation!.world.split("/").at(-1))?.tracks ?? [])
     : [];
@@ -106,16 +106,7 @@ export function StartForm() {
   if (kind === "deployment") return <DeploymentForm />;
   const start = async (paused: boolean) => {
     if (!(await studio.saveAll())) return;
-    const simulated = kind === "simulate";
-    const request: RunRequest = {
-      kind,
-      paused,
-      ...(time ? { for: time } : {}),
-      ...(tracks.includes(track) ? { track } : {}),
-      ...(all ? { values: "all" } : {}),
-      ...(simulated ? { seed: number(seed), speed: number(speed) } : {}),
-    };
-    await studio.run(request);
+    await studio.run(startRequest(wishes.get(), tracks, paused));
   };
   return (
     <>

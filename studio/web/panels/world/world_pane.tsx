@@ -14,13 +14,20 @@ import type { World3d } from "./world_3d";
 
 const kept = "tessera.world";
 
+interface WorldPaneProps {
+  /** The title of its run, if another one is shown beside it. */
+  title: string;
+  track: Track;
+  beside: Track | null;
+  none: string;
+}
+
 /** The simulated world: in three dimensions, or the path of a robot from above. */
-export function WorldPane({ track, beside, none }: { track: Track; beside: Track | null; none: string }) {
+export function WorldPane({ title, track, beside, none }: WorldPaneProps) {
   const world = useWorld(track);
   const [above, setAbove] = useState(() => sessionStorage.getItem(kept) === "above");
   const [problem, setProblem] = useState("");
   const [followed, setFollowed] = useState(-1);
-  const [large, setLarge] = useState(false);
   const [rays, setRays] = useState(true);
   const views = useViews(world);
   const scans = useMemo(() => views.filter(({ kind }) => kind === "scan"), [views]);
@@ -39,19 +46,14 @@ export function WorldPane({ track, beside, none }: { track: Track; beside: Track
     setProblem("");
   };
   return (
-    <div className={`watch-pane world${large && inSpace ? " large" : ""}`}>
+    <div className="watch-pane world">
       <div className="watch-title">
-        <h2>World</h2>
+        {title && <h2 title={title}>{title}</h2>}
         {(inSpace || fleet) && world && <Followed world={world} followed={followed} onFollow={setFollowed} />}
         <span className="spring" />
         {inSpace && scans.length > 0 && (
           <button className="small" aria-pressed={rays} title="Scans as rays" onClick={() => setRays(!rays)}>
             Rays
-          </button>
-        )}
-        {inSpace && (
-          <button className="small" aria-pressed={large} onClick={() => setLarge(!large)}>
-            Large
           </button>
         )}
         {world && (

@@ -4,7 +4,7 @@ import assert from "node:assert/strict";
 import { existsSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { test } from "node:test";
 import { fileURLToPath } from "node:url";
-import { button, drawn, example, folder as project, middleOf, onPage, tab } from "./page.mjs";
+import { button, drawn, folder as project, middleOf, onNet, tab } from "./page.mjs";
 
 const folder = fileURLToPath(new URL("appearance/", import.meta.url));
 const widths = [640, 1024, 1440];
@@ -56,7 +56,7 @@ async function judged(page, name, part = page) {
 }
 
 test("every tab looks as it did, at 640, 1024 and 1440 pixels", () =>
-  onPage(project("crossing"), async (page) => {
+  onNet(project("crossing"), async (page) => {
     await page.locator(".sheet .page").first().waitFor();
     const wrong = [];
     let before;
@@ -80,7 +80,7 @@ test("every tab looks as it did, at 640, 1024 and 1440 pixels", () =>
   }));
 
 test("six agents and their chain of waiting look as they did, at 640, 1024 and 1440 pixels", () =>
-  onPage(project("orchard"), async (page) => {
+  onNet(project("orchard"), async (page) => {
     await page.locator(".sheet .page").first().waitFor();
     await tab(page, "Structure").click();
     const wrong = [];
@@ -88,7 +88,7 @@ test("six agents and their chain of waiting look as they did, at 640, 1024 and 1
       for (const width of widths) {
         await page.setViewportSize({ width, height: 800 });
         if (name === "lens") {
-          await button(page, "Close the lens").click();
+          await button(page, "Hide who is stuck").click();
           await button(page, "Show who is stuck").click();
         }
         await middleOf(page, page.locator(".react-flow__node").first());
@@ -98,7 +98,7 @@ test("six agents and their chain of waiting look as they did, at 640, 1024 and 1
     await all("structure");
     await tab(page, "Verify").click();
     await button(page, "Verify").click();
-    await button(page, "Close the lens").waitFor();
+    await button(page, "Hide who is stuck").waitFor();
     await all("lens");
     assert.deepEqual(wrong, []);
   }));

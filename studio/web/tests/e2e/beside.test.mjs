@@ -1,7 +1,7 @@
 // A recording beside the run, and beside another recording.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, drawn, element, example, judges, onBuilt, tab, until } from "./page.mjs";
+import { button, drawn, element, example, judges, onBuiltNet, tab, until } from "./page.mjs";
 
 const fill = async (page, label, value) => {
   await page.getByRole("textbox", { name: label, exact: true }).fill(value);
@@ -29,13 +29,13 @@ async function twoRuns(page) {
 }
 
 test("a recording beside the run: one camera, one time if wanted, and what differs is said", () =>
-  onBuilt(example("02_gap"), async (page) => {
+  onBuiltNet(example("02_gap"), async (page) => {
     await twoRuns(page);
     await page.locator(".recordings button").last().click();
     const compared = page.getByTestId("compared-at");
     await compared.waitFor();
     assert.equal(await panes(page).count(), 2);
-    assert.equal(await page.locator(".watch").count(), 2);
+    assert.equal(await page.locator(".watch-pane.timeline").count(), 2);
 
     const objections = [];
     const judge = await judges(page, objections);
@@ -107,11 +107,11 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
       .first()
       .click();
     await button(page, "Close").click();
-    await until(page, async () => (await page.locator(".watch").count()) === 0, "the drawing of the text");
+    await until(page, async () => (await page.locator(".watch-pane.timeline").count()) === 0, "the drawing of the text");
   }));
 
 test("a run that goes on is put away and shown again; a game has the drawing for itself", () =>
-  onBuilt(example("01_line_follower"), async (page) => {
+  onBuiltNet(example("01_line_follower"), async (page) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -119,18 +119,18 @@ test("a run that goes on is put away and shown again; a game has the drawing for
     await page.locator(".recordings button").first().click();
     await page.getByRole("button", { name: /^Close Run/ }).click();
     await button(page, "Close").click();
-    await until(page, async () => (await page.locator(".watch").count()) === 0, "nothing is watched");
+    await until(page, async () => (await page.locator(".watch-pane.timeline").count()) === 0, "nothing is watched");
     await tab(page, "Run").click();
     await page.getByTestId("run-state").getByText("Running").waitFor();
     await button(page, "Show it in the drawing").click();
-    await page.locator(".watch").waitFor();
+    await page.locator(".watch-pane.timeline").waitFor();
     await tab(page, "Play").click();
     await button(page, "Play the token game").click();
     await element(page, "t_in").click();
     await page.getByText("1 / 1").waitFor();
-    assert.equal(await page.locator(".watch").count(), 0);
+    assert.equal(await page.locator(".watch-pane.timeline").count(), 0);
     await button(page, "Close").click();
-    await page.locator(".watch").waitFor();
+    await page.locator(".watch-pane.timeline").waitFor();
     await element(page, "robot.control").locator(".running").getByText("follow").waitFor();
     // A recording that is opened during a game ends the game.
     await button(page, "Play the token game").click();

@@ -237,7 +237,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         if (error) await fill(field("Error condition"), error);
         for (const [at, one] of next.entries()) {
           const [to, when] = one.split(" when ");
-          await button(page, "Add what follows").click();
+          await button(page, "Add a next behaviour").click();
           await fill(page.getByRole("combobox", { name: `Then ${at + 1}: to` }), to);
           if (when) await fill(page.getByRole("combobox", { name: "when", exact: true }).nth(at), when);
         }
@@ -252,7 +252,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       await button(page, "Add a track").click();
       const track = group("Track");
       await fill(track.getByLabel("Image"), "oval.png");
-      for (const key of ["Metres per pixel", "Start", "Footprint"]) await track.getByLabel("Also give").selectOption(key);
+      for (const key of ["Metres per pixel", "Start", "Footprint"]) await track.getByLabel("Add a setting").selectOption(key);
       await fill(track.getByLabel("Metres per pixel"), "0.005");
       for (const [name, value] of [
         ["x", "1.2"],

@@ -15,6 +15,7 @@ import {
   folder,
   judges,
   noProblems,
+  onNet,
   onPage,
   tab,
   until,
@@ -241,7 +242,7 @@ test("a broken file says where, keeps its drawing, and is repaired", () =>
   }));
 
 test("a file that is broken on disk opens with its errors", () =>
-  onPage(folder("broken"), async (page) => {
+  onNet(folder("broken"), async (page) => {
     await page.getByText("No drawing yet").waitFor();
     assert.ok((await page.locator(".problem-list .problem").count()) > 0);
     await tab(page, "Structure").click();
@@ -391,7 +392,7 @@ test("checks, measures, limits, templates and models have fields, which leave a 
     const limits = within("Limits of real outputs");
     await fill(limits.getByRole("group", { name: "command.ahead", exact: true }).getByLabel("Change per second"), "4 m/s");
     await limits.getByRole("group", { name: "command.turn", exact: true }).getByLabel("Beyond them").selectOption("fault");
-    await page.getByLabel("Also give").selectOption("realtime");
+    await page.getByLabel("Add a setting").selectOption("realtime");
     await fill(within("Realtime").getByLabel("Priority"), "80");
     await fill(within("Safe command", "command").getByLabel("ahead (m/s)"), "0.1");
     await judged("the effector of a template");

@@ -3,10 +3,10 @@ import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { test } from "node:test";
-import { button, drawn, element, find, folder, onPage, tab, until } from "./page.mjs";
+import { button, drawn, element, find, folder, onNet, onPage, tab, until } from "./page.mjs";
 
 test("a fleet of a hundred opens folded, and any of its robots is found and looked into", () =>
-  onPage(folder("fleet"), async (page) => {
+  onNet(folder("fleet"), async (page) => {
     await page.locator(".sheet").first().waitFor();
     assert.equal(await page.locator(".page.agent.folded").count(), 100);
     assert.equal(await page.locator(".sheet").count(), 1);
@@ -24,7 +24,7 @@ test("what a canvas shows of a fleet looks like the elements of SVG, can be poin
     join(project, "spec.yaml"),
     readFileSync(join(folder("fleet"), "spec.yaml"), "utf8").replace("count: 100", "count: 1000"),
   );
-  await onPage(project, async (page) => {
+  await onNet(project, async (page) => {
     await page.locator(".net-layer").waitFor();
     const inView = page.getByRole("list", { name: "In view" });
     await inView.getByText("agent robot[0]", { exact: true }).waitFor({ state: "attached" });
@@ -107,6 +107,7 @@ test("ten thousand robots open with less than five megabytes, and one of them is
     let bytes = 0;
     network.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
     await page.goto(server.url);
+    await tab(page, "Net").click();
     // So many symbols are on a canvas.
     await page.locator(".net-layer").waitFor();
     assert.ok(bytes > 400_000 && bytes < 5e6, `${bytes} bytes`);

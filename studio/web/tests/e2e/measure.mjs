@@ -6,7 +6,7 @@ import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { measureStream } from "./measure_stream.mjs";
 import { measureWorld } from "./measure_world.mjs";
-import { folder, onPage } from "./page.mjs";
+import { folder, onNet, tab } from "./page.mjs";
 
 const fleet = readFileSync(join(folder("fleet"), "spec.yaml"), "utf8");
 
@@ -23,7 +23,8 @@ async function bytesOf(page, server) {
   let bytes = 0;
   network.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
   await page.goto(server.url);
-  await page.locator(".sheet .page").first().waitFor();
+  await tab(page, "Net").click();
+  await page.locator(".sheet .page, .net-layer").first().waitFor();
   await page.close();
   return bytes;
 }
@@ -31,11 +32,11 @@ async function bytesOf(page, server) {
 async function measureFleet(robots) {
   const project = mkdtempSync(join(tmpdir(), "studio-fleet-"));
   writeFileSync(join(project, "spec.yaml"), fleet.replace("count: 100", `count: ${robots}`));
-  await onPage(project, async (page, server, open) => {
+  await onNet(project, async (page, server, open) => {
     const loaded = await page.evaluate(
       () =>
         new Promise((done) => {
-          const look = () => (document.querySelector(".sheet .page") ? done(performance.now()) : requestAnimationFrame(look));
+          const look = () => (document.querySelector(".sheet .page, .net-layer") ? done(performance.now()) : requestAnimationFrame(look));
           look();
         }),
     );

@@ -17,7 +17,7 @@ export async function measureWorld(robots, { parts = 6, large = false } = {}) {
     await page.waitForFunction(() => Number(document.querySelector("canvas.space")?.dataset.drawn ?? 0) > 0);
     await page.waitForTimeout(500);
     await page.getByRole("button", { name: "Play", exact: true }).click();
-    if (large) await page.getByRole("button", { name: "Large", exact: true }).click();
+    if (large) await page.keyboard.press("Alt+Enter");
     const { drawn, ticks, late, size, told } = await page.evaluate(async (length) => {
       const canvas = document.querySelector("canvas.space");
       const before = Number(canvas.dataset.drawn);

@@ -76,6 +76,16 @@ async function onServer(browser, server, test) {
 /** The same on a project whose controller is built already. */
 export const onBuilt = (project, test) => onPage(project, test, { server: { built: true } });
 
+/** The page opens with the structure. These begin with the drawing of the net. */
+const inNet =
+  (test) =>
+  async (page, ...more) => {
+    await tab(page, "Net").click();
+    await test(page, ...more);
+  };
+export const onNet = (project, test, options) => onPage(project, inNet(test), options);
+export const onBuiltNet = (project, test) => onBuilt(project, inNet(test));
+
 /** Goes to an element by the search. */
 export async function find(page, path) {
   await page.keyboard.press("Control+k");

@@ -4,7 +4,7 @@ import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, drawn, element, example, folder, middleOf, onPage, tab } from "./page.mjs";
+import { button, drawn, element, example, folder, middleOf, onNet, onPage, tab } from "./page.mjs";
 
 /** The orchard with names as long as those of real systems. */
 const longNames = mkdtempSync(join(tmpdir(), "studio-long-names-"));
@@ -68,7 +68,7 @@ const drawnOver = () => {
 
 for (const [name, project] of Object.entries({ line_follower: example("01_line_follower"), orchard: folder("orchard") }))
   test(`no letters under ten pixels: ${name}`, () =>
-    onPage(project, async (page) => {
+    onNet(project, async (page) => {
       await page.locator(".sheet .page").first().waitFor();
       await page
         .getByText("Element", { exact: true })
@@ -160,7 +160,7 @@ test("a picture of the structure has the lines of a long name as the screen has 
   }));
 
 test("names of agents that are too long for their boxes are broken or cut in the net, and never dropped", () =>
-  onPage(longNames, async (page) => {
+  onNet(longNames, async (page) => {
     const names = () =>
       page.evaluate(() =>
         [...document.querySelectorAll('[data-of="0"] .element.page')].map((agent) => {
@@ -199,7 +199,7 @@ test("names of agents that are too long for their boxes are broken or cut in the
   }));
 
 test("what is drawn says what it means when the pointer is over it", () =>
-  onPage(example("01_line_follower"), async (page) => {
+  onNet(example("01_line_follower"), async (page) => {
     const area = page.locator(".canvas-area");
     const says = async (path, position) => {
       await element(page, path)
@@ -226,9 +226,9 @@ test("at 200 % of a usual window all parts are reached, and none covers another"
     await tab(page, "Verify").waitFor({ state: "attached" });
     await drawn(page);
     const boxes = await page.evaluate(() =>
-      [".toolbar", ".centre", ".side.left", ".side.right", ".problems, .status"].flatMap((one) => {
-        const part = document.querySelector(one);
-        if (!part) return [];
+      [...document.querySelectorAll(".toolbar, .dock [role=tabpanel], .problems")].flatMap((part) => {
+        if (part.offsetParent === null) return [];
+        const one = part.id || part.className;
         const { top, bottom, left, right } = part.getBoundingClientRect();
         return [{ one, top, bottom, left, right }];
       }),

@@ -3,12 +3,12 @@ import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { dirname, join } from "node:path";
 import { test } from "node:test";
-import { button, drawn, example, find, onBuilt, tab, until } from "./page.mjs";
+import { button, drawn, example, find, onBuiltNet, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
 test("a recording that is too long to be sent at once is looked at from its first moment to its last", () =>
-  onBuilt(lineFollower, async (page) => {
+  onBuiltNet(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await page.getByRole("textbox", { name: "Speed" }).fill("0");
     await page.getByRole("textbox", { name: "For" }).fill("600s");
@@ -50,7 +50,7 @@ test("a recording that is too long to be sent at once is looked at from its firs
 const momentOf = (page) => 1e9 * Number(new URLSearchParams(new URL(page.url()).hash.slice(1)).get("t") ?? NaN);
 
 test("a recording is saved as a film that shows the same without the studio", () =>
-  onBuilt(lineFollower, async (page, _server, open) => {
+  onBuiltNet(lineFollower, async (page, _server, open) => {
     await tab(page, "Run").click();
     await page.getByRole("textbox", { name: "Speed" }).fill("0");
     await page.getByRole("textbox", { name: "For" }).fill("6s");
@@ -107,7 +107,7 @@ const pathDrawn = (page) =>
   });
 
 test("the robot's path is there after a reload, and in the recording up to the moment shown", () =>
-  onBuilt(lineFollower, async (page) => {
+  onBuiltNet(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await page.getByRole("textbox", { name: "Speed", exact: true }).fill("5");
     await page.keyboard.press("Enter");
@@ -147,7 +147,7 @@ test("the robot's path is there after a reload, and in the recording up to the m
   }));
 
 test("after a reload the run and the unsaved text are there again", () =>
-  onBuilt(lineFollower, async (page) => {
+  onBuiltNet(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -162,7 +162,7 @@ test("after a reload the run and the unsaved text are there again", () =>
   }));
 
 test("of a run that is too fast to be drawn, all firings are counted, and the page says how many were not shown", () =>
-  onBuilt(lineFollower, async (page) => {
+  onBuiltNet(lineFollower, async (page) => {
     await tab(page, "Run").click();
     for (const [label, value] of [
       ["For", "6min"],

@@ -3,7 +3,7 @@ import { existsSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
 import validator from "gltf-validator";
-import { button, drawn, example, find, onBuilt, onPage, serve, tab, until } from "./page.mjs";
+import { button, drawn, example, find, onBuilt, onBuiltNet, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
@@ -63,29 +63,29 @@ async function seenInSpace(page, server) {
 }
 
 test("a run is made again with the code as it is now, and goes on from a moment", () =>
-  onBuilt(lineFollower, async (page) => {
+  onBuiltNet(lineFollower, async (page) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
     await button(page, "Pause").click();
     await page.getByTestId("run-state").getByText("Paused").waitFor();
-    const from = page.getByLabel("Again from, in seconds");
+    const from = page.getByLabel("Restart at, in seconds");
     await from.fill("soon");
-    assert.ok(await button(page, "Again from").isDisabled());
+    assert.ok(await button(page, "Restart at").isDisabled());
     await from.fill("8.5");
-    await button(page, "Again from").click();
+    await button(page, "Restart at").click();
     const seconds = async () => parseFloat(await page.getByTestId("run-facts").innerText());
     await until(page, async () => (await seconds()) > 8, "the moment");
     await page.getByTestId("run-state").getByText("Paused").waitFor();
     assert.ok((await seconds()) <= 8.5, String(await seconds()));
-    await button(page, "Go on").click();
+    await button(page, "Resume").click();
     await until(page, async () => (await seconds()) > 8.6, "it goes on");
     await button(page, "Stop").click();
     await page.getByTestId("run-state").getByText("Ended").waitFor();
   }));
 
 test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
-  onBuilt(lineFollower, async (page, server) => {
+  onBuiltNet(lineFollower, async (page, server) => {
     await tab(page, "Run").click();
     await button(page, "Run").click();
     await page.locator(".running-now").getByText("follow").waitFor();
@@ -122,7 +122,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     await tab(page, "Recordings").click();
     await page.locator(".recordings button").first().click();
     await page.getByRole("slider", { name: "Time" }).waitFor();
-    const replayed = page.getByRole("region", { name: /^2/ }).locator(".watch-pane");
+    const replayed = page.getByRole("region", { name: /^Values of 2/ });
     await replayed.getByText("robot.control.motion.linear").waitFor();
     await button(page, "Play").click();
     await until(
@@ -142,7 +142,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
   }));
 
 test("a run pauses where breakpoints are: when a transition fires, and when its condition holds", () =>
-  onBuilt(example("02_gap"), async (page) => {
+  onBuiltNet(example("02_gap"), async (page) => {
     const transition = "robot.control.follow.t4";
     await find(page, transition);
     await tab(page, "Element").click();
@@ -162,7 +162,7 @@ test("a run pauses where breakpoints are: when a transition fires, and when its 
     await tab(page, "Element").click();
     await button(page, "Pause a run when it fires").click();
     await tab(page, "Run").click();
-    await button(page, "Go on").click();
+    await button(page, "Resume").click();
     await until(page, async () => (await count()) > paused, "the transition fires");
     await state.getByText("Paused").waitFor();
     await button(page, "Stop").click();
@@ -187,7 +187,7 @@ test("a controller that runs already is watched, and let go", () =>
       const facts = () => other.getByTestId("run-facts").innerText();
       const before = await facts();
       await until(other, async () => (await facts()) !== before, "more of its run");
-      await button(other, "Let go").click();
+      await button(other, "Stop watching").click();
       await other.getByTestId("run-state").getByText("it runs on").waitFor();
     } finally {
       await beside.close();

@@ -2,12 +2,12 @@ import assert from "node:assert/strict";
 import { readFileSync } from "node:fs";
 import { test } from "node:test";
 import { gzipSync } from "node:zlib";
-import { button, drawn, element, example, find, folder, judges, middleOf, onPage, serve, tab, until } from "./page.mjs";
+import { button, drawn, element, example, find, folder, judges, middleOf, onNet, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 
 test("zooming goes through the five layers", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     const here = page.getByRole("navigation", { name: "Layers" });
     for (const [path, layer] of [
       ["robot", "agent"],
@@ -25,7 +25,7 @@ test("zooming goes through the five layers", () =>
   }));
 
 test("keys alone lead from the system to a transition and back", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     await page.getByRole("application", { name: /Drawing of the net/ }).focus();
     const said = page.locator(".canvas [aria-live]");
     const here = page.getByRole("navigation", { name: "Layers" });
@@ -45,7 +45,7 @@ test("keys alone lead from the system to a transition and back", () =>
   }));
 
 test("a folded page is a double circle, and opens again", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     await find(page, "robot.control");
     await page.locator('[data-sheet="robot.control"]').waitFor();
     await button(page, "Fold control").click();
@@ -57,7 +57,7 @@ test("a folded page is a double circle, and opens again", () =>
   }));
 
 test("a double click is meant for what was under its first click, though the view moves", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     await find(page, "robot.control");
     await button(page, "Fold control").click();
     const circle = element(page, "robot.control").locator(".shape").first();
@@ -76,7 +76,7 @@ test("a double click is meant for what was under its first click, though the vie
   }));
 
 test("a violation is shown as a run that steps back and forth", () =>
-  onPage(folder("standoff"), async (page) => {
+  onNet(folder("standoff"), async (page) => {
     await tab(page, "Verify").click();
     await button(page, "Verify").click();
     await page
@@ -97,7 +97,7 @@ test("a violation is shown as a run that steps back and forth", () =>
   }));
 
 test("the token game fires what is clicked, and conditions fall as chosen", () =>
-  onPage(folder("standoff"), async (page) => {
+  onNet(folder("standoff"), async (page) => {
     await tab(page, "Play").click();
     await button(page, "Play the token game").click();
     await element(page, "t_in").click();
@@ -106,12 +106,12 @@ test("the token game fires what is clicked, and conditions fall as chosen", () =
     await choices.getByText("left.t_in").click();
     await choices.getByText("left.control.t_in").waitFor();
     await page.getByLabel("Condition of right.control.listen.t5").selectOption("false");
-    await button(page, "Let it run").click();
+    await button(page, "Play").click();
     await page.getByText("Nothing: the net has stopped.").waitFor();
   }));
 
 test("two browsers see each other's saves", () =>
-  onPage(lineFollower, async (page, server, open) => {
+  onNet(lineFollower, async (page, server, open) => {
     const other = await open();
     await other.goto(server.url);
     await other.getByTestId("editor").getByText("20 Hz").waitFor();
@@ -124,7 +124,7 @@ test("two browsers see each other's saves", () =>
   }));
 
 test("a server that is killed and started again is noticed, and found again with its new key", () =>
-  onPage(lineFollower, async (page, server, open) => {
+  onNet(lineFollower, async (page, server, open) => {
     await page.locator(".sheet").first().waitFor();
     await tab(page, "Structure").click();
     await page.locator('[data-path="robot.motor"]').click();
@@ -149,14 +149,14 @@ test("a server that is killed and started again is noticed, and found again with
   }));
 
 test("a wrong key is said to be wrong, not a blank page", () =>
-  onPage(lineFollower, async (page, server, open) => {
+  onNet(lineFollower, async (page, server, open) => {
     const other = await open();
     await other.goto(`${server.address}/#token=00`);
     await other.getByRole("alert").getByText("The server was started anew").waitFor();
   }));
 
 test("a view is exported as a drawing that stands on its own", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     await find(page, "robot.control.follow");
     await page.locator('[data-sheet="robot.control.follow"]').waitFor();
     const [svg] = await Promise.all([page.waitForEvent("download"), button(page, "SVG").click()]);
@@ -174,7 +174,7 @@ test("a view is exported as a drawing that stands on its own", () =>
   }));
 
 test("axe finds nothing to object to, light and dark, in every view and panel", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     const found = [];
     const judge = await judges(page, found);
     await page.locator(".sheet").first().waitFor();
@@ -200,7 +200,7 @@ test("axe finds nothing to object to, light and dark, in every view and panel", 
   }));
 
 test("what is under other licences is said, with their texts", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     await button(page, "About Tessera").click();
     for (const [name, text] of [
       ["Licence of Tessera", "Apache License"],
@@ -215,7 +215,7 @@ test("what is under other licences is said, with their texts", () =>
   }));
 
 test("all that is loaded packs into less than a megabyte, and nothing moves for those who asked for stillness", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     const asked = new Set();
     page.on("request", (request) => asked.add(request.url()));
     await page.reload();

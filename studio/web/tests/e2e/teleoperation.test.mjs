@@ -49,7 +49,7 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     await page.keyboard.press("ArrowUp");
     assert.match(await drive.innerText(), /forward 0 m\/s/);
     await drive.getByRole("button", { name: "Operate" }).click();
-    await drive.getByRole("button", { name: "Let go" }).waitFor();
+    await drive.getByRole("button", { name: "Stop operating" }).waitFor();
     await stick.focus();
     await page.keyboard.down("ArrowUp");
     await is({ left: 0.5 / 0.03, right: 0.5 / 0.03 }, "full speed ahead");
@@ -117,7 +117,7 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
       second,
       async () => {
         await taken.getByRole("button", { name: "Operate" }).click();
-        return (await taken.getByRole("button", { name: "Let go" }).count()) > 0;
+        return (await taken.getByRole("button", { name: "Stop operating" }).count()) > 0;
       },
       "the panel is free",
     );

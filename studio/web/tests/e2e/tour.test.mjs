@@ -6,7 +6,7 @@ import { mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "nod
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, find, folder, noProblems, onPage, tab, until } from "./page.mjs";
+import { button, find, folder, noProblems, onNet, tab, until } from "./page.mjs";
 
 const pictures = process.env.STUDIO_PICTURES;
 const picture = async (page, name) => {
@@ -67,7 +67,7 @@ const fill = async (page, name, text) => {
   await page.keyboard.press("Enter");
 };
 const followedBy = async (page, next) => {
-  await button(page, "Add what follows").click();
+  await button(page, "Add a next behaviour").click();
   await page.getByRole("combobox", { name: "Then 1: to" }).fill(next);
   await page.keyboard.press("Enter");
 };
@@ -101,7 +101,7 @@ async function momentThatDiffers(page, slider, seconds) {
 }
 
 test("a behaviour is added in the drawing, verified, given its function, run and replayed", () =>
-  onPage(newProject(), async (page, server) => {
+  onNet(newProject(), async (page, server) => {
     // The drawing of the net
     await find(page, "robot.control");
     await page.locator('[data-sheet="robot.control.follow"]').waitFor();
@@ -188,7 +188,7 @@ test("a behaviour is added in the drawing, verified, given its function, run and
   }));
 
 test("a violation is told step by step", { skip: pictures === undefined }, () =>
-  onPage(folder("standoff"), async (page) => {
+  onNet(folder("standoff"), async (page) => {
     await tab(page, "Verify").click();
     await button(page, "Verify").click();
     await page

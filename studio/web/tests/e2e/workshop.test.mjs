@@ -81,7 +81,7 @@ test("among six agents one click finds the chain of waiting, names it in words, 
       for (const width of [640, 1024, 1440]) {
         await page.setViewportSize({ width, height: 900 });
         // The camera flies on request.
-        await cause.getByRole("button", { name: "Close the lens" }).click();
+        await cause.getByRole("button", { name: "Hide who is stuck" }).click();
         await cause.getByRole("button", { name: "Show who is stuck" }).click();
         await middleOf(page, page.locator('.lens [data-lens="carrier.control"]'));
         assert.deepEqual(await hidden(view), [], `${view} at ${width}`);

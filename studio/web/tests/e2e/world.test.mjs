@@ -1,6 +1,6 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, element, example, onPage, tab, until } from "./page.mjs";
+import { button, element, example, onNet, tab, until } from "./page.mjs";
 import { writeWorld } from "./recorded_world.mjs";
 
 const api = (server, path) => fetch(`${server.address}${path}`, { headers: { Authorization: `Bearer ${server.token}` } });
@@ -39,7 +39,7 @@ async function colours(page) {
 }
 
 test("a recorded world is seen in three dimensions at every time of the timeline", () =>
-  onPage(example("01_line_follower"), async (page, server) => {
+  onNet(example("01_line_follower"), async (page, server) => {
     const chunks = [];
     page.on("request", (request) => /world_3d/.test(request.url()) && chunks.push(request.url()));
     await withWorlds(page, server, [{ name: "three", robots: 3 }]);
@@ -82,11 +82,13 @@ test("a recorded world is seen in three dimensions at every time of the timeline
   }));
 
 test("in a narrow window the head of the world shows all of its buttons, and names the body that is followed", () =>
-  onPage(example("01_line_follower"), async (page, server) => {
+  onNet(example("01_line_follower"), async (page, server) => {
     await withWorlds(page, server, [{ name: "three", robots: 3 }]);
     await page.getByRole("button", { name: /^three\.tsr/ }).click();
     await space(page).waitFor();
     await page.setViewportSize({ width: 640, height: 900 });
+    await tab(page, "World").click();
+    await space(page).waitFor();
     const parts = page.locator(".watch-pane.world .watch-title :is(select, button)");
     const pane = await page.locator(".watch-pane.world").boundingBox();
     const boxes = await Promise.all((await parts.all()).map((one) => one.boundingBox()));
@@ -97,7 +99,7 @@ test("in a narrow window the head of the world shows all of its buttons, and nam
   }));
 
 test("what was never reached is shaded and counted as --coverage counts it", () =>
-  onPage(example("01_line_follower"), async (page, server) => {
+  onNet(example("01_line_follower"), async (page, server) => {
     await withWorlds(page, server, [{ name: "one", robots: 1 }]);
     await page.getByRole("button", { name: /^one\.tsr/ }).click();
     const shaded = page.locator(".element.unreached");
@@ -116,7 +118,7 @@ test("what was never reached is shaded and counted as --coverage counts it", () 
   }));
 
 test("the scene goes to those with the token only, and only by its hash", () =>
-  onPage(example("01_line_follower"), async (page, server) => {
+  onNet(example("01_line_follower"), async (page, server) => {
     await withWorlds(page, server, [{ name: "one", robots: 1 }]);
     const scene = await api(server, "/api/scenes/0000000000000000.glb");
     assert.equal(scene.status, 200);
@@ -130,7 +132,7 @@ test("the scene goes to those with the token only, and only by its hash", () =>
   }));
 
 test("two runs in one world are seen as ghosts of each other", () =>
-  onPage(example("01_line_follower"), async (page, server) => {
+  onNet(example("01_line_follower"), async (page, server) => {
     const hash = "00000000000000aa";
     await withWorlds(page, server, [
       { name: "one", hash, robots: 2 },

@@ -1,0 +1,42 @@
+import { useEffect } from "react";
+import { useStudio } from "../hooks/use";
+
+/** The elements of the panels that can be seen, in their order on the page. */
+function panelsSeen(): HTMLElement[] {
+  const all = [...document.querySelectorAll<HTMLElement>(".dock [role=tabpanel]")].filter((one) => one.offsetParent !== null);
+  return all.sort((a, b) => {
+    const [one, other] = [a.getBoundingClientRect(), b.getBoundingClientRect()];
+    return one.left - other.left || one.top - other.top;
+  });
+}
+
+/** The name of the panel that holds an element. */
+export function panelAround(element: Element | null): string | null {
+  const panel = element?.closest(".dock [role=tabpanel]");
+  return panel?.id.match(/[a-z]+$/)?.[0] ?? null;
+}
+
+/** F6 and Shift F6 go from panel to panel, Alt Enter gives the panel the whole page. */
+export function useDockKeys(): void {
+  const studio = useStudio();
+  useEffect(() => {
+    const key = (event: KeyboardEvent) => {
+      if (document.querySelector("dialog[open]")) return;
+      if (event.key === "F6" && !event.ctrlKey && !event.altKey) {
+        const panels = panelsSeen();
+        const at = panels.findIndex((one) => one.contains(document.activeElement));
+        const step = event.shiftKey ? -1 : 1;
+        panels.at(at < 0 ? (step > 0 ? 0 : -1) : (at + step) % panels.length)?.focus();
+        event.preventDefault();
+      } else if (event.key === "Enter" && event.altKey) {
+        const panel = panelAround(document.activeElement);
+        if (!panel) return;
+        studio.dock.maximise(panel);
+        event.preventDefault();
+        event.stopPropagation();
+      }
+    };
+    addEventListener("keydown", key, true);
+    return () => removeEventListener("keydown", key, true);
+  }, [studio]);
+}

@@ -1,0 +1,100 @@
+import { pruned, type Cell, type Row } from "./dock_tree";
+
+/** The layouts that come with the page. */
+export const layoutNames = ["edit", "debug", "operate"] as const;
+export type LayoutName = (typeof layoutNames)[number];
+
+export const layoutTitles: Record<LayoutName, string> = { edit: "Edit", debug: "Debug", operate: "Operate" };
+
+/** The panel that is in front of its tab set. */
+const fronts: Record<LayoutName, string> = { edit: "inspect", debug: "run", operate: "run" };
+
+/** The widths of windows that have layouts of their own: beside each other, or below each other. */
+export type WidthName = "wide" | "narrow";
+
+/** Windows of fewer pixels are narrow. */
+export const narrowBelow = 900;
+
+/** The places of a layout where panels stand. */
+export type Slot = "left" | "centre" | "right" | "corner" | "below" | "middle" | "end";
+
+/** The place of a panel in each layout, and whether it is open there from the beginning. */
+export interface Places {
+  name: string;
+  /** The text of its tab. */
+  title: string;
+  edit: Slot;
+  debug: Slot;
+  operate: Slot;
+  /** The layouts in which it is closed until the user opens it. */
+  closed?: readonly LayoutName[];
+}
+
+const tabs = (id: Slot, weight: number): Cell => ({ kind: "tabs", id, weight, tabs: [], front: "" });
+const row = (id: string, weight: number, ...children: Cell[]): Row => ({ kind: "row", id, weight, children });
+
+/** A window of 1024 pixels leaves 400 to the drawing; a larger one gives it what is more. */
+function shares(width: number): { left: number; right: number } {
+  const left = Math.min(420, Math.max(220, width - 780));
+  const right = Math.min(360, width * 0.32);
+  return { left: (100 * left) / width, right: (100 * right) / width };
+}
+
+const skeletons: Record<LayoutName, (width: number) => Row> = {
+  edit: (width) => {
+    const { left, right } = shares(width);
+    return row(
+      "root",
+      100,
+      row(
+        "top",
+        70,
+        tabs("left", left),
+        row("inner", 100 - left - right, tabs("centre", 74), tabs("corner", 26)),
+        tabs("right", right),
+      ),
+      row("bottom", 30, tabs("below", 44), tabs("middle", 33), tabs("end", 23)),
+    );
+  },
+  debug: (width) => {
+    const { right } = shares(width);
+    return row(
+      "root",
+      100,
+      row("top", 62, tabs("left", 26), tabs("centre", 46), row("side", Math.max(right, 28), tabs("end", 45), tabs("right", 55))),
+      row("bottom", 38, tabs("below", 50), tabs("middle", 27), tabs("corner", 23)),
+    );
+  },
+  operate: () =>
+    row(
+      "root",
+      100,
+      row(
+        "top",
+        72,
+        row("seen", 64, tabs("end", 68), tabs("centre", 32)),
+        row("side", 36, tabs("right", 60), tabs("middle", 40)),
+      ),
+      row("bottom", 28, tabs("below", 55), tabs("corner", 25), tabs("left", 20)),
+    ),
+};
+
+/** In a narrow window, the panels are a stack of tabs below the drawing. */
+const stack = row("root", 100, tabs("centre", 46), tabs("right", 54));
+
+/** A layout as it comes with the page, for a window of so many pixels. */
+export function readyLayout(layout: LayoutName, panels: readonly Places[], width: number): Row {
+  const narrow = width < narrowBelow;
+  const whole = narrow ? stack : skeletons[layout](width);
+  const slotOf = (one: Places): Slot => (narrow && one[layout] !== "centre" ? "right" : one[layout]);
+  const walk = (cell: Cell): Cell => {
+    if (cell.kind === "row") return { ...cell, children: cell.children.map(walk) };
+    const mine = panels.filter((one) => slotOf(one) === cell.id).map(({ name }) => name);
+    return { ...cell, tabs: mine, front: mine.find((name) => name === fronts[layout]) ?? mine[0] ?? "" };
+  };
+  return pruned(walk(whole) as Row, () => true);
+}
+
+/** The panels that a layout does not show until the user opens them. */
+export const closedIn = (layout: LayoutName, panels: readonly Places[]): string[] =>
+  panels.filter(({ closed }) => closed?.includes(layout)).map(({ name }) => name);

@@ -1,0 +1,71 @@
+import { useEffect, useState } from "react";
+import { useStore, useStudio } from "../../hooks/use";
+import type { RunnerState } from "../../live/runner_state";
+import { activeTransitions } from "../../model/net/game";
+import { reason } from "../pane_title";
+
+/** The state of what the line shows: a word, and a colour with a sign of its own. */
+export interface LineState {
+  tone: "building" | "running" | "paused" | "stuck" | "failed" | "emergency" | "ended";
+  word: string;
+  /** The reason in words; may be empty. */
+  why: string;
+}
+
+/** The words in which the runtime says that subsystems wait for each other. */
+const stuckText = "stuck for good";
+
+const look_ms = 1000;
+
+/** Whether nothing can fire in the run that this page follows: no condition can change that. */
+function useDead(): boolean {
+  const { runner } = useStudio();
+  const { state, kind, run } = useStore(runner.store, (all) => all);
+  const [dead, setDead] = useState(false);
+  const watched = (state === "running" || state === "paused") && kind !== "deployment";
+  useEffect(() => {
+    setDead(false);
+    if (!watched) return;
+    let before = -1;
+    const timer = setInterval(() => {
+      const { track, stage } = runner;
+      if (!track) return;
+      const stands = track.firings === before && track.firings > 0;
+      before = track.firings;
+      setDead(stands && activeTransitions(track.net, stage.marking).length === 0);
+    }, look_ms);
+    return () => clearInterval(timer);
+  }, [runner, watched, run]);
+  return dead;
+}
+
+/** The reason of the emergency stop of the system of this page; null: there is none. */
+function useEmergency(): string | null {
+  const studio = useStudio();
+  const name = useStore(studio.project, (all) => all.project?.name);
+  return useStore(
+    studio.emergency.store,
+    ({ controllers }) => controllers.find(({ system, emergency }) => system === name && emergency !== null)?.emergency ?? null,
+  );
+}
+
+const words: Record<RunnerState["state"], LineState> = {
+  idle: { tone: "ended", word: "", why: "" },
+  building: { tone: "building", word: "Building", why: "" },
+  running: { tone: "running", word: "Running", why: "" },
+  paused: { tone: "paused", word: "Paused", why: "" },
+  ended: { tone: "ended", word: "Ended", why: "" },
+  failed: { tone: "failed", word: "Failed", why: "" },
+};
+
+export function useRunState(): LineState {
+  const { runner } = useStudio();
+  const { state, kind, why } = useStore(runner.store, (all) => all);
+  const dead = useDead();
+  const emergency = useEmergency();
+  const goesOn = state === "running" || state === "paused";
+  if (goesOn && kind !== "simulate" && emergency !== null) return { tone: "emergency", word: "Emergency stop", why: emergency };
+  if (goesOn && dead) return { tone: "stuck", word: "Stuck", why: "nothing can fire" };
+  if (why.includes(stuckText)) return { tone: "stuck", word: "Stuck", why: reason(why) };
+  return { ...words[state], why: reason(why) };
+}

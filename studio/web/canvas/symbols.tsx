@@ -2,8 +2,8 @@ import { memo, type CSSProperties } from "react";
 import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/net/geometry";
 import { conditionText, operationText, pageName, spoken } from "../model/net/labels";
 import type { NetModel, Page } from "../model/net/net";
-import { strokesOf } from "../model/net/strokes";
-import { mostFarArcs } from "./painted/arcs";
+import { tipOf, type ArcKind, type Strokes } from "../model/net/strokes";
+import { mostFarArcs, strokes } from "./painted/arcs";
 import { closedName, layerSize, runningSize } from "./closed_name";
 
 /** The paper's graphic language: circle place, double circle page, bar transition, dashed fused place. */
@@ -164,7 +164,7 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
  * if the net is too small to read.
  */
 function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open: boolean; child: number; bare: boolean }) {
-  if (bare) return <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
+  if (bare) return <rect className="shape bare" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
   return (
     <>
       <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />
@@ -243,22 +243,10 @@ function around(points: readonly Point[]): Box {
   return { x, y, width: Math.max(...xs) - x, height: Math.max(...ys) - y };
 }
 
-/** A path of lines that do not touch. */
-function separate(lines: Float32Array): string {
-  let path = "";
-  for (let at = 0; at < lines.length; at += 4)
-    path += `M${[0, 1].map((i) => tenth(lines[at + i]!)).join(" ")}L${[2, 3].map((i) => tenth(lines[at + i]!)).join(" ")}`;
-  return path;
-}
-const tenth = (value: number) => Math.round(value * 10) / 10;
-
 export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
   if (far && sheet.routes.length > mostFarArcs) return null;
-  if (far) {
-    const lines = [...strokesOf(net, page, sheet, true).values()].flatMap((one) => [one.lines, one.slanted]);
-    return <path className="arc" d={lines.map(separate).join("")} />;
-  }
+  if (far || sheet.grid) return <SharedArcs strokes={strokes(net, page, sheet, far)} far={far} clip={clip} />;
   const isDrawn = within(clip);
   return sheet.routes.map((route, at) => {
     if (clip && !isDrawn(around(route.points))) return null;
@@ -274,6 +262,35 @@ export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProp
     );
   });
 });
+
+/** The arcs of a grid run in the same lanes, so what they share is one line. Tips and kinds are not visible far away. */
+function SharedArcs({ strokes, far, clip }: { strokes: ReadonlyMap<ArcKind, Strokes>; far: boolean; clip: string }) {
+  const isDrawn = within(clip);
+  return [...strokes].map(([kind, { lines, slanted, corners, tips }]) => {
+    const path: string[] = [];
+    const tipPath: string[] = [];
+    for (const all of [lines, slanted])
+      for (let at = 0; at < all.length; at += 4) {
+        const [x1, y1, x2, y2] = all.subarray(at, at + 4) as unknown as [number, number, number, number];
+        const box = { x: Math.min(x1, x2), y: Math.min(y1, y2), width: Math.abs(x2 - x1) + 0.1, height: Math.abs(y2 - y1) + 0.1 };
+        if (isDrawn(box)) path.push(`M${tenth(x1)} ${tenth(y1)}L${tenth(x2)} ${tenth(y2)}`);
+      }
+    for (let at = 0; at < corners.length; at += 6) {
+      const [x1, y1, x, y, x2, y2] = [...corners.subarray(at, at + 6)].map(tenth) as [number, number, number, number, number, number]; // prettier-ignore
+      if (isDrawn({ x: x - 8, y: y - 8, width: 16, height: 16 })) path.push(`M${x1} ${y1}Q${x} ${y} ${x2} ${y2}`);
+    }
+    for (let at = 0; at < (far ? 0 : tips.length); at += 4)
+      if (isDrawn({ x: tips[at]! - 8, y: tips[at + 1]! - 8, width: 16, height: 16 }))
+        tipPath.push(`M${tipOf(tips, at).map(({ x, y }) => `${tenth(x)} ${tenth(y)}`).join("L")}Z`); // prettier-ignore
+    return (
+      <g key={kind}>
+        <path className={`arc${kind && !far ? ` ${kind}` : ""}`} d={path.join("")} />
+        {tipPath.length > 0 && <path className={kind === "never" ? "tip-never" : "tip"} d={tipPath.join("")} />}
+      </g>
+    );
+  });
+}
+const tenth = (value: number) => Math.round(value * 10) / 10;
 
 export function ArrowTips() {
   return (

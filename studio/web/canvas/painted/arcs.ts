@@ -1,6 +1,6 @@
 import type { Box, Sheet } from "../../model/net/geometry";
 import type { NetModel } from "../../model/net/net";
-import { strokesOf, type ArcKind, type Strokes } from "../../model/net/strokes";
+import { strokesOf, tipOf, type ArcKind, type Strokes } from "../../model/net/strokes";
 import type { Ink, ShapeInk } from "./ink";
 
 /** More arcs than this, so far away that they have no tips, would only be a grey area. */
@@ -11,7 +11,8 @@ const unseen = 1.5;
 
 const known = new WeakMap<Sheet, Map<string, ReadonlyMap<ArcKind, Strokes>>>();
 
-function strokes(net: NetModel, page: number, sheet: Sheet, sharp: boolean): ReadonlyMap<ArcKind, Strokes> {
+/** The lines of a sheet, made once. */
+export function strokes(net: NetModel, page: number, sheet: Sheet, sharp: boolean): ReadonlyMap<ArcKind, Strokes> {
   let all = known.get(sheet);
   if (!all) known.set(sheet, (all = new Map()));
   // Pages that share a sheet differ at most in what never fires.
@@ -80,24 +81,14 @@ function straight(context: CanvasRenderingContext2D, style: ShapeInk, lines: Flo
   }
 }
 
-/** The tip has the shape of the marker in symbols.tsx. */
 function arrows(context: CanvasRenderingContext2D, style: ShapeInk, tips: Float32Array, clip: Box): void {
   context.fillStyle = style.fill ?? "none";
   context.beginPath();
   for (let at = 0; at < tips.length; at += 4) {
-    const [x, y] = [tips[at]!, tips[at + 1]!];
-    if (!near(x, y, clip)) continue;
-    const length = Math.hypot(tips[at + 2]!, tips[at + 3]!) || 1;
-    const [dx, dy] = [tips[at + 2]! / length, tips[at + 3]! / length];
-    const point = (along: number, across: number, first = false) => {
-      const to = [x + along * dx - across * dy, y + along * dy + across * dx] as const;
-      if (first) context.moveTo(...to);
-      else context.lineTo(...to);
-    };
-    point(-7.6, -3.2, true);
-    point(0.4, 0);
-    point(-7.6, 3.2);
-    point(-5.6, 0);
+    if (!near(tips[at]!, tips[at + 1]!, clip)) continue;
+    const [first, ...rest] = tipOf(tips, at);
+    context.moveTo(first!.x, first!.y);
+    for (const { x, y } of rest) context.lineTo(x, y);
     context.closePath();
   }
   context.fill();

@@ -9,7 +9,7 @@ import { nearness, steps } from "../detail";
 import type { Marks } from "../marks";
 import { paintArcs } from "./arcs";
 import { Batches } from "./batches";
-import type { Ink, LetterInk } from "./ink";
+import type { Ink, LetterInk, ShapeInk } from "./ink";
 
 export interface Scene {
   net: NetModel;
@@ -47,6 +47,8 @@ export function paintNet(
   }
 }
 
+/** Pixels of the line around a page that is so small that it has no name; as in canvas.css. */
+const bareLine = 0.5;
 /** Names far outside of the window cannot reach into it, in units of a sheet. */
 const rim = 80;
 
@@ -72,6 +74,8 @@ class SheetPainter {
   /** Pixels of a unit, in the steps by which letters grow. */
   private readonly at: number;
   private readonly batches = new Batches();
+  private readonly bare: boolean;
+  private readonly thin = new Map<ShapeInk, ShapeInk>();
 
   constructor(
     private readonly context: CanvasRenderingContext2D,
@@ -87,6 +91,7 @@ class SheetPainter {
     this.at = scale * steps(window.zoom);
     this.near = nearness(this.pixel);
     this.far = this.near <= -3;
+    this.bare = isBare(placed.sheet, this.pixel);
     this.classes = `sheet layer-${scene.net.page(page).layer} near${this.near}${marks.runs(page) ? " runs" : ""}`;
     this.clip = {
       x: (window.x - x) / scale - rim,
@@ -212,9 +217,13 @@ class SheetPainter {
 
   private openPage(element: string, child: number, box: Box): void {
     const { x, y, width, height } = box;
+    if (this.bare) {
+      const ink = this.shape(element, "rect.shape.bare");
+      let thin = this.thin.get(ink);
+      if (!thin) this.thin.set(ink, (thin = { ...ink, width: bareLine / this.at }));
+      return this.batches.rectangle(thin, x, y, width, height, 16);
+    }
     this.batches.rectangle(this.shape(element, "rect.shape"), x, y, width, height, 16);
-    // One of so many, so far away, is a frame without a name.
-    if (isBare(this.placed.sheet, this.pixel)) return;
     this.batches.rectangle(this.shape(element, "rect.ring"), x + 3.5, y + 3.5, width - 7, height - 7, 13);
     const page = this.scene.net.page(child);
     if (!this.open.has(child)) return this.closedName(element, child, box);

@@ -81,3 +81,12 @@ export function strokesOf(net: NetModel, page: number, sheet: Sheet, sharp: bool
     ]),
   );
 }
+
+/** The corners of the tip at a position of `tips`. It has the shape of the marker of single arcs. */
+export function tipOf(tips: Float32Array, at: number): Point[] {
+  const [x, y, along, across] = [tips[at]!, tips[at + 1]!, tips[at + 2]!, tips[at + 3]!];
+  const length = Math.hypot(along, across) || 1;
+  const [dx, dy] = [along / length, across / length];
+  const point = (forward: number, aside: number) => ({ x: x + forward * dx - aside * dy, y: y + forward * dy + aside * dx });
+  return [point(-7.6, -3.2), point(0.4, 0), point(-7.6, 3.2), point(-5.6, 0)];
+}

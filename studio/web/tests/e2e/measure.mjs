@@ -36,7 +36,8 @@ async function measureFleet(robots) {
     const loaded = await page.evaluate(
       () =>
         new Promise((done) => {
-          const look = () => (document.querySelector(".sheet .page, .net-layer") ? done(performance.now()) : requestAnimationFrame(look));
+          const look = () =>
+            document.querySelector(".sheet .page, .net-layer") ? done(performance.now()) : requestAnimationFrame(look);
           look();
         }),
     );

@@ -15,6 +15,7 @@
 #include "server/recordings/recordings.hpp"
 #include "server/runs/driving_watch.hpp"
 #include "server/runs/runs.hpp"
+#include "server/runs/sweeps.hpp"
 #include "server/studio.hpp"
 
 namespace tessera::server {
@@ -28,6 +29,7 @@ class Api {
     Events& events;
     VerifyJobs& jobs;
     Runs& runs;
+    Sweeps& sweeps;
     Recordings& recordings;
     DrivingWatch& driving;
   };
@@ -51,6 +53,9 @@ class Api {
   void start_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
+  void serve_sweeps(HttpServer& server);
+  void start_sweep(const Request& request, Response& response);
+  void put_notes(const Request& request, Response& response);
   static void control_run(Run& run, const Request& request, Response& response);
   [[nodiscard]] static std::optional<Recordings::Span> span_of(const Request& request, Response& response);
   void get_views(const Request& request, Response& response);

@@ -22,6 +22,7 @@
 #include "server/recordings/recordings.hpp"
 #include "server/runs/driving_watch.hpp"
 #include "server/runs/runs.hpp"
+#include "server/runs/sweeps.hpp"
 
 namespace tessera::server {
 
@@ -51,10 +52,11 @@ struct Studio::Parts {
         analyses(file.path()),
         jobs(analyses, events),
         runs(file, analyses, events),
+        sweeps(file, analyses, events),
         recordings(file, analyses),
         driving(events),
         assets(given.page),
-        api(options, {file, analyses, events, jobs, runs, recordings, driving}),
+        api(options, {file, analyses, events, jobs, runs, sweeps, recordings, driving}),
         http(given.limits),
         port(http.bind(given.port, given.tries)),
         guard(port, token) {
@@ -124,6 +126,7 @@ struct Studio::Parts {
   Events events;
   VerifyJobs jobs;
   Runs runs;
+  Sweeps sweeps;
   Recordings recordings;
   DrivingWatch driving;
   Assets assets;

@@ -13,6 +13,8 @@ import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
+import { PlottedRecordings } from "./plotted";
+import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
@@ -69,6 +71,8 @@ export class Studio {
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly plots = new Plots();
+  readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
   readonly guide = new Guide(localStorage);
@@ -182,6 +186,7 @@ export class Studio {
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
@@ -231,6 +236,7 @@ export class Studio {
       this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } else if (known !== undefined && known !== start) {
       const { project } = this.project.get();
       // Another project at this address: its text is not to be mixed with that of this page.

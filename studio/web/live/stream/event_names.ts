@@ -17,6 +17,7 @@ const listened: Record<keyof Events, true> = {
   deployment: true,
   parameters: true,
   driving: true,
+  sweep: true,
 };
 
 /** All events of the server. */

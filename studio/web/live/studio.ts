@@ -19,6 +19,7 @@ import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
+import { Guide } from "./guide";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -76,6 +77,7 @@ export class Studio {
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly guide = new Guide(localStorage);
   readonly dock = new Dock();
   /** The seconds that timelines and curves show. */
   readonly watched = new Store({ seconds: 10 });

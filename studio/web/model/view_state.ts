@@ -12,6 +12,7 @@ export const panelNames = [
   "recordings",
   "timeline",
   "values",
+  "plots",
   "world",
 ] as const;
 export type PanelName = (typeof panelNames)[number];

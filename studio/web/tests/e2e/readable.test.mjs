@@ -110,7 +110,7 @@ for (const [name, project] of Object.entries(systems))
         const titles = page.locator(".agent-title");
         assert.ok((await titles.count()) > 0);
         const area = await page.locator(".canvas-area").boundingBox();
-        assert.ok(area.height > 250, `at ${width} the drawing is ${area.height} px high`);
+        assert.ok(area.height > 200, `at ${width} the drawing is ${area.height} px high`);
         await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
         // All of it, as far as possible, and then nearer and nearer.
         for (const steps of [0, 8, -3, -3, -4]) {

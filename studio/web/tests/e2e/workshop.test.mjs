@@ -70,7 +70,7 @@ test("among six agents one click finds the chain of waiting, names it in words, 
           one.textContent,
           one.getBoundingClientRect(),
         ]);
-        const covered = [...document.querySelectorAll(drawn === "Net" ? ".label.frame-name" : ".agent-title")]
+        const covered = [...document.querySelectorAll(drawn === "Net" ? ".label.frame-name" : ".agent-title .line")]
           .filter((one) => one.checkVisibility({ opacityProperty: true, visibilityProperty: true }))
           .map((one) => [one.textContent, one.getBoundingClientRect()]);
         const over = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom - 2 && b.top < a.bottom - 2;

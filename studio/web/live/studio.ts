@@ -85,6 +85,7 @@ export class Studio {
     ...linkedView(),
     line: null,
     flight: null,
+    near: null,
     folds: new Map(),
     searching: false,
   });
@@ -99,14 +100,19 @@ export class Studio {
   private linking: ReturnType<typeof setTimeout> | undefined;
   private reloading = false;
 
-  /** panels: all panels of the page. */
-  constructor(readonly panels: readonly Places[]) {
+  /**
+   * panels: all panels of the page. linked: the address tells what is shown, and this tab keeps it.
+   */
+  constructor(
+    readonly panels: readonly Places[],
+    private readonly linked = true,
+  ) {
     followDock(this.view, this.dock);
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
-      sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -142,7 +148,7 @@ export class Studio {
     const shown = this.recordings.store.get().open[0];
     const moment = this.wanted ?? (shown && { recording: shown.name, time: shown.store.get().time });
     const link = linkTo({ view, panel, selected, ...(moment ? { moment } : {}) });
-    if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+    if (this.linked && link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
   }
 
   /** The same for a time that may change with every frame: browsers limit how often an address changes. */
@@ -186,6 +192,8 @@ export class Studio {
 
   /** The panels as they were kept for this project, and the one that the address names. */
   private beginDock(project: string): void {
+    // The page for operators has no panels of its own to keep.
+    if (this.panels.length === 0) return;
     this.dock.choose(this.view.get().panel);
     this.dock.begin(project, this.panels, innerWidth);
     if (this.linkedPanel) this.dock.open(this.linkedPanel);
@@ -243,6 +251,11 @@ export class Studio {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();
+  }
+
+  /** Opens the page for operators in a tab of its own, with the key of this one, but without its unsaved text. */
+  openOperatingPage(): void {
+    window.open(`operate#token=${this.api.token}`, "_blank", "noopener");
   }
 
   get unsaved(): boolean {
@@ -321,6 +334,12 @@ export class Studio {
 
   showLine(line: number): void {
     this.view.set({ line: { line, request: (this.view.get().line?.request ?? 0) + 1 } });
+  }
+
+  /** Selects an element, and shows it in the structure from near. */
+  comeNear(path: string, structure: Structure): void {
+    this.choose(path, structure);
+    this.view.set({ view: "structure", near: path });
   }
 
   /** Moves the drawing of the net to an element. */

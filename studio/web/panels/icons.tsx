@@ -3,6 +3,8 @@ const paths: Record<string, string> = {
   undo: "M5.5 3L2.5 6l3 3M2.5 6H9.5a4 4 0 0 1 0 8H6",
   redo: "M10.5 3l3 3l-3 3M13.5 6H6.5a4 4 0 0 0 0 8H10",
   text: "M3 3.5h10M3 6.5h7M3 9.5h10M3 12.5h6",
+  full: "M2.5 6V2.5H6M10 2.5h3.5V6M13.5 10v3.5H10M6 13.5H2.5V10",
+  lamp: "M6 11.5h4M6.5 13.5h3M8 2a4 4 0 0 0-2.2 7.3c.4.4.7.8.7 1.4h3c0-.6.3-1 .7-1.4A4 4 0 0 0 8 2",
   panels: "M2.5 3h11v10h-11zM6 3v10M6 9h7.5",
   theme: "M8 2a6 6 0 1 0 0 12zM8 2a6 6 0 0 1 0 12",
   play: "M5 3l8 5l-8 5z",

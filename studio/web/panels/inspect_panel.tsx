@@ -5,6 +5,8 @@ import { sameBreakpoint, type NamedBreakpoint } from "../live/breakpoints";
 import { layerTitle, operationText } from "../model/net/labels";
 import type { Element, NetModel } from "../model/net/net";
 import { findThing, selectedPath, type Thing } from "../model/structure/structure";
+import { isBundlePath } from "../model/structure/bundles";
+import { BundlePanel } from "./bundle_panel";
 import { MemoryNow } from "./run/memory_now";
 
 const forms = () => import("./forms/every_form");
@@ -25,6 +27,7 @@ export function InspectPanel() {
         <SystemForm structure={structure} />
       </Suspense>
     );
+  if (isBundlePath(selected)) return <BundlePanel structure={structure} path={selected} />;
   const thing = findThing(structure, selected);
   const element = net?.find(selected);
   if (!thing && !element) return <p className="faint">{selected} is not there any more.</p>;

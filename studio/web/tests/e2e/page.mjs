@@ -93,6 +93,15 @@ export async function find(page, path) {
   await page.keyboard.press("Enter");
 }
 
+/** Comes near to an element of the structure by the search, and gives its text or button there. */
+export async function near(page, path) {
+  await tab(page, "Structure").click();
+  await find(page, path);
+  const found = page.locator(`[data-path="${path}"]`).first();
+  await middleOf(page, found);
+  return found;
+}
+
 export const element = (page, path) => page.locator(`.sheet [data-path="${path}"]`).first();
 export const tab = (page, name) => page.getByRole("tab", { name, exact: true });
 export const button = (page, name) => page.getByRole("button", { name, exact: true });
@@ -103,7 +112,7 @@ export const checked = (page) => page.locator('.app[aria-busy="true"]').waitFor(
 /** Waits until the text as it is now has no problems. */
 export async function noProblems(page) {
   await checked(page);
-  await page.getByText("No problems").waitFor();
+  await page.getByTestId("problem-count").getByText("No problems").waitFor();
 }
 
 /** The text of the page that is not saved, once the last edit is done; undefined: all is saved. */

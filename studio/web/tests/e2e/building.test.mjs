@@ -85,6 +85,10 @@ test("an error of the build is shown beside its function, with its hint, and a f
       const said = page.getByRole("list", { name: "What the build says" });
       await said.getByText(/error E501: .*no member named 'lin'/).waitFor();
       await said.getByText("Hint: did you mean 'line'?").waitFor();
+      // The mistake is underlined in the text, too.
+      const marked = page.locator(".code-editor .cm-lintRange-error");
+      await marked.waitFor();
+      assert.equal(await marked.innerText(), "lin");
       await said.getByRole("button", { name: "Line 2 of the function" }).click();
       const after = await area.evaluate((one) => {
         const { doc, selection } = one.closest(".code-editor").editor.state;

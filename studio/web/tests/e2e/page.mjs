@@ -189,5 +189,5 @@ export async function judges(page, found) {
   };
 }
 
-/** The whole text of an editor of C++. */
-export const codeText = (area) => area.evaluate((one) => one.closest(".code-editor").editor.state.doc.toString());
+/** The whole text of an editor of C++; empty while another editor takes its place. */
+export const codeText = (area) => area.evaluate((one) => one.closest(".code-editor")?.editor.state.doc.toString() ?? "");

@@ -12,6 +12,7 @@ export const panelNames = [
   "recordings",
   "timeline",
   "values",
+  "plots",
   "world",
 ] as const;
 export type PanelName = (typeof panelNames)[number];
@@ -27,6 +28,8 @@ export interface ViewState {
   line: { line: number; request: number } | null;
   /** Path to fly to, with a number that makes each request new. */
   flight: { path: string; request: number } | null;
+  /** Path of an element that the drawing of the structure is to come near to; null: it has done so. */
+  near: string | null;
   /** Pages that the user folded or unfolded, against the rule. */
   folds: ReadonlyMap<string, boolean>;
   searching: boolean;

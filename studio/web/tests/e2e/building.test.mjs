@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, draftText, drawn, example, judges, middleOf, noProblems, onPage, tab, until } from "./page.mjs";
+import { button, draftText, drawn, example, judges, middleOf, near, noProblems, onPage, tab, until } from "./page.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "studio-building-"));
 after(() => rmSync(parent, { recursive: true, force: true }));
@@ -145,6 +145,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       const select = (kind, path) => {
         const one = page.locator(`.${kind}[data-path="${path}"]`);
         const isSelected = async () => {
+          if (!(await one.isVisible())) await near(page, path);
           await one.click();
           await drawn(page);
           return (await one.getAttribute("aria-pressed")) === "true";
@@ -217,7 +218,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         await button(page, "Add behaviour").click();
         await page.getByRole("heading", { name: "Behaviour act" }).waitFor();
         await fill(field("Name"), name);
-        await page.locator(`.chip[data-path="robot.control.${name}"]`).waitFor();
+        await page.locator(`.chip[data-path="robot.control.${name}"][aria-pressed="true"]`).waitFor();
       }
       const conditions = {
         cruise: {

@@ -3,6 +3,7 @@ import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Places } from "../model/dock/ready_layouts";
 import type { PanelName } from "../model/view_state";
 import { InspectPanel } from "../panels/inspect_panel";
+import { PlotPanel, usePlot } from "../panels/plots/plot_panel";
 import { Timelines, ValueLists, Worlds } from "../panels/plots/watch";
 import { PlayPanel } from "../panels/run/play_panel";
 import { RecordingsPanel } from "../panels/run/recordings_panel";
@@ -92,5 +93,6 @@ export const panelTable: readonly Panel[] = [
     debug: "middle",
     operate: "corner",
   },
+  { name: "plots", title: "Plots", component: PlotPanel, useContent: usePlot, edit: "below", debug: "below", operate: "below" },
   { name: "world", title: "World", component: Worlds, useContent: useWorld, edit: "end", debug: "end", operate: "end" },
 ];

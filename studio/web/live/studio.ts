@@ -5,6 +5,7 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Dock } from "./dock";
 import { followDock } from "./dock_view";
+import { ElementEdits } from "./element_edits";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -13,9 +14,12 @@ import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
+import { PlottedRecordings } from "./plotted";
+import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
+import { Guide } from "./guide";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -54,6 +58,7 @@ export class Studio {
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
   readonly editor = new Editor(this.api, this.draft);
+  readonly elements = new ElementEdits(this);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
@@ -68,8 +73,11 @@ export class Studio {
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly plots = new Plots();
+  readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly guide = new Guide(localStorage);
   readonly dock = new Dock();
   /** The seconds that timelines and curves show. */
   readonly watched = new Store({ seconds: 10 });
@@ -180,6 +188,7 @@ export class Studio {
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
@@ -229,6 +238,7 @@ export class Studio {
       this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } else if (known !== undefined && known !== start) {
       const { project } = this.project.get();
       // Another project at this address: its text is not to be mixed with that of this page.

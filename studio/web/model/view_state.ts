@@ -13,6 +13,7 @@ export const panelNames = [
   "code",
   "timeline",
   "values",
+  "plots",
   "world",
 ] as const;
 export type PanelName = (typeof panelNames)[number];

@@ -3,6 +3,7 @@ import type { Events } from "../../model/protocol";
 const listened: Record<keyof Events, true> = {
   hello: true,
   spec: true,
+  layout: true,
   verify: true,
   build: true,
   log: true,
@@ -17,6 +18,7 @@ const listened: Record<keyof Events, true> = {
   deployment: true,
   parameters: true,
   driving: true,
+  sweep: true,
 };
 
 /** All events of the server. */

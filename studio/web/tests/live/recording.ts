@@ -10,6 +10,7 @@ export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings
     marking: null,
     dropped: 0,
     values: {},
+    arrivals: {},
     path: [],
     track: null,
     scene: null,

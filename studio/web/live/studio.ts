@@ -5,6 +5,7 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Dock } from "./dock";
 import { followDock } from "./dock_view";
+import { ElementEdits } from "./element_edits";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -18,6 +19,7 @@ import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
+import { Guide } from "./guide";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -56,6 +58,7 @@ export class Studio {
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
   readonly editor = new Editor(this.api, this.draft);
+  readonly elements = new ElementEdits(this);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
@@ -74,6 +77,7 @@ export class Studio {
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly guide = new Guide(localStorage);
   readonly dock = new Dock();
   /** The seconds that timelines and curves show. */
   readonly watched = new Store({ seconds: 10 });

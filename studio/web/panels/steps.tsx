@@ -18,7 +18,6 @@ export function Steps() {
           <span className="step-title">{one.title}</span>
           <button
             className={`quiet step-state${leadsOn.includes(one.leads) ? " leads-on" : ""}`}
-            data-testid={`${one.step}-state`}
             onClick={() => void act(studio, one.leads)}
           >
             <span className={`dot ${dots[one.tone]}`} />

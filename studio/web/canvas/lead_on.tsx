@@ -52,7 +52,15 @@ export function LeadOnForm({ structure, of, onClose }: { structure: Structure; o
   const named = ["error", ...(behaviour?.isGroup ? ["until"] : [])];
   const always = behaviour?.next.some((one) => one.when === "");
   return createPortal(
-    <form ref={form} className="lead-on" aria-labelledby={`${id}-title`} style={place} onSubmit={add} onKeyDown={key}>
+    <form
+      ref={form}
+      className="lead-on"
+      aria-labelledby={`${id}-title`}
+      style={place}
+      onSubmit={add}
+      onKeyDown={key}
+      onClick={(event) => event.stopPropagation()}
+    >
       <h2 id={`${id}-title`}>After {behaviour?.name}</h2>
       <label>
         goes on with

@@ -192,6 +192,8 @@ export function StructureMenu({ open, items, onClose }: { open: OpenMenu; items:
       aria-label={open.path === null ? "System" : selectedPath(open.path)}
       style={place}
       onKeyDown={key}
+      // A click in the menu is none on the drawing, from which React would see it come.
+      onClick={(event) => event.stopPropagation()}
       onContextMenu={(event) => event.preventDefault()}
     >
       {items

@@ -4,7 +4,7 @@ import { readdirSync } from "node:fs";
 
 const suites = {
   reading: ["studio", "readable", "guide", "tour", "fleet", "appearance"],
-  editing: ["editing", "keeping"],
+  editing: ["editing", "boxes", "keeping"],
   building: ["building", "workshop"],
   running: ["run", "teleoperation", "beside", "deployment"],
   recordings: ["recordings", "reports", "world"],

@@ -5,6 +5,7 @@ import { LineBar } from "../panels/line/line_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { Toolbar } from "../panels/toolbar";
+import { RemovalDialog } from "../panels/forms/removal_dialog";
 import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
 import { Boundary } from "./boundary";
@@ -35,6 +36,7 @@ export function App() {
       {searching && <Search />}
       <ConflictDialog />
       <RenameDialog />
+      <RemovalDialog />
       <TrustDialog />
       <Guide />
     </div>

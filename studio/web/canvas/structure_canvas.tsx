@@ -12,17 +12,16 @@ import {
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
+import { useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
-import { keysNow, named } from "../live/editor";
 import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { connect as connectEdit, freshAgent, insert, remove } from "../model/text/edits";
+import { connect as connectEdit } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
 import { channelEnd } from "../model/structure/connections";
 import { bundleAt, bundlePath, isBundlePath } from "../model/structure/bundles";
 import { agentHead, detailAt, structureStep, type Detail } from "../model/structure/levels";
-import { channelOf, channelPath, findThing, withoutIndex } from "../model/structure/structure";
+import { channelOf, channelPath, withoutIndex } from "../model/structure/structure";
 import { mostBundleLetters } from "../model/structure/structure_graph";
 import { leastPixels } from "../model/structure/text_size";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
@@ -31,6 +30,7 @@ import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useSteadyView } from "./steady_view";
+import { selectionAt, StructureHands } from "./structure_hands";
 import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
 import { AgentNode, DeviceNode, SubsystemNode, SurroundingsContext, type Surroundings } from "./structure_nodes";
 
@@ -94,9 +94,6 @@ function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): B
 /** The element, or the line of a channel, at a click. */
 const pathOf = (target: Element) =>
   target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
-
-/** The name that a click selects: a buffer has another one there than in paths. */
-const selectionOf = (target: Element) => target.closest("[data-path]")?.getAttribute("data-selection") ?? pathOf(target);
 
 /** The wires between virtual receptors and effectors and their devices. */
 function wiresOf({ structure, drawing }: Drawn): Edge[] {
@@ -195,20 +192,15 @@ function Drawing() {
   const dragged = useRef(false);
   // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
-  const click = (event: MouseEvent) => dragged.current || select(selectionOf(event.target as Element));
+  const click = (event: MouseEvent) => dragged.current || select(selectionAt(event.target as Element));
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);
     if (path !== null) comeNear(path);
   };
-  const key = (event: KeyboardEvent) => {
-    const thing = selected === null ? undefined : findThing(structure, selected);
-    if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
-      void studio.change(remove(["channels", thing.of.index]), () => ({ selected: null }));
-    }
-  };
-  const add = () => {
-    const added = named("agent", keysNow(["agents"]), (name) => insert(["agents"], name, freshAgent));
-    void studio.change(added.wish, () => ({ selected: added.name, panel: "inspect" }));
+  const area = useRef<HTMLDivElement>(null);
+  const drag = () => {
+    dragged.current = true;
+    addEventListener("pointerup", dragEnds, { once: true });
   };
   const overview = () => {
     moved.current = false;
@@ -228,7 +220,7 @@ function Drawing() {
         <button className="quiet" title="Show the whole system" onClick={overview}>
           Overview
         </button>
-        <button className="quiet" onClick={add}>
+        <button className="quiet" onClick={() => void studio.elements.addAgent()}>
           Add agent
         </button>
         <ExportButtons name={structure.system} />
@@ -240,7 +232,8 @@ function Drawing() {
         style={{ "--zoom": zoom } as CSSProperties}
         onClick={click}
         onDoubleClick={doubleClick}
-        onKeyDown={key}
+        ref={area}
+        tabIndex={-1}
       >
         <SurroundingsContext.Provider value={surroundings}>
           <ReactFlow
@@ -279,6 +272,14 @@ function Drawing() {
             </Panel>
             <Map whole={whole} />
             <Controls showInteractive={false} showFitView={false} position="bottom-right" />
+            <StructureHands
+              structure={structure}
+              area={area}
+              boxes={drawing.boxes}
+              move={() => false}
+              arrange={undefined}
+              onDrag={drag}
+            />
           </ReactFlow>
         </SurroundingsContext.Provider>
         {(busy || problem) && <Notice first={drawn === nothing} problem={problem} />}

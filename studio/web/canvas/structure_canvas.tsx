@@ -20,7 +20,15 @@ import { connect as connectEdit } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
 import { channelEnd } from "../model/structure/connections";
 import { bundleAt, bundlePath, isBundlePath } from "../model/structure/bundles";
-import { agentHead, detailAt, structureStep, type Detail } from "../model/structure/levels";
+import {
+  agentFilled,
+  agentHead,
+  detailAt,
+  sizeOfFilled,
+  structureStep,
+  subsystemFilled,
+  type Detail,
+} from "../model/structure/levels";
 import { channelOf, channelPath, withoutIndex } from "../model/structure/structure";
 import { mostBundleLetters } from "../model/structure/structure_graph";
 import { leastPixels } from "../model/structure/text_size";
@@ -29,6 +37,7 @@ import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
+import { measured } from "./measured_text";
 import { useSteadyView } from "./steady_view";
 import { selectionAt, StructureHands } from "./structure_hands";
 import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
@@ -76,19 +85,27 @@ const none: readonly Box[] = [];
 
 /** The positions of the names of agents and subsystems: in the middle of boxes without other text. */
 function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): Box[] {
-  const middle = (box: Box): Box => {
-    const height = Math.min(box.height, 40 / zoom);
-    return { ...box, y: box.y + (box.height - height) / 2, height };
-  };
+  const middle = (box: Box, size: { width: number; height: number }): Box => ({
+    x: box.x + (box.width - size.width) / 2,
+    y: box.y + (box.height - size.height) / 2,
+    ...size,
+  });
   const head = (box: Box): Box => ({ ...box, height: agentHead });
-  const named = (path: string, place: (box: Box) => Box) => {
-    const box = drawing.boxes.get(path);
-    return box ? [place(box)] : [];
-  };
-  return structure.agents.flatMap(({ name, subsystems }) => [
-    ...named(name, detail === "agents" ? middle : head),
-    ...(detail === "agents" ? [] : subsystems.flatMap(({ path }) => named(path, detail === "all" ? head : middle))),
-  ]);
+  return structure.agents.flatMap((agent) => {
+    const box = drawing.boxes.get(agent.name);
+    if (!box) return [];
+    if (detail === "agents") {
+      const text = agentFilled(agent, box, zoom, measured);
+      return text ? [middle(box, sizeOfFilled(text, "agent", zoom, measured))] : [];
+    }
+    const inside = agent.subsystems.flatMap((one) => {
+      const own = drawing.boxes.get(one.path);
+      if (!own) return [];
+      const text = detail === "all" ? undefined : subsystemFilled(one, own, zoom, measured);
+      return [text ? middle(own, sizeOfFilled(text, "subsystem", zoom, measured)) : head(own)];
+    });
+    return [head(box), ...inside];
+  });
 }
 
 /** The element, or the line of a channel, at a click. */

@@ -14,7 +14,7 @@ import {
   type Structure,
   type Subsystem,
 } from "../../model/structure/structure";
-import { CodeForm } from "./code_form";
+import { CodeInForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
 
@@ -272,7 +272,7 @@ function OneForm(shown: Shown) {
         ]}
         onChange={(value) => set("transfer")(value === "parallel" ? value : "")}
       />
-      <CodeForm behaviour={behaviour} subsystem={subsystem} />
+      <CodeInForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
       <Remove what="behaviour" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
     </>

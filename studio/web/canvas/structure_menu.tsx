@@ -185,40 +185,43 @@ export function StructureMenu({ open, items, onClose }: { open: OpenMenu; items:
     event.preventDefault();
   };
   return createPortal(
-    <div
-      ref={menu}
-      className="structure-menu"
-      role="menu"
-      aria-label={open.path === null ? "System" : selectedPath(open.path)}
-      style={place}
-      onKeyDown={key}
-      // A click in the menu is none on the drawing, from which React would see it come.
-      onClick={(event) => event.stopPropagation()}
-      onContextMenu={(event) => event.preventDefault()}
-    >
-      {items
-        .filter((part) => part.length > 0)
-        .map((part, at) => (
-          <div key={at} role="group">
-            {part.map(({ title, keys, danger, act }) => (
-              <button
-                key={title}
-                role="menuitem"
-                tabIndex={-1}
-                className={danger ? "danger" : ""}
-                aria-keyshortcuts={keys?.replace("Ctrl ", "Control+")}
-                onClick={() => {
-                  close(true);
-                  void act();
-                }}
-              >
-                {title}
-                {keys && <kbd aria-hidden="true">{keys}</kbd>}
-              </button>
-            ))}
-          </div>
-        ))}
-    </div>,
+    // A landmark: everything on the page is in one.
+    <aside aria-label="Menu of the drawing">
+      <div
+        ref={menu}
+        className="structure-menu"
+        role="menu"
+        aria-label={open.path === null ? "System" : selectedPath(open.path)}
+        style={place}
+        onKeyDown={key}
+        // A click in the menu is none on the drawing, from which React would see it come.
+        onClick={(event) => event.stopPropagation()}
+        onContextMenu={(event) => event.preventDefault()}
+      >
+        {items
+          .filter((part) => part.length > 0)
+          .map((part, at) => (
+            <div key={at} role="group">
+              {part.map(({ title, keys, danger, act }) => (
+                <button
+                  key={title}
+                  role="menuitem"
+                  tabIndex={-1}
+                  className={danger ? "danger" : ""}
+                  aria-keyshortcuts={keys?.replace("Ctrl ", "Control+")}
+                  onClick={() => {
+                    close(true);
+                    void act();
+                  }}
+                >
+                  {title}
+                  {keys && <kbd aria-hidden="true">{keys}</kbd>}
+                </button>
+              ))}
+            </div>
+          ))}
+      </div>
+    </aside>,
     document.body,
   );
 }

@@ -6,6 +6,7 @@ import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { StartPage } from "../panels/start_page";
 import { Toolbar } from "../panels/toolbar";
+import { RemovalDialog } from "../panels/forms/removal_dialog";
 import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
 import { Boundary } from "./boundary";
@@ -38,6 +39,7 @@ export function App() {
       {searching && <Search />}
       <ConflictDialog />
       <RenameDialog />
+      <RemovalDialog />
       <TrustDialog />
       <Guide />
     </div>

@@ -5,6 +5,7 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Dock } from "./dock";
 import { followDock } from "./dock_view";
+import { ElementEdits } from "./element_edits";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -57,6 +58,7 @@ export class Studio {
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
   readonly editor = new Editor(this.api, this.draft);
+  readonly elements = new ElementEdits(this);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);

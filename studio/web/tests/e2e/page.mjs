@@ -192,3 +192,6 @@ export async function judges(page, found) {
     found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
   };
 }
+
+/** The whole text of an editor of C++; empty while another editor takes its place. */
+export const codeText = (area) => area.evaluate((one) => one.closest(".code-editor")?.editor.state.doc.toString() ?? "");

@@ -43,7 +43,7 @@ export function StartPage() {
     }
   };
   // Beside the text, it is a part of the main part of the page.
-  const Frame = byHand ? "section" : "main";
+  const Frame = byHand ? "div" : "main";
   return (
     <Frame className="start-page" aria-busy={busy}>
       <h2>Begin a project</h2>

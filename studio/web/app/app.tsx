@@ -4,6 +4,7 @@ import { ConnectionBanner } from "../panels/connection_banner";
 import { LineBar } from "../panels/line/line_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
+import { StartPage } from "../panels/start_page";
 import { Toolbar } from "../panels/toolbar";
 import { RemovalDialog } from "../panels/forms/removal_dialog";
 import { RenameDialog } from "../panels/forms/rename_dialog";
@@ -22,6 +23,10 @@ export function App() {
     document.documentElement.dataset.theme = theme;
   }, [theme]);
   const busy = useStore(studio.draft.store, (draft) => draft.editing || draft.checking);
+  // An empty project has nothing to show in panels yet.
+  const byHand = useStore(studio.guide.store, (all) => all.byHand);
+  const blank = useStore(studio.draft.store, ({ loaded, text, unreadable }) => loaded && text.trim() === "" && !unreadable);
+  const beginning = blank && !byHand;
   useShortcuts();
   return (
     <div className="app" aria-busy={busy}>
@@ -29,10 +34,8 @@ export function App() {
       <LineBar />
       <ConnectionBanner />
       <TourOffer />
-      <Boundary>
-        <Dock />
-      </Boundary>
-      <Problems />
+      <Boundary>{beginning ? <StartPage /> : <Dock />}</Boundary>
+      {!beginning && <Problems />}
       {searching && <Search />}
       <ConflictDialog />
       <RenameDialog />

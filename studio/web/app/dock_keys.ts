@@ -1,5 +1,6 @@
 import { useEffect } from "react";
 import { useStudio } from "../hooks/use";
+import { shortcutOf } from "../model/shortcuts";
 
 /** The elements of the panels that can be seen, in their order on the page. */
 function panelsSeen(): HTMLElement[] {
@@ -22,13 +23,14 @@ export function useDockKeys(): void {
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
       if (document.querySelector("dialog[open]")) return;
-      if (event.key === "F6" && !event.ctrlKey && !event.altKey) {
+      const pressed = shortcutOf("panels", event);
+      if (pressed === "nextPanel" || pressed === "lastPanel") {
         const panels = panelsSeen();
         const at = panels.findIndex((one) => one.contains(document.activeElement));
-        const step = event.shiftKey ? -1 : 1;
+        const step = pressed === "lastPanel" ? -1 : 1;
         panels.at(at < 0 ? (step > 0 ? 0 : -1) : (at + step) % panels.length)?.focus();
         event.preventDefault();
-      } else if (event.key === "Enter" && event.altKey) {
+      } else if (pressed === "maximise") {
         const panel = panelAround(document.activeElement);
         if (!panel) return;
         studio.dock.maximise(panel);

@@ -13,6 +13,8 @@ export interface GuideState {
   step: TourStep | null;
   /** The tour is offered: this browser has not shown the page before. */
   offered: boolean;
+  /** An empty specification is written as text: the page of a beginning leaves the room to the text. */
+  byHand: boolean;
 }
 
 /** The help of the page: shortcuts, and the tour, which is offered once. */
@@ -20,7 +22,7 @@ export class Guide {
   readonly store: Store<GuideState>;
 
   constructor(private readonly kept: Pick<Storage, "getItem" | "setItem">) {
-    this.store = new Store<GuideState>({ open: false, step: null, offered: kept.getItem(visited) === null });
+    this.store = new Store<GuideState>({ open: false, step: null, offered: kept.getItem(visited) === null, byHand: false });
   }
 
   open(open: boolean): void {

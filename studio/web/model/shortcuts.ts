@@ -15,6 +15,13 @@ const everywhere = {
   help: { keys: ["?"], text: "show this help" },
 } satisfies Record<string, Row>;
 
+/** Keys that go from panel to panel. */
+const panels = {
+  nextPanel: { keys: ["F6"], text: "to the next panel" },
+  lastPanel: { keys: ["Shift-F6"], text: "to the panel before" },
+  maximise: { keys: ["Alt-Enter"], text: "give the panel the whole page, or its place again" },
+} satisfies Record<string, Row>;
+
 /** Keys of the drawing of the net, while it has the focus. */
 const net = {
   left: { keys: ["ArrowLeft"], text: "to the element on the left" },
@@ -39,12 +46,13 @@ const text = {
   find: { keys: ["Mod-f"], text: "find in the text" },
 } satisfies Record<string, Row>;
 
-export const shortcuts = { everywhere, net, text };
+export const shortcuts = { everywhere, panels, net, text };
 export type ShortcutGroup = keyof typeof shortcuts;
 export type ShortcutOf<Group extends ShortcutGroup> = keyof (typeof shortcuts)[Group];
 
 export const groupTitles: Record<ShortcutGroup, string> = {
   everywhere: "Everywhere",
+  panels: "Panels",
   net: "In the drawing of the net",
   text: "In the text",
 };
@@ -68,7 +76,7 @@ function isPressed(event: Pressed, keys: string): boolean {
   const mod = modifiers.includes("Mod") || modifiers.includes("Ctrl");
   if ((event.ctrlKey || event.metaKey) !== mod || event.altKey !== modifiers.includes("Alt")) return false;
   // Signs such as ? and + need Shift on some keyboards.
-  if (/^[a-z]$/.test(key) && event.shiftKey !== modifiers.includes("Shift")) return false;
+  if (/^([a-z]|F\d+|Enter)$/.test(key) && event.shiftKey !== modifiers.includes("Shift")) return false;
   const pressed = event.key === " " ? "Space" : event.key.length === 1 ? event.key.toLowerCase() : event.key;
   return pressed === key;
 }

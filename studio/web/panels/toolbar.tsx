@@ -33,7 +33,7 @@ export function Toolbar() {
         </div>
         <span className="spring" />
         <button className="search-button" onClick={() => studio.view.set({ searching: true })}>
-          <Icon name="search" /> Find by path <kbd>Ctrl K</kbd>
+          <Icon name="search" /> <span className="search-text">Find by path</span> <kbd>Ctrl K</kbd>
         </button>
         <span className="spring" />
         <IconButton

@@ -40,7 +40,7 @@ const stations: Record<TourStep, Station> = {
   values: {
     title: "Values",
     text: "During a run the page shows what every behaviour does over time, curves of all values, and the simulated world. Each run leaves a recording, which you open here to see the same again.",
-    parts: [".watches .watch", '[aria-label="Values"]', '[role="tab"][id="tab-recordings"]', '[data-step="run"]'],
+    parts: ['.dock [role="tabpanel"][id$="values"]', '.dock [role="tabpanel"][id$="recordings"]', '[data-step="run"]'],
     prepare: (studio) => studio.view.set({ panel: "recordings" }),
   },
 };

@@ -191,7 +191,8 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         await page.setViewportSize({ width, height: 900 });
         await judge(`the start page at ${width}`);
       }
-      await button(page, "An empty system").click();
+      await page.getByRole("radio", { name: /^Not known yet/ }).check();
+      await button(page, "Begin").click();
       await page.locator('.chip[data-path="robot.control.run"]').waitFor();
       await page.getByRole("group", { name: "Types" }).waitFor();
       await structure("Light", [

@@ -1,6 +1,8 @@
 // The way through the page: the steps, the tour of the first visit, the help, and the meanings of terms.
 import assert from "node:assert/strict";
-import { readFileSync, writeFileSync } from "node:fs";
+import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
 import { test } from "node:test";
 import { button, checked, drawn, example, folder, judges, onPage, tab, until } from "./page.mjs";
 
@@ -134,3 +136,35 @@ test("the steps say what stands in the way, and a click on that does it", () =>
     await state("run").click();
     assert.equal(await page.locator(".cm-activeLine").innerText(), "      rate: 5 Hx");
   }));
+
+test("each pair of answers leads from an empty folder to a project without errors", async () => {
+  const root = mkdtempSync(join(tmpdir(), "studio-begin-"));
+  for (const [robot, world, then] of [
+    ["A mobile robot", "Simulated", "ready"],
+    ["A mobile robot", "Real, with ROS 2", "ready"],
+    ["A robot arm", "Simulated", "ready"],
+    ["A robot arm", "Real, with ROS 2", "4 functions are missing: write them"],
+    ["Several robots", "Simulated", "ready"],
+    ["Several robots", "Real, with ROS 2", "5 functions are missing: write them"],
+    ["Not known yet", null, "1 function is missing: write it"],
+  ]) {
+    const folder = mkdtempSync(join(root, "robot_"));
+    await onPage(
+      folder,
+      async (page) => {
+        const found = [];
+        if (!world) await (await judges(page, found))("the page of a beginning");
+        await page.getByRole("img", { includeHidden: true }).first().waitFor();
+        await page.getByRole("radio", { name: new RegExp(`^${robot}`) }).check();
+        if (world) await page.getByRole("radio", { name: new RegExp(`^${world}`) }).check();
+        else assert.equal(await page.getByRole("radio", { name: /^Simulated/ }).count(), 0);
+        await button(page, "Begin").click();
+        await page.getByTestId("step-edit").getByText("no problems").waitFor();
+        await page.getByTestId("step-run").getByText(then).waitFor();
+        assert.deepEqual(found, []);
+      },
+      { server: { copy: false } },
+    );
+  }
+  rmSync(root, { recursive: true, force: true });
+});

@@ -299,7 +299,7 @@ test("a file that cannot be read is not taken for an empty one", () =>
     await page.reload();
     await page.getByText("spec.yaml cannot be read").waitFor();
     await page.getByText("it is larger than 8 MB").waitFor();
-    assert.equal(await button(page, "An empty system").count(), 0);
+    assert.equal(await button(page, "Begin").count(), 0);
     await page.getByTestId("editor").locator(".cm-content").focus();
     await page.keyboard.type("x");
     await page.keyboard.press("Control+s");

@@ -12,7 +12,7 @@ it("the tour is offered until it is refused or begun, and has five steps", () =>
   expect(new Guide(kept).store.get().offered).toBe(true);
   const guide = new Guide(kept);
   guide.go(tourSteps[0]);
-  expect(guide.store.get()).toEqual({ open: false, step: "structure", offered: false });
+  expect(guide.store.get()).toEqual({ open: false, step: "structure", offered: false, byHand: false });
   expect(guide.beside(-1)).toBeNull();
   const seen = [];
   for (let step = guide.store.get().step; step !== null; step = guide.beside(1)) {

@@ -17,6 +17,8 @@ describe("shortcuts", () => {
     expect(shortcutOf("everywhere", press("Z", "ctrlKey", "shiftKey"))).toBe("redo");
     expect(shortcutOf("everywhere", press("z", "ctrlKey"))).toBe("undo");
     expect(shortcutOf("everywhere", press("?", "shiftKey"))).toBe("help");
+    expect(shortcutOf("panels", press("F6", "shiftKey"))).toBe("lastPanel");
+    expect(shortcutOf("panels", press("Enter", "altKey"))).toBe("maximise");
     expect(shortcutOf("net", press(" "))).toBe("enter");
     expect(shortcutOf("net", press("+", "shiftKey"))).toBe("nearer");
     expect(shortcutOf("net", press("-"))).toBe("farther");

@@ -32,7 +32,7 @@ export interface StructureDrawing {
   height: number;
   /** Boxes of agents, subsystems and devices ("a.motor#device"), by path. */
   boxes: Map<string, Box>;
-  /** What is in the boxes of subsystems, by path. */
+  /** The contents of the boxes of subsystems, by path. */
   cards: Map<string, Card>;
   /** Lines within agents. */
   wires: Wire[];

@@ -1,12 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { intersects, type Box } from "../../model/net/geometry";
-import { rateText } from "../../model/structure/cards";
-import { bundleAt, bundlesOf, bundleTitle, connected } from "../../model/structure/bundles";
-import { levelOf } from "../../model/structure/machine";
-import { readStructure } from "../../model/structure/structure";
-import { drawStructure } from "../../model/structure/structure_graph";
-import { estimated } from "../../model/structure/text_size";
-import { elk } from "./line_follower";
+import { intersects, type Box } from "../../../model/net/geometry";
+import { rateText } from "../../../model/structure/cards";
+import { bundleAt, bundlesOf, bundleTitle, connected } from "../../../model/structure/bundles";
+import { levelOf } from "../../../model/structure/machine";
+import { readStructure } from "../../../model/structure/structure";
+import { drawStructure } from "../../../model/structure/structure_graph";
+import { estimated } from "../../../model/structure/text_size";
+import { elk } from "../line_follower";
 
 const structure = readStructure(`agents:
   robot:

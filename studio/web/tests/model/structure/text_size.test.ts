@@ -1,10 +1,10 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { agentFilled, detailAt, levelsOf, structureStep, subsystemFilled } from "../../model/structure/levels";
-import { readStructure } from "../../model/structure/structure";
-import { drawStructure } from "../../model/structure/structure_graph";
-import { estimated, fitted, fontSize, lineHeight, remembered, wrapped } from "../../model/structure/text_size";
-import { elk } from "./line_follower";
+import { agentFilled, detailAt, levelsOf, structureStep, subsystemFilled } from "../../../model/structure/levels";
+import { readStructure } from "../../../model/structure/structure";
+import { drawStructure } from "../../../model/structure/structure_graph";
+import { estimated, fitted, fontSize, lineHeight, remembered, wrapped } from "../../../model/structure/text_size";
+import { elk } from "../line_follower";
 
 const letter = estimated("a", "text");
 
@@ -41,7 +41,7 @@ it("a text is measured once", () => {
 });
 
 it("from each level of the zoom on, all names of that level fit, and just below it one does not", async () => {
-  const spec = readFileSync(new URL("../e2e/projects/long_names/spec.yaml", import.meta.url), "utf8");
+  const spec = readFileSync(new URL("../../e2e/projects/long_names/spec.yaml", import.meta.url), "utf8");
   const structure = readStructure(spec);
   const drawing = await drawStructure(structure, elk, estimated);
   const levels = levelsOf(structure, drawing, estimated);

@@ -1,5 +1,5 @@
 import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
-import { StructureCanvas } from "../canvas/structure_canvas";
+import { StructureCanvas } from "../canvas/structure/structure_canvas";
 import { ComparisonBar } from "../panels/run/comparison";
 import { CoverageLegend } from "../panels/run/coverage";
 import { FilmButton } from "../panels/film/film_button";

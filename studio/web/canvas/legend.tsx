@@ -12,9 +12,11 @@ const structure: [string, ReactNode, ReactNode][] = [
   ],
   ["dashed", <Line key="" dash="6 4" />, "A channel at which nobody waits"],
   ["solid", <Line key="" />, "A channel at which an end waits"],
-  ["thick", <Line key="" wide={3} />, "All channels between two agents"],
+  ["thick", <Line key="" wide={3} />, "All channels between two agents, with their number"],
   ["next", "↻", "From each member of a fleet to the next one"],
-  ["circle", "○", "An input (left) or output (right): drag from one to the other"],
+  ["circle", "○", "An input (left) or output (right): drag from one to the other; filled: it has a channel"],
+  ["start", "●", "The behaviour that an arrow from here leads to is the first one"],
+  ["arrow", "→", "An entry of next, with its condition; red: after a failure"],
   ["device", <span key="" className="legend-device" />, "The device of a virtual receptor or effector"],
 ];
 

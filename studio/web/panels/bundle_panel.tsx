@@ -1,7 +1,7 @@
 import { useStudio } from "../hooks/use";
 import { bundleAt } from "../model/structure/bundles";
-import { channelMeaning } from "../model/structure/channel_words";
-import { channelLabel, channelPath, type Channel, type Structure } from "../model/structure/structure";
+import { channelLabel, channelMeaning } from "../model/structure/channel_words";
+import { channelPath, type Channel, type Structure } from "../model/structure/structure";
 
 /** The channels between two agents, by direction. */
 export function BundlePanel({ structure, path }: { structure: Structure; path: string }) {

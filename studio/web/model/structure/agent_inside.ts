@@ -1,8 +1,9 @@
 import type { Box, Point } from "../net/geometry";
 import type { ElkEdge, ElkNode } from "../net/layout";
 import { agentOf, bundlePath, isNext } from "./bundles";
+import { channelLabel } from "./channel_words";
 import { agentNameWidth, head, row, withDevice, type Card } from "./cards";
-import { channelLabel, withoutIndex, type Channel, type Structure, type Subsystem } from "./structure";
+import { withoutIndex, type Channel, type Structure, type Subsystem } from "./structure";
 import type { End } from "./structure_grid";
 import type { Measure } from "./text_size";
 

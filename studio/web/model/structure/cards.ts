@@ -31,7 +31,7 @@ export const deviceTitle = ({ kind }: Subsystem) => (kind === "effector" ? "real
 /** The rate as a value, also where the file has an alias: "100 Hz". */
 export const rateText = ({ yaml }: Structure, { yaml: at }: Subsystem) => yaml.followedText([...at, "rate"]) ?? "";
 
-/** What stands behind the name of an agent: " × 3 uses carrier". */
+/** The text behind the name of an agent: " × 3 uses carrier". */
 export const agentNote = ({ count, template }: Agent) => `${count ? ` × ${count}` : ""}${template ? ` uses ${template}` : ""}`;
 
 /** Letters on the screen are rounded to pixels, so texts may be a little wider than measured. */

@@ -10,3 +10,11 @@ export const channelMeaning = ({ send, receive, model, timeout }: Channel) =>
     : `The sender ${send === "blocking" ? "waits until the value is taken (B)" : "does not wait (N)"}, ` +
       `the receiver ${receive !== "non_blocking" ? "waits for a value (B)" : "does not wait (N)"}` +
       `${timeout ? `, at most ${timeout}` : ""}.`;
+
+const mode = (end: Channel["send"]) => (end === "non_blocking" ? "N" : "B");
+
+/** A short description of a channel: the modes of its ends, or its model, and its timeout. */
+export const channelLabel = ({ send, receive, model, timeout }: Channel) => ({
+  modes: model || `${mode(send)} → ${mode(receive)}`,
+  timeout,
+});

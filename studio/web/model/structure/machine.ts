@@ -41,17 +41,20 @@ function terminalText(structure: Structure, { yaml: at, terminal }: Behaviour): 
   return terminal === "true" ? "" : terminal;
 }
 
-function labelOf(structure: Structure, behaviour: Behaviour, at: number): string {
-  const { to, when } = behaviour.next[at]!;
-  const { index } = targetOf(to);
-  const of = index === "" || index === "i" || !behaviour.for ? "" : ` [${index}]`;
-  const until = behaviour.isGroup ? structure.yaml.lineText([...behaviour.yaml, "until"]) : "";
-  if (when === "error") return `error${behaviour.error ? `: ${behaviour.error}` : ""}${of}`;
-  if (when === "until") return `until ${until}${of}`;
-  if (when) return when + of;
+function conditionOf(structure: Structure, behaviour: Behaviour, at: number): string {
+  const { when } = behaviour.next[at]!;
+  if (when === "error") return behaviour.error ? `error: ${behaviour.error}` : "error";
+  if (when === "until" && behaviour.isGroup) return `until ${structure.yaml.lineText([...behaviour.yaml, "until"])}`;
+  if (when) return when;
   const isElse = behaviour.next.slice(0, at).some((one) => one.when !== "" && one.when !== "error");
-  if (isElse) return `else${of}`;
-  return (behaviour.isGroup ? "" : terminalText(structure, behaviour)) + of;
+  return isElse ? "else" : behaviour.isGroup ? "" : terminalText(structure, behaviour);
+}
+
+/** The condition of an entry of `next`, and the member of a fleet to which it leads: "full [i+1]". */
+function labelOf(structure: Structure, behaviour: Behaviour, at: number): string {
+  const { index } = targetOf(behaviour.next[at]!.to);
+  const isOther = index !== "" && index !== "i" && behaviour.for !== "";
+  return [conditionOf(structure, behaviour, at), ...(isOther ? [`[${index}]`] : [])].filter(Boolean).join(" ");
 }
 
 /** The machine of a subsystem, or of the group at a path. */

@@ -80,14 +80,6 @@ export interface Channel {
   model: string;
   line: number;
 }
-const mode = (end: Channel["send"]) => (end === "non_blocking" ? "N" : "B");
-
-/** A short description of a channel: the modes of its ends, or its model, and its timeout. */
-export const channelLabel = ({ send, receive, model, timeout }: Channel) => ({
-  modes: model || `${mode(send)} → ${mode(receive)}`,
-  timeout,
-});
-
 export interface Structure {
   yaml: YamlText;
   system: string;

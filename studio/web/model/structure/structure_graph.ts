@@ -3,6 +3,7 @@ import type { Elk } from "../net/layout";
 import { insideGraph, insideOptions, readInside, type Wire } from "./agent_inside";
 import { agentOf, bundlesOf, connected, type Bundle } from "./bundles";
 import { cardOf, gap, withDevice, type Card } from "./cards";
+import { laidOutEach } from "./kept_layouts";
 import { machineGraph, readMachine } from "./machine_layout";
 import type { Agent, Structure } from "./structure";
 import { placed, routed, type Trunk } from "./structure_grid";
@@ -31,7 +32,7 @@ export interface StructureDrawing {
   height: number;
   /** Boxes of agents, subsystems and devices ("a.motor#device"), by path. */
   boxes: Map<string, Box>;
-  /** What is in the boxes of subsystems, by path. */
+  /** The contents of the boxes of subsystems, by path. */
   cards: Map<string, Card>;
   /** Lines within agents. */
   wires: Wire[];
@@ -72,12 +73,8 @@ function sizeOf({ subsystems }: Agent, cards: ReadonlyMap<string, Card>): { widt
 
 async function cardsOf(structure: Structure, elk: Elk, measure: Measure): Promise<Map<string, Card>> {
   const subsystems = structure.agents.flatMap((agent) => agent.subsystems);
-  const root = await elk({
-    id: "machines",
-    layoutOptions: insideOptions,
-    children: subsystems.map((one) => machineGraph(structure, one, measure)),
-  });
-  const laidOut = new Map((root.children ?? []).map((one) => [one.id, one]));
+  const graphs = subsystems.map((one) => machineGraph(structure, one, measure));
+  const laidOut = await laidOutEach(elk, graphs, insideOptions);
   return new Map(
     subsystems.map((one) => {
       const machine = readMachine(structure, one, laidOut.get(one.path)!, measure);
@@ -95,12 +92,9 @@ export async function drawStructure(structure: Structure, elk: Elk, measure: Mea
     structure.agents.map((agent) => ({ name: agent.name, ...sizeOf(agent, cards) })),
     trunks,
   );
-  const root = await elk({
-    id: "insides",
-    layoutOptions: insideOptions,
-    children: structure.agents.map(({ name }) => insideGraph(structure, name, channels, cards, grid.ends(name), measure)),
-  });
-  const insides = new Map((root.children ?? []).map((agent) => [agent.id, readInside(structure, agent)]));
+  const graphs = structure.agents.map(({ name }) => insideGraph(structure, name, channels, cards, grid.ends(name), measure));
+  const laidOut = await laidOutEach(elk, graphs, insideOptions);
+  const insides = new Map([...laidOut].map(([name, agent]) => [name, readInside(structure, agent)]));
   const outside = routed(grid, trunks, (agent) => insides.get(agent)!);
   const drawing: StructureDrawing = { ...outside.size, boxes: new Map(), cards, wires: [], labels: new Map(), bundles: [] };
   for (const bundle of bundles) {

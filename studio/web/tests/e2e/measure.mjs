@@ -1,10 +1,11 @@
 // Measures the page, with TESSERA as for the tests: `node tests/e2e/measure.mjs 100 1000` with fleets of so
 // many robots, `stream` while a run fires at full speed, `beside` the same with a recording beside it,
-// `world` the view in three dimensions of 10 and of 50 robots.
+// `structure` the first drawing of the structure, `world` the view in three dimensions of 10 and of 50 robots.
 import { mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:fs";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { measureStream } from "./measure_stream.mjs";
+import { measureStructure } from "./measure_structure.mjs";
 import { measureWorld } from "./measure_world.mjs";
 import { folder, onNet, tab } from "./page.mjs";
 
@@ -12,6 +13,7 @@ const fleet = readFileSync(join(folder("fleet"), "spec.yaml"), "utf8");
 
 for (const what of process.argv.slice(2))
   if (what === "stream" || what === "beside") await measureStream(what === "beside");
+  else if (what === "structure") await measureStructure();
   else if (what === "world")
     for (const robots of [10, 50]) for (const large of [false, true]) await measureWorld(robots, { large });
   else await measureFleet(what);

@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import type { Wait } from "../../model/causes";
-import { overlap, type Box } from "../../model/net/geometry";
-import { nameLines } from "../../model/net/labels";
-import { arrows } from "../../model/structure/lens_layout";
+import type { Wait } from "../../../model/causes";
+import { overlap, type Box } from "../../../model/net/geometry";
+import { nameLines } from "../../../model/net/labels";
+import { arrows } from "../../../model/structure/lens_layout";
 
 const waits: Wait[] = [
   { who: "a", whom: "b", channel: "x", awaited: "acknowledgement" },

@@ -1,9 +1,9 @@
 import { useEffect, useLayoutEffect, useRef, useState, type KeyboardEvent } from "react";
 import { createPortal } from "react-dom";
-import type { ElementEdits } from "../live/element_edits";
-import type { Studio } from "../live/studio";
-import { kindName } from "../model/structure/copied";
-import { findThing, nextEntryOf, selectedPath, withoutIndex, type Structure, type Thing } from "../model/structure/structure";
+import type { ElementEdits } from "../../live/element_edits";
+import type { Studio } from "../../live/studio";
+import { kindName } from "../../model/structure/copied";
+import { findThing, nextEntryOf, selectedPath, withoutIndex, type Structure, type Thing } from "../../model/structure/structure";
 
 /** What can be done with an element: the menu of a right click, of Shift F10, and of the button at the element. */
 

@@ -1,11 +1,11 @@
 import { describe, expect, it } from "vitest";
-import { exampleOf } from "../../model/structure/kept_cells";
-import { groupTemplates, takenBy } from "../../model/structure/group_templates";
-import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
-import { chipText } from "../../model/structure/machine_layout";
-import { drawStructure } from "../../model/structure/structure_graph";
-import { estimated } from "../../model/structure/text_size";
-import { elk } from "./line_follower";
+import { exampleOf } from "../../../model/structure/kept_cells";
+import { groupTemplates, takenBy } from "../../../model/structure/group_templates";
+import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../../model/structure/structure";
+import { chipText } from "../../../model/structure/machine_layout";
+import { drawStructure } from "../../../model/structure/structure_graph";
+import { estimated } from "../../../model/structure/text_size";
+import { elk } from "../line_follower";
 
 const text = `agents:
   robot: { use: carrier, count: 2 }

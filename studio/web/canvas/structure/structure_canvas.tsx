@@ -13,13 +13,13 @@ import {
   type Node,
 } from "@xyflow/react";
 import { useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
-import { useStudio, useStore } from "../hooks/use";
-import { useLens } from "../hooks/use_lens";
-import { useComplaints, useStructure } from "../hooks/use_structure";
-import { connect as connectEdit } from "../model/text/edits";
-import type { Box } from "../model/net/geometry";
-import { channelEnd } from "../model/structure/connections";
-import { bundleAt, bundlePath, isBundlePath } from "../model/structure/bundles";
+import { useStudio, useStore } from "../../hooks/use";
+import { useLens } from "../../hooks/use_lens";
+import { useComplaints, useStructure } from "../../hooks/use_structure";
+import { connect as connectEdit } from "../../model/text/edits";
+import type { Box } from "../../model/net/geometry";
+import { channelEnd } from "../../model/structure/connections";
+import { bundleAt, bundlePath, isBundlePath } from "../../model/structure/bundles";
 import {
   agentFilled,
   agentHead,
@@ -28,19 +28,19 @@ import {
   structureStep,
   subsystemFilled,
   type Detail,
-} from "../model/structure/levels";
-import { channelOf, channelPath, withoutIndex } from "../model/structure/structure";
-import { mostBundleLetters } from "../model/structure/structure_graph";
-import { leastPixels } from "../model/structure/text_size";
+} from "../../model/structure/levels";
+import { channelOf, channelPath, withoutIndex } from "../../model/structure/structure";
+import { mostBundleLetters } from "../../model/structure/structure_graph";
+import { leastPixels } from "../../model/structure/text_size";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
-import { ExportButtons } from "./export_button";
-import { LayoutProblem } from "./layout_problem";
-import { Legend } from "./legend";
-import { LensOverlay } from "./lens_overlay";
+import { ExportButtons } from "../export_button";
+import { LayoutProblem } from "../layout_problem";
+import { Legend } from "../legend";
+import { LensOverlay } from "../lens_overlay";
 import { useMoved } from "./moved_drawing";
 import { measured } from "./measured_text";
-import { useSteadyView } from "./steady_view";
+import { useSteadyView } from "../steady_view";
 import { selectionAt, StructureHands } from "./structure_hands";
 import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
 import { AgentNode, DeviceNode, SubsystemNode, SurroundingsContext, type Surroundings } from "./structure_nodes";

@@ -1,13 +1,13 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { intersects, type Box, type Point } from "../../model/net/geometry";
-import { readStructure, type Structure } from "../../model/structure/structure";
-import { agentOf, bundlesOf, connected, crosses } from "../../model/structure/bundles";
-import { drawStructure as draw, type StructureDrawing } from "../../model/structure/structure_graph";
-import { estimated } from "../../model/structure/text_size";
-import { elk } from "./line_follower";
+import { intersects, type Box, type Point } from "../../../model/net/geometry";
+import { readStructure, type Structure } from "../../../model/structure/structure";
+import { agentOf, bundlesOf, connected, crosses } from "../../../model/structure/bundles";
+import { drawStructure as draw, type StructureDrawing } from "../../../model/structure/structure_graph";
+import { estimated } from "../../../model/structure/text_size";
+import { elk } from "../line_follower";
 
-const orchard = readFileSync(new URL("../e2e/projects/orchard/spec.yaml", import.meta.url), "utf8");
+const orchard = readFileSync(new URL("../../e2e/projects/orchard/spec.yaml", import.meta.url), "utf8");
 const agent = (name: string) =>
   `  ${name}: { control: { inputs: { i: bool }, outputs: { o: bool }, behaviours: { run: {} } } }\n`;
 const ring = (count: number) => {

@@ -1,4 +1,4 @@
-import { fontSize, remembered, type Font, type Measure } from "../model/structure/text_size";
+import { fontSize, remembered, type Font, type Measure } from "../../model/structure/text_size";
 
 const weights: Record<Font, number> = { agent: 650, subsystem: 620, text: 400 };
 

@@ -1,10 +1,10 @@
 import { useUpdateNodeInternals } from "@xyflow/react";
 import { useEffect, useMemo, useState } from "react";
-import { levelsOf, type Levels } from "../model/structure/levels";
-import type { Structure } from "../model/structure/structure";
-import { drawStructure, type StructureDrawing } from "../model/structure/structure_graph";
-import { YamlText } from "../model/text/yaml_text";
-import { elk } from "./elk";
+import { levelsOf, type Levels } from "../../model/structure/levels";
+import type { Structure } from "../../model/structure/structure";
+import { drawStructure, type StructureDrawing } from "../../model/structure/structure_graph";
+import { YamlText } from "../../model/text/yaml_text";
+import { elk } from "../elk";
 import { measured } from "./measured_text";
 
 /** A structure and its drawing, which arrives a moment after it. */

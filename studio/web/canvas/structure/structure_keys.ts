@@ -1,6 +1,13 @@
-import type { Studio } from "../live/studio";
-import { findThing, nextEntryOf, nextSelection, selectedPath, withoutIndex, type Structure } from "../model/structure/structure";
-import { inside, nextIn, outside, type Direction, type Shown } from "../model/structure/walk";
+import type { Studio } from "../../live/studio";
+import {
+  findThing,
+  nextEntryOf,
+  nextSelection,
+  selectedPath,
+  withoutIndex,
+  type Structure,
+} from "../../model/structure/structure";
+import { inside, nextIn, outside, type Direction, type Shown } from "../../model/structure/walk";
 
 /** The keys of the drawing of the structure: every element can be reached, changed and moved without a pointer. */
 

@@ -1,8 +1,8 @@
 import { Handle, Position, useStore as useFlow, type NodeProps } from "@xyflow/react";
 import { createContext, useContext } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import { useRunning } from "../hooks/use_stage";
-import { agentNote, deviceTitle, head, kindTitle, ports, rateText, row, type Card } from "../model/structure/cards";
+import { useStore, useStudio } from "../../hooks/use";
+import { useRunning } from "../../hooks/use_stage";
+import { agentNote, deviceTitle, head, kindTitle, ports, rateText, row, type Card } from "../../model/structure/cards";
 import {
   agentAbove,
   agentFilled,
@@ -11,14 +11,14 @@ import {
   subsystemFilled,
   type FilledBox,
   type Levels,
-} from "../model/structure/levels";
-import type { Agent, Buffer, Structure, Subsystem } from "../model/structure/structure";
-import { lineHeight, leastPixels, type FittedText } from "../model/structure/text_size";
+} from "../../model/structure/levels";
+import type { Agent, Buffer, Structure, Subsystem } from "../../model/structure/structure";
+import { lineHeight, leastPixels, type FittedText } from "../../model/structure/text_size";
 import { Flag, type Complaint } from "./flag";
 import { MachineView } from "./machine_view";
 import { measured } from "./measured_text";
 
-/** What the boxes share: they are drawn again when it changes, and not for each move of the view. */
+/** The facts that all boxes share: they are drawn again when it changes, and not for each move of the view. */
 export interface Surroundings {
   structure: Structure;
   levels: Levels;

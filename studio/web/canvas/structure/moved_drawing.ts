@@ -1,8 +1,8 @@
 import { useCallback, useMemo, useRef, useState } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import type { Point } from "../model/net/geometry";
-import { positionAfter, withMoved } from "../model/structure/moved_boxes";
-import type { StructureDrawing } from "../model/structure/structure_graph";
+import { useStore, useStudio } from "../../hooks/use";
+import type { Point } from "../../model/net/geometry";
+import { positionAfter, withMoved } from "../../model/structure/moved_boxes";
+import type { StructureDrawing } from "../../model/structure/structure_graph";
 
 interface Moved {
   drawing: StructureDrawing;

@@ -1,16 +1,16 @@
 import { readFileSync } from "node:fs";
 import { describe, expect, it } from "vitest";
-import { intersects, type Box, type Point } from "../../model/net/geometry";
-import { both, joined, reversed, withChange } from "../../model/structure/box_changes";
-import { positionAfter, withMoved, type Positions } from "../../model/structure/moved_boxes";
-import { readStructure } from "../../model/structure/structure";
-import { drawStructure, type StructureDrawing } from "../../model/structure/structure_graph";
-import { estimated } from "../../model/structure/text_size";
-import { wayAround } from "../../model/structure/way_around";
-import { History } from "../../model/history";
-import { elk } from "./line_follower";
+import { intersects, type Box, type Point } from "../../../model/net/geometry";
+import { both, joined, reversed, withChange } from "../../../model/structure/box_changes";
+import { positionAfter, withMoved, type Positions } from "../../../model/structure/moved_boxes";
+import { readStructure } from "../../../model/structure/structure";
+import { drawStructure, type StructureDrawing } from "../../../model/structure/structure_graph";
+import { estimated } from "../../../model/structure/text_size";
+import { wayAround } from "../../../model/structure/way_around";
+import { History } from "../../../model/history";
+import { elk } from "../line_follower";
 
-const orchard = readStructure(readFileSync(new URL("../e2e/projects/orchard/spec.yaml", import.meta.url), "utf8"));
+const orchard = readStructure(readFileSync(new URL("../../e2e/projects/orchard/spec.yaml", import.meta.url), "utf8"));
 const drawing = await drawStructure(orchard, elk, estimated);
 
 const shrunk = ({ x, y, width, height }: Box): Box => ({ x: x + 2, y: y + 2, width: width - 4, height: height - 4 });

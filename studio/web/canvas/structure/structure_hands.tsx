@@ -1,11 +1,18 @@
 import { useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
 import { useCallback, useEffect, useRef, useState, type RefObject } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import { findThing, nextEntryOf, nextSelection, selectedPath, withoutIndex, type Structure } from "../model/structure/structure";
-import type { Box } from "../model/net/geometry";
-import type { Direction } from "../model/structure/walk";
+import { useStore, useStudio } from "../../hooks/use";
+import {
+  findThing,
+  nextEntryOf,
+  nextSelection,
+  selectedPath,
+  withoutIndex,
+  type Structure,
+} from "../../model/structure/structure";
+import type { Box } from "../../model/net/geometry";
+import type { Direction } from "../../model/structure/walk";
 import { dragElements } from "./element_drag";
-import { LeadOnForm, type LeadOn } from "./lead_on";
+import { LeadOnForm, type LeadOn } from "../lead_on";
 import { elementAt, structureKey } from "./structure_keys";
 import { itemsFor, renameInForm, StructureMenu, type OpenMenu } from "./structure_menu";
 

@@ -1,16 +1,9 @@
 import { ViewportPortal } from "@xyflow/react";
-import { roundedPath } from "../model/net/geometry";
-import { bundlePath, bundleTitle, isNext } from "../model/structure/bundles";
-import { channelMeaning, waits } from "../model/structure/channel_words";
-import {
-  channelLabel,
-  channelPath,
-  selectedPath,
-  withoutIndex,
-  type Channel,
-  type Structure,
-} from "../model/structure/structure";
-import type { DrawnBundle, StructureDrawing } from "../model/structure/structure_graph";
+import { roundedPath } from "../../model/net/geometry";
+import { bundlePath, bundleTitle, isNext } from "../../model/structure/bundles";
+import { channelLabel, channelMeaning, waits } from "../../model/structure/channel_words";
+import { channelPath, selectedPath, withoutIndex, type Channel, type Structure } from "../../model/structure/structure";
+import type { DrawnBundle, StructureDrawing } from "../../model/structure/structure_graph";
 
 /** The appearance of channels besides their modes. */
 export interface ChannelLook {

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { findThing, readStructure, type Behaviour } from "../../model/structure/structure";
+import { findThing, readStructure, type Behaviour } from "../../../model/structure/structure";
 
 /** A behaviour `run` with the given `next`, in lines of its own. */
 const withNext = (next: string) =>

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { exampleOf, goalsOf, keptCells } from "../../model/structure/kept_cells";
-import { readStructure } from "../../model/structure/structure";
+import { exampleOf, goalsOf, keptCells } from "../../../model/structure/kept_cells";
+import { readStructure } from "../../../model/structure/structure";
 
 const text = `agents:
   dock:

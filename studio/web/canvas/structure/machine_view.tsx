@@ -1,8 +1,8 @@
-import { roundedPath } from "../model/net/geometry";
-import { markOf } from "../model/structure/machine";
-import { chipHeight, chipText, type DrawnArrow, type Machine } from "../model/structure/machine_layout";
-import { nextSelection, withoutIndex, type Behaviour, type Subsystem } from "../model/structure/structure";
-import { fontSize, lineHeight } from "../model/structure/text_size";
+import { roundedPath } from "../../model/net/geometry";
+import { markOf } from "../../model/structure/machine";
+import { chipHeight, chipText, type DrawnArrow, type Machine } from "../../model/structure/machine_layout";
+import { nextSelection, withoutIndex, type Behaviour, type Subsystem } from "../../model/structure/structure";
+import { fontSize, lineHeight } from "../../model/structure/text_size";
 import { Flag, type Complaint } from "./flag";
 
 interface Shown {

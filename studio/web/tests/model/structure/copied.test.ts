@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { baseName, copiedText, notCopied, placeFor, readCopied } from "../../model/structure/copied";
+import { baseName, copiedText, notCopied, placeFor, readCopied } from "../../../model/structure/copied";
 import {
   findThing,
   nextEntryOf,
@@ -7,9 +7,9 @@ import {
   readStructure,
   selectedPath,
   selectionAfter,
-} from "../../model/structure/structure";
-import { inside, nextIn, outside } from "../../model/structure/walk";
-import { elementText } from "../../model/text/element_text";
+} from "../../../model/structure/structure";
+import { inside, nextIn, outside } from "../../../model/structure/walk";
+import { elementText } from "../../../model/text/element_text";
 
 const text = `tessera: 1
 system: s

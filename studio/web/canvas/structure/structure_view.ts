@@ -1,10 +1,10 @@
 import { useReactFlow, useStore as useFlow, useStoreApi } from "@xyflow/react";
 import { useCallback, useEffect, useRef } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import type { Box } from "../model/net/geometry";
-import { bundleAt, bundlePath } from "../model/structure/bundles";
-import { around } from "../model/structure/lens_layout";
-import { findThing, selectedPath, withoutIndex } from "../model/structure/structure";
+import { useStore, useStudio } from "../../hooks/use";
+import type { Box } from "../../model/net/geometry";
+import { bundleAt, bundlePath } from "../../model/structure/bundles";
+import { around } from "../../model/structure/lens_layout";
+import { findThing, selectedPath, withoutIndex } from "../../model/structure/structure";
 import { nothing, type Drawn } from "./drawn_structure";
 
 /** The part of the structure that is visible: all of it at first, and then what the user comes near to. */

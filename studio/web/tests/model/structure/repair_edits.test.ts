@@ -1,7 +1,7 @@
 import { describe, expect, it } from "vitest";
-import type { Cause } from "../../model/causes";
-import { readStructure } from "../../model/structure/structure";
-import { candidatesFor } from "../../model/text/repair_edits";
+import type { Cause } from "../../../model/causes";
+import { readStructure } from "../../../model/structure/structure";
+import { candidatesFor } from "../../../model/text/repair_edits";
 
 const structure = readStructure(`agents:
   robot: { use: carrier, count: 2 }

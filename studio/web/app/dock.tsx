@@ -51,7 +51,7 @@ function Arrangement({ shown }: { shown: Row }) {
   );
 }
 
-/** What the library says in its own words otherwise. */
+/** Texts of the library in the words of this page. */
 const words: Record<string, string> = {
   "flexlayout.ui.maximize.tabset": "Maximise (Alt Enter)",
   "flexlayout.ui.restore.tabset": "Back to its place (Alt Enter)",

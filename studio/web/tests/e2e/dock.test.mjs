@@ -87,7 +87,7 @@ test("a panel is moved, sized, maximised and closed, by the keyboard too, and a 
     await fromMenu(page, "menuitem", "Reset layout");
     assert.deepEqual(await tabsBeside(page, "Run"), ["Element", "Verify", "Play", "Run", "Recordings"]);
 
-    // What was kept by another version, or is damaged, gives the ready layout and no blank page.
+    // A layout that another version has kept, or that is damaged, gives the ready one and no blank page.
     await page.evaluate(() => {
       const key = Object.keys(localStorage).find((one) => one.startsWith("tessera.panels"));
       localStorage.setItem(key, localStorage.getItem(key).slice(0, 40));

@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
-import { changedBlocks } from "../../model/text/changed_lines";
-import { wordDifference } from "../../model/text/word_difference";
+import { changedBlocks } from "../../../model/text/changed_lines";
+import { wordDifference } from "../../../model/text/word_difference";
 
 const marked = (lines: { text: string; changed: boolean }[][]) =>
   lines.map((line) => line.map(({ text, changed }) => (changed ? `[${text}]` : text)).join(""));

@@ -2,7 +2,7 @@ import "flexlayout-react/style/light.css";
 import { Actions, Layout, Model, type Action, type IJsonModel, type IJsonTabSetNode } from "flexlayout-react";
 import { Suspense, useEffect, useMemo, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
-import type { Cell, Row } from "../model/dock/dock_tree";
+import { tabSets, type Cell, type Row } from "../model/dock/dock_tree";
 import { Boundary } from "./boundary";
 import { panelTable, type Panel } from "./panel_table";
 import { useDockKeys } from "./dock_keys";
@@ -51,7 +51,7 @@ function Arrangement({ shown }: { shown: Row }) {
   );
 }
 
-/** What the library says in its own words otherwise. */
+/** Texts of the library in the words of this page. */
 const words: Record<string, string> = {
   "flexlayout.ui.maximize.tabset": "Maximise (Alt Enter)",
   "flexlayout.ui.restore.tabset": "Back to its place (Alt Enter)",
@@ -63,10 +63,17 @@ const words: Record<string, string> = {
 function Content({ panel }: { panel: Panel }) {
   const studio = useStudio();
   const visible = useStore(studio.dock.store, ({ seen }) => seen.includes(panel.name));
+  const unlabelled = useStore(studio.dock.store, ({ shown }) => shown !== null && hasNoTab(shown, panel.name));
   const Shown = panel.component;
   if (!visible && !panel.stays) return null;
   return (
     <Boundary>
+      {/* The library names a panel after its tab. */}
+      {unlabelled && (
+        <span hidden id={`flexlayout-tabbutton-${panel.name}`}>
+          {panel.title}
+        </span>
+      )}
       <Suspense fallback={<div className="pane-empty">Loading…</div>}>
         <Shown />
       </Suspense>
@@ -95,17 +102,20 @@ function useWidth(): void {
   }, [studio]);
 }
 
+/** The drawing alone needs no tab. */
+const isAlone = ({ tabs }: { tabs: readonly string[] }) => tabs.length === 1 && tabs[0] === "drawing";
+const hasNoTab = (tree: Row, name: string) => name === "drawing" && tabSets(tree).some(isAlone);
+
 function toJson(tree: Row): IJsonModel {
   const cell = (one: Cell): IJsonModel["layout"]["children"] extends (infer C)[] | undefined ? C : never => {
     if (one.kind === "row") return { type: "row", id: one.id, weight: one.weight, children: one.children.map(cell) };
-    const isDrawing = one.tabs.length === 1 && one.tabs[0] === "drawing";
     const tabs: IJsonTabSetNode = {
       type: "tabset",
       id: one.id,
       weight: one.weight,
       name: one.tabs.map((name) => panelOf(name).title).join(", "),
       selected: Math.max(0, one.tabs.indexOf(one.front)),
-      enableTabStrip: !isDrawing,
+      enableTabStrip: !isAlone(one),
       children: one.tabs.map((name) => ({
         type: "tab",
         component: name,

@@ -5,6 +5,7 @@ import type { PanelName } from "../model/view_state";
 import { InspectPanel } from "../panels/inspect_panel";
 import { PlotPanel, usePlot } from "../panels/plots/plot_panel";
 import { Timelines, ValueLists, Worlds } from "../panels/plots/watch";
+import { Narratives } from "../panels/narratives";
 import { PlayPanel } from "../panels/run/play_panel";
 import { RecordingsPanel } from "../panels/run/recordings_panel";
 import { RunPanel } from "../panels/run/run_panel";
@@ -32,6 +33,10 @@ function useWorld(): boolean {
   const [track, world] = [useTrack(), useHasWorld()];
   return track && world;
 }
+
+/** Whether a verification has found a run that violates a property. */
+const useNarrative = () =>
+  useStore(useStudio().verifier.store, ({ verdicts }) => verdicts.some((one) => one.narrative && one.verdict === "violated"));
 
 const scrolled = (Content: ComponentType) =>
   function ScrolledPanel() {
@@ -75,6 +80,16 @@ export const panelTable: readonly Panel[] = [
   { name: "play", title: "Play", component: Play, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
   { name: "run", title: "Run", component: Run, edit: "right", debug: "right", operate: "right" },
   { name: "recordings", title: "Recordings", component: Recordings, edit: "right", debug: "right", operate: "right" },
+  {
+    name: "narrative",
+    title: "Narrative",
+    component: Narratives,
+    useContent: useNarrative,
+    edit: "below",
+    debug: "below",
+    operate: "below",
+    closed: ["edit", "debug", "operate"],
+  },
   {
     name: "timeline",
     title: "Timeline",

@@ -11,6 +11,7 @@ export const panelNames = [
   "run",
   "recordings",
   "code",
+  "narrative",
   "timeline",
   "values",
   "plots",

@@ -1,8 +1,9 @@
 import { useStore, useStudio } from "../hooks/use";
 import { stepsOf } from "../live/verifier";
 import type { Repair } from "../live/repairs";
-import { changedLines } from "../model/text/changed_lines";
+import { changedBlocks } from "../model/text/changed_lines";
 import type { Cause } from "../model/causes";
+import { WordLines } from "./text/word_lines";
 import { sentence } from "../model/net/labels";
 import type { NetModel } from "../model/net/net";
 
@@ -76,6 +77,9 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
           <pre tabIndex={0} aria-label="The run in words">
             {withRun.verdict.narrative}
           </pre>
+          <button className="link" onClick={() => studio.dock.open("narrative")}>
+            Open it in a panel
+          </button>
         </details>
       )}
       <RepairsOf cause={cause} text={verified.text} />
@@ -123,7 +127,13 @@ function RepairsOf({ cause, text }: { cause: Cause; text: string }) {
           <strong>{sentence(repair.title)}</strong>
           <p>{sentence(repair.meaning)}</p>
           <pre tabIndex={0} aria-label="Changed lines">
-            {changedLines(text, repair.text).join("\n")}
+            {changedBlocks(text, repair.text).map(({ old, fresh }, at) => (
+              <WordLines
+                key={at}
+                old={{ sign: "- ", className: "theirs", lines: old.map((line) => line.trim()) }}
+                fresh={{ sign: "+ ", className: "mine", lines: fresh.map((line) => line.trim()) }}
+              />
+            ))}
           </pre>
           <p className="faint">Verified: {repair.mends.map(words).join(", ")} hold with it, and nothing else is lost.</p>
           <button disabled={draft !== text} onClick={() => apply(repair)}>

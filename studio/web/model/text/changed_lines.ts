@@ -1,10 +1,14 @@
 import { diff } from "./merge";
 
-/** The lines that an edit removes (-) and adds (+). */
-export function changedLines(before: string, after: string): string[] {
-  const old = before.split("\n");
-  return diff(old, after.split("\n")).flatMap(({ from, to, lines }) => [
-    ...old.slice(from, to).map((line) => `- ${line.trim()}`),
-    ...lines.map((line) => `+ ${line.trim()}`),
-  ]);
+/** The places at which two texts differ: the lines of each. */
+export function changedBlocks(before: string, after: string): { old: string[]; fresh: string[] }[] {
+  const all = before.split("\n");
+  return diff(all, after.split("\n")).map(({ from, to, lines }) => ({ old: all.slice(from, to), fresh: [...lines] }));
 }
+
+/** The lines that an edit removes (-) and adds (+). */
+export const changedLines = (before: string, after: string): string[] =>
+  changedBlocks(before, after).flatMap(({ old, fresh }) => [
+    ...old.map((line) => `- ${line.trim()}`),
+    ...fresh.map((line) => `+ ${line.trim()}`),
+  ]);

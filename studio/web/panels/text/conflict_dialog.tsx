@@ -1,6 +1,7 @@
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { clashesIn, mergeLines } from "../../model/text/merge";
+import { WordLines } from "./word_lines";
 
 /** The file changed on disk where this page changed it, too: the user decides which of these lines to keep. */
 export function ConflictDialog() {
@@ -30,23 +31,17 @@ export function ConflictDialog() {
   );
 }
 
-/** The lines that both changed. */
+/** The lines that both changed; the words that differ are marked. */
 export function Clashes({ base, mine, theirs }: { base: string; mine: string; theirs: string }) {
   return (
     <pre className="difference" tabIndex={0} aria-label="Differences">
       {clashesIn(mergeLines(base, mine, theirs)).map((clash) => (
         <div key={clash.line}>
           <div className="where">line {clash.line}</div>
-          {clash.mine.map((line, at) => (
-            <div key={`m${at}`} className="mine">
-              mine │ {line}
-            </div>
-          ))}
-          {clash.theirs.map((line, at) => (
-            <div key={`t${at}`} className="theirs">
-              disk │ {line}
-            </div>
-          ))}
+          <WordLines
+            old={{ sign: "mine │ ", className: "mine", lines: clash.mine }}
+            fresh={{ sign: "disk │ ", className: "theirs", lines: clash.theirs }}
+          />
         </div>
       ))}
     </pre>

@@ -82,7 +82,7 @@ export default function CppEditor(props: CppEditorProps) {
   );
 }
 
-/** What changes when the function moves in its file. */
+/** The line numbers and the name of the text change when the function moves in its file. */
 const placed = new Compartment();
 const placeIn = (label: string, firstLine: number) => [
   lineNumbers({ formatNumber: (line) => String(line + firstLine - 1) }),

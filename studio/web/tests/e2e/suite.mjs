@@ -6,7 +6,7 @@ const suites = {
   reading: ["studio", "readable", "guide", "tour", "fleet", "appearance"],
   editing: ["editing", "boxes", "keeping"],
   building: ["building", "workshop"],
-  running: ["run", "teleoperation", "beside", "deployment"],
+  running: ["run", "dock", "teleoperation", "beside", "deployment"],
   recordings: ["recordings", "reports", "world"],
 };
 

@@ -1,6 +1,6 @@
-import type { PanelName, ViewState } from "../model/view_state";
+import type { PanelName, ViewState } from "../../model/view_state";
 import type { Dock } from "./dock";
-import type { Store } from "./store";
+import type { Store } from "../store";
 
 /**
  * Keeps the panel of the address and the button of the text in step with the dock. A panel that a part of the page asks for by

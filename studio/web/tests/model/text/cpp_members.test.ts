@@ -1,7 +1,7 @@
 import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
-import { contextMembers, cppMembers, pathBefore } from "../../model/text/cpp_members";
-import { readStructure } from "../../model/structure/structure";
+import { contextMembers, cppMembers, pathBefore } from "../../../model/text/cpp_members";
+import { readStructure } from "../../../model/structure/structure";
 
 const example = (name: string) => readStructure(readFileSync(`../../examples/${name}/spec.yaml`, "utf8"));
 const lineFollower = example("01_line_follower");

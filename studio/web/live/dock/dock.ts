@@ -1,4 +1,4 @@
-import { panelsIn, pruned, readTree, restored, seenIn, tabSets, withTabSet, type Row } from "../model/dock/dock_tree";
+import { panelsIn, pruned, readTree, restored, seenIn, tabSets, withTabSet, type Row } from "../../model/dock/dock_tree";
 import {
   closedIn,
   layoutNames,
@@ -7,8 +7,8 @@ import {
   type LayoutName,
   type Places,
   type WidthName,
-} from "../model/dock/ready_layouts";
-import { Store } from "./store";
+} from "../../model/dock/ready_layouts";
+import { Store } from "../store";
 
 /** One arrangement of the user: where every panel stands, and which ones are closed. */
 interface Arranged {

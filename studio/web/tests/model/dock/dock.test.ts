@@ -1,10 +1,10 @@
 import { expect, test } from "vitest";
-import { Dock } from "../../live/dock";
-import { followDock } from "../../live/dock_view";
-import { Store } from "../../live/store";
-import { panelsIn, pruned, readTree, restored, seenIn, tabSets, type Cell, type Row } from "../../model/dock/dock_tree";
-import { layoutNames, readyLayout, type Places } from "../../model/dock/ready_layouts";
-import type { ViewState } from "../../model/view_state";
+import { Dock } from "../../../live/dock/dock";
+import { followDock } from "../../../live/dock/dock_view";
+import { Store } from "../../../live/store";
+import { panelsIn, pruned, readTree, restored, seenIn, tabSets, type Cell, type Row } from "../../../model/dock/dock_tree";
+import { layoutNames, readyLayout, type Places } from "../../../model/dock/ready_layouts";
+import type { ViewState } from "../../../model/view_state";
 
 const at = (name: string, slot: Places["edit"], more: Partial<Places> = {}): Places => ({
   ...{ name, title: name, edit: slot, debug: slot, operate: slot },

@@ -68,6 +68,7 @@ std::vector<PathPoint> RunFollower::add_firings(News& news) {
   news.more = batch.more;
   news.parameters = std::move(batch.parameters);
   news.lacks_parameters = batch.lacks_parameters;
+  news.notices = recording_.notices().take();
   time_ns_ = std::max(time_ns_, batch.time_ns);
   news.time_ns = time_ns_;
   if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return std::move(batch.path);

@@ -117,6 +117,9 @@ void Api::serve_work(HttpServer& server) {
   server.Get("/api/runs/(\\d+)/coverage", with_run([](Run& run, const Request&, Response& response) {
                answer(response, text_of(run.coverage()));
              }));
+  server.Get("/api/runs/(\\d+)/operators", with_run([](Run& run, const Request&, Response& response) {
+               answer(response, text_of(run.operators()));
+             }));
   server.Post("/api/runs/(\\d+)/control", with_run(control_run));
 }
 

@@ -6,7 +6,7 @@ export default defineConfig({
   plugins: [react()],
   base: "./",
   worker: { format: "es" },
-  build: { target: "es2022", chunkSizeWarningLimit: 1800 },
+  build: { target: "es2022", chunkSizeWarningLimit: 1800, rollupOptions: { input: ["index.html", "operate.html"] } },
   // The forms are made from the schema in share/.
   server: {
     host: "127.0.0.1",

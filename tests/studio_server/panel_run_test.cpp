@@ -23,6 +23,33 @@ class TeleoperationInTheStudio : public RunOfTheStudio {
   }
 };
 
+TEST_F(TeleoperationInTheStudio, AnInputThatTheNetworkHasHeldBackIsNotUsed) {
+  const std::string run = start({{"kind", "simulate"}, {"for", "1000s"}, {"speed", 1}});
+  ASSERT_FALSE(await_state(run, "running").is_null());
+  const auto operators = [&] { return json::parse(get("/api/runs/" + run + "/operators").body); };
+  const auto drive = [&](double forward, double after) {
+    return post("/api/runs/" + run + "/control", {{"command", "panel"},
+                                                  {"path", "robot.console.drive"},
+                                                  {"operator", "page 1"},
+                                                  {"inputs", {{"forward", forward}}},
+                                                  {"after", after},
+                                                  {"within", 5}});
+  };
+  ASSERT_TRUE(eventually([&] { return drive(0.3, operators().at("stamp")).status == 200; }));
+  EXPECT_EQ(operators().at("operators"), (json{{{"path", "robot.console.drive"}, {"operator", "page 1"}}}));
+  EXPECT_TRUE(left_wheel_turns(run, 0)) << "nobody has repeated it";
+  const double now = operators().at("stamp");
+  const Reply late = drive(-0.3, now - 6);
+  EXPECT_EQ(late.status, 200);
+  EXPECT_EQ(json::parse(late.body).at("late"), true);
+  EXPECT_GE(json::parse(late.body).at("stamp").get<double>(), now);
+  EXPECT_FALSE(json::parse(drive(0.15, now).body).contains("late"));
+  EXPECT_TRUE(left_wheel_turns(run, 5));
+  EXPECT_EQ(operate(run, nullptr).status, 200);
+  EXPECT_EQ(operators().at("operators"), json::array());
+  ASSERT_EQ(control(run, {{"command", "stop"}}), 200);
+}
+
 TEST_F(TeleoperationInTheStudio, TheRobotMovesWhileSomebodyOperatesItAndStopsByItself) {
   const std::string run = start({{"kind", "simulate"}, {"for", "1000s"}, {"speed", 1}});
   ASSERT_FALSE(await_state(run, "running").is_null());

@@ -62,9 +62,12 @@ Assets::Assets(const fs::path& folder) {
     files_["/" + fs::relative(entry->path(), folder).generic_string()] =
         asset(project::content_of(entry->path()), type_of(entry->path()));
   }
-  const auto index = files_.find("/index.html");
-  files_["/"] = index == files_.end() ? asset(std::string(not_built), "text/html; charset=utf-8")
-                                      : Asset(index->second);
+  for (const auto& [address, file] :
+       {std::pair{"/", "/index.html"}, std::pair{"/operate", "/operate.html"}}) {
+    const auto page = files_.find(file);
+    files_[address] = page == files_.end() ? asset(std::string(not_built), "text/html; charset=utf-8")
+                                           : Asset(page->second);
+  }
 }
 
 const Assets::Asset* Assets::find(const std::string& path) const {

@@ -19,7 +19,7 @@ class Assets {
   };
   /// folder: as Vite builds it, with an index.html; it need not exist.
   explicit Assets(const std::filesystem::path& folder);
-  /// path: "/" or "/assets/index.js". nullptr: there is no such file.
+  /// path: "/", "/operate" or "/assets/index.js". nullptr: there is no such file.
   [[nodiscard]] const Asset* find(const std::string& path) const;
 
  private:

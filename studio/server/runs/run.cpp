@@ -339,6 +339,15 @@ json Run::info(bool all) const {
   return info;
 }
 
+std::optional<Problem> Run::operate(const RunControl& wanted) {
+  // A request of an operator must not take effect later.
+  if (!link_.is_open()) return Problem{"the controller does not listen yet"};
+  if (!wanted.inputs) operators_.let_go(wanted.path, wanted.who);
+  std::optional<Problem> refused = link_.command(command::Panel{wanted.path, wanted.who, wanted.inputs});
+  if (!refused && wanted.inputs) operators_.gave(wanted.input(), stamp_now());
+  return refused;
+}
+
 std::optional<Problem> Run::control(const RunControl& wanted) {
   if (over()) return Problem{"the run is over"};
   if (wanted.command == "stop") {
@@ -349,11 +358,7 @@ std::optional<Problem> Run::control(const RunControl& wanted) {
   // Every controller takes values of parameters, also one on the steady clock.
   if (wanted.command == "set" && request_.kind != RunRequest::Kind::deployment)
     return link_.command(command::Set{wanted.path, wanted.text});
-  if (wanted.command == "panel" && request_.kind != RunRequest::Kind::deployment) {
-    // A request of an operator must not take effect later.
-    if (!link_.is_open()) return Problem{"the controller does not listen yet"};
-    return link_.command(command::Panel{wanted.path, wanted.who, wanted.inputs});
-  }
+  if (wanted.command == "panel" && request_.kind != RunRequest::Kind::deployment) return operate(wanted);
   if (request_.kind == RunRequest::Kind::run) return Problem{"a controller in real time can only be stopped"};
   const bool attached = request_.kind == RunRequest::Kind::attach;
   if ((attached && !controllable_) || request_.kind == RunRequest::Kind::deployment)

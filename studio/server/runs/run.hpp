@@ -20,6 +20,7 @@
 #include "server/recordings/run_follower.hpp"
 #include "server/runs/controller_link.hpp"
 #include "server/runs/deployment_follower.hpp"
+#include "server/runs/run_operators.hpp"
 #include "server/runs/run_parameters.hpp"
 #include "tessera/result.hpp"
 
@@ -50,7 +51,9 @@ struct RunControl {
   std::string path, text;       ///< of set: a parameter and its value
   std::string who;              ///< of panel: the operator
   std::optional<std::map<std::string, std::variant<double, bool>>>
-      inputs;                                                  ///< of panel, which has a path, too
+      inputs;                               ///< of panel, which has a path, too
+  std::optional<double> after_s, within_s;  ///< of panel: RunOperators::Input
+  [[nodiscard]] RunOperators::Input input() const { return {path, who, after_s, within_s}; }
   std::vector<std::uint32_t> places, transitions, conditions;  ///< of breakpoints: indices of the net
 };
 
@@ -85,10 +88,13 @@ class Run {
   /// nullopt: done.
   [[nodiscard]] std::optional<Problem> control(const RunControl& wanted);
   void stop() { stop_ = true; }
+  /// The operators of its panels: docs/reference/studio.md.
+  [[nodiscard]] nlohmann::json operators() const { return operators_.shown(stamp_now()); }
 
  private:
   class RunListener;
   [[nodiscard]] bool is_building() const;
+  [[nodiscard]] std::optional<Problem> operate(const RunControl& wanted);
   void make_and_run();
   [[nodiscard]] std::optional<project::Controller> make();
   void execute(project::Controller controller);
@@ -110,6 +116,7 @@ class Run {
   Events& events_;
   Reached reached_;
   ControllerLink link_;
+  RunOperators operators_;
   std::atomic<bool> stop_{false}, process_over_{false}, controllable_{false};
   std::thread follower_, thread_;
 

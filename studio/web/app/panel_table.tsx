@@ -15,8 +15,6 @@ const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export interface Panel extends Places {
   name: PanelName;
-  /** The text of its tab. */
-  title: string;
   component: ComponentType;
   /** Whether its component stays while another tab is in front of it. */
   stays?: boolean;
@@ -61,7 +59,15 @@ export const panelTable: readonly Panel[] = [
     operate: "left",
     closed: ["operate"],
   },
-  { name: "inspect", title: "Element", component: Element, edit: "right", debug: "right", operate: "middle" },
+  {
+    name: "inspect",
+    title: "Element",
+    component: Element,
+    edit: "right",
+    debug: "right",
+    operate: "middle",
+    closed: ["operate"],
+  },
   { name: "verify", title: "Verify", component: Verify, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
   { name: "play", title: "Play", component: Play, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
   { name: "run", title: "Run", component: Run, edit: "right", debug: "right", operate: "right" },

@@ -1,4 +1,4 @@
-import type { ControlRequest, Edit, LanguageQuestion, Requests, RunRequest } from "../model/protocol";
+import type { ControlRequest, Edit, LanguageQuestion, Operators, Requests, RunRequest } from "../model/protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -61,6 +61,8 @@ interface Details<Name extends keyof Requests> {
   body?: Body<Name>;
   /** The request goes on when the page is closed. */
   keepalive?: boolean;
+  /** Gives the request up. */
+  signal?: AbortSignal;
 }
 
 /** The address of a request: "/api/runs/7/control" for "POST /api/runs/RUN/control". */
@@ -75,7 +77,7 @@ export class Api {
 
   private async ask<Name extends keyof Requests>(
     name: Name,
-    { of = "", query, body, keepalive = false }: Details<Name> = {},
+    { of = "", query, body, keepalive = false, signal }: Details<Name> = {},
   ): Promise<Requests[Name]["answer"]> {
     const method = name.split(" ", 1)[0]!;
     const path = addressOf(name, of, query ?? {});
@@ -83,7 +85,8 @@ export class Api {
     if (body !== undefined) headers["Content-Type"] = "application/json";
     let answer: Response, text: string;
     try {
-      answer = await fetch(path, { method, headers, keepalive, ...(body === undefined ? {} : { body: JSON.stringify(body) }) });
+      const sent = body === undefined ? {} : { body: JSON.stringify(body) };
+      answer = await fetch(path, { method, headers, keepalive, ...sent, ...(signal ? { signal } : {}) });
       // An answer that breaks off is none: the server has gone, or the page is being left.
       text = await answer.text();
     } catch {
@@ -140,6 +143,12 @@ export class Api {
   emergencyReset = (controller: string) => this.ask("POST /api/emergency_reset", { body: { controller } });
   start = (request: RunRequest) => this.ask("POST /api/runs", { body: request });
   control = (run: string, request: ControlRequest) => this.ask("POST /api/runs/RUN/control", { of: run, body: request });
+  /** Inputs of an operator. */
+  operate = (run: string, request: ControlRequest, signal: AbortSignal) =>
+    this.ask("POST /api/runs/RUN/control", { of: run, body: request, signal }) as Promise<Operators>;
+  /** An answer that takes too long is not awaited. */
+  operators = (run: string, patience_ms: number) =>
+    this.ask("GET /api/runs/RUN/operators", { of: run, signal: AbortSignal.timeout(patience_ms) });
   /** The same for a page that may be about to close. */
   lastControl = (run: string, request: ControlRequest) =>
     this.ask("POST /api/runs/RUN/control", { of: run, body: request, keepalive: true });

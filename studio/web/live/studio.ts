@@ -99,14 +99,19 @@ export class Studio {
   private linking: ReturnType<typeof setTimeout> | undefined;
   private reloading = false;
 
-  /** panels: all panels of the page. */
-  constructor(private readonly panels: readonly Places[]) {
+  /**
+   * panels: all panels of the page. linked: the address tells what is shown, and this tab keeps it.
+   */
+  constructor(
+    readonly panels: readonly Places[],
+    private readonly linked = true,
+  ) {
     followDock(this.view, this.dock);
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
       const { view, panel, text, theme } = this.view.get();
-      sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -142,7 +147,7 @@ export class Studio {
     const shown = this.recordings.store.get().open[0];
     const moment = this.wanted ?? (shown && { recording: shown.name, time: shown.store.get().time });
     const link = linkTo({ view, panel, selected, ...(moment ? { moment } : {}) });
-    if (link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
+    if (this.linked && link !== location.hash) history.replaceState(null, "", location.pathname + location.search + link);
   }
 
   /** The same for a time that may change with every frame: browsers limit how often an address changes. */
@@ -186,6 +191,8 @@ export class Studio {
 
   /** The panels as they were kept for this project, and the one that the address names. */
   private beginDock(project: string): void {
+    // The page for operators has no panels of its own to keep.
+    if (this.panels.length === 0) return;
     this.dock.choose(this.view.get().panel);
     this.dock.begin(project, this.panels, innerWidth);
     if (this.linkedPanel) this.dock.open(this.linkedPanel);
@@ -243,6 +250,11 @@ export class Studio {
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();
+  }
+
+  /** Opens the page for operators in a tab of its own, with the key of this one, but without its unsaved text. */
+  openOperatingPage(): void {
+    window.open(`operate#token=${this.api.token}`, "_blank", "noopener");
   }
 
   get unsaved(): boolean {

@@ -173,7 +173,13 @@ export interface Requests {
   "GET /api/runs": { status: 200; answer: RunListed[] };
   "GET /api/runs/RUN": { status: 200; answer: RunInfo };
   "GET /api/runs/RUN/coverage": { status: 200; answer: Coverage };
-  "POST /api/runs/RUN/control": { body: ControlRequest; status: 200; answer: Nothing };
+  "GET /api/runs/RUN/operators": { status: 200; answer: Operators };
+  "POST /api/runs/RUN/control": {
+    body: ControlRequest;
+    status: 200;
+    /** Operators: to `panel`. */
+    answer: Operators | Nothing;
+  };
   "GET /api/recordings": {
     status: 200;
     /** The newest first. */
@@ -793,6 +799,19 @@ export interface Share {
   reached: number;
   all: number;
 }
+/** Those whose inputs pass through this server. */
+export interface Operators {
+  /** The time of the answer, in seconds of a clock of the server. */
+  stamp: number;
+  /** The network held the inputs back for too long: they are not used. */
+  late?: true;
+  operators: {
+    /** The panel. */
+    path: string;
+    /** As its page names it. */
+    operator: string;
+  }[];
+}
 export interface ControlRequest {
   command: "pause" | "resume" | "stop" | "step_firing" | "step_iteration" | "speed" | "set" | "panel" | "breakpoints";
   /** For `speed`. */
@@ -807,6 +826,10 @@ export interface ControlRequest {
   operator?: string;
   /** For `panel`: values by field; missing fields are neutral. Absent: the operator lets go of the panel. */
   inputs?: { [k: string]: number | boolean };
+  /** For `panel`: the newest stamp that the page has seen; absent: none. */
+  after?: number;
+  /** For `panel`: inputs that arrive more seconds after this stamp are not used. */
+  within?: number;
   /** Instead of those before. */
   breakpoints?: Breakpoint[];
 }

@@ -47,9 +47,9 @@ function usePlace(of: RefObject<HTMLElement | null>, on: boolean): { top: number
   return place;
 }
 
-/** In the line of the run while anything drives devices, and at the same place over an open dialog. */
-export function EmergencyBar() {
-  const driving = useDriving();
+/** In the line of the run while anything drives devices, or always, and at the same place over an open dialog. */
+export function EmergencyBar({ always = false }: { always?: boolean }) {
+  const driving = useDriving() || always;
   const dialog = useOpenDialog();
   const here = useRef<HTMLDivElement>(null);
   const place = usePlace(here, driving && dialog !== null);

@@ -3,6 +3,7 @@ import { isUnsaved } from "../live/draft";
 import type { View } from "../model/view_state";
 import { About } from "./about";
 import { Icon, IconButton } from "./icons";
+import { PanelsMenu } from "./panels_menu";
 import { Steps } from "./steps";
 
 const viewTitles: Record<View, string> = { structure: "Structure", net: "Net", fleet: "Fleet" };
@@ -58,6 +59,7 @@ export function Toolbar() {
         >
           <Icon name="text" />
         </button>
+        <PanelsMenu />
         <button
           className="icon"
           aria-label="Dark colours"

@@ -21,6 +21,8 @@ export type Slot = "left" | "centre" | "right" | "corner" | "below" | "middle" |
 /** The place of a panel in each layout, and whether it is open there from the beginning. */
 export interface Places {
   name: string;
+  /** The text of its tab. */
+  title: string;
   edit: Slot;
   debug: Slot;
   operate: Slot;
@@ -34,7 +36,7 @@ const row = (id: string, weight: number, ...children: Cell[]): Row => ({ kind: "
 /** A window of 1024 pixels leaves 400 to the drawing; a larger one gives it what is more. */
 function shares(width: number): { left: number; right: number } {
   const left = Math.min(420, Math.max(220, width - 780));
-  const right = Math.min(330, width * 0.32);
+  const right = Math.min(360, width * 0.32);
   return { left: (100 * left) / width, right: (100 * right) / width };
 }
 
@@ -51,7 +53,7 @@ const skeletons: Record<LayoutName, (width: number) => Row> = {
         row("inner", 100 - left - right, tabs("centre", 74), tabs("corner", 26)),
         tabs("right", right),
       ),
-      row("bottom", 30, tabs("below", 50), tabs("middle", 28), tabs("end", 22)),
+      row("bottom", 30, tabs("below", 44), tabs("middle", 33), tabs("end", 23)),
     );
   },
   debug: (width) => {

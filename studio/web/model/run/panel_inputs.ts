@@ -38,34 +38,26 @@ export function deflectionOf({ minimum, maximum }: PanelControl, value: number):
   return end === 0 ? 0 : value / end;
 }
 
-/** The deflection of a stick by the arrow keys: [to the right, up]. With Shift a third of it. */
-export function pushOf(keys: ReadonlySet<string>, gently: boolean): [number, number] {
-  const push = (more: string, less: string) => ((keys.has(more) ? 1 : 0) - (keys.has(less) ? 1 : 0)) * (gently ? 1 / 3 : 1);
-  return [push("ArrowRight", "ArrowLeft"), push("ArrowUp", "ArrowDown")];
+/** The directions in which keys push a stick. */
+export type Direction = "up" | "down" | "left" | "right";
+
+const arrows: Readonly<Record<string, Direction>> = { ArrowUp: "up", ArrowDown: "down", ArrowLeft: "left", ArrowRight: "right" };
+const letters: Readonly<Record<string, Direction>> = { w: "up", s: "down", a: "left", d: "right" };
+
+/** The keys that move a stick: both kinds while it has the focus, or one kind wherever the focus is. */
+export type StickKeys = "letters" | "arrows" | "both";
+
+/** The direction of a key; undefined: it does not move the stick. */
+export function directionOf(key: string, keys: StickKeys): Direction | undefined {
+  const letter = keys === "arrows" ? undefined : letters[key.toLowerCase()];
+  return letter ?? (keys === "letters" ? undefined : arrows[key]);
 }
 
-export interface Pad {
-  axes: readonly number[];
-  buttons: readonly { pressed: boolean }[];
-}
-
-const deadZone = 0.12;
-
-/**
- * The input of a gamepad for the panel with that number: its left stick and, in order, its buttons for the
- * first panel, its right stick for the second. Controls at rest are left out.
- */
-export function padInputs(controls: readonly PanelControl[], pad: Pad, panel: number): Inputs {
-  const found: Record<string, number | boolean> = {};
-  const buttons = controls.filter(({ control }) => control === "button");
-  for (const one of controls) {
-    const axis = one.control === "stick_x" ? 2 * panel : one.control === "stick_y" ? 2 * panel + 1 : -1;
-    // A gamepad counts downwards as positive.
-    const moved = (pad.axes[axis] ?? 0) * (one.control === "stick_y" ? -1 : 1);
-    if (axis >= 0 && Math.abs(moved) > deadZone) found[one.field] = deflected(one, moved);
-    if (panel === 0 && one.control === "button" && pad.buttons[buttons.indexOf(one)]?.pressed) found[one.field] = true;
-  }
-  return found;
+/** The deflection of a stick by keys: [to the right, up]. Gently: a third of it. */
+export function pushOf(held: Iterable<Direction>, gently: boolean): [number, number] {
+  const all = new Set(held);
+  const push = (more: Direction, less: Direction) => ((all.has(more) ? 1 : 0) - (all.has(less) ? 1 : 0)) * (gently ? 1 / 3 : 1);
+  return [push("right", "left"), push("up", "down")];
 }
 
 /** The step of a slider: about a hundred of them, a round number, and whole for whole numbers. */

@@ -122,7 +122,7 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
       "the panel is free",
     );
     await button(second, "Stop").click();
-    await second.getByTestId("run-state").getByText("Ended").waitFor();
+    await second.locator(".run-state.ended").waitFor();
   }));
 
 test("everything that drives devices is stopped from the page, also past a dialog, until it is reset", () =>

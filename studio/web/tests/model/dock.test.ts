@@ -7,7 +7,7 @@ import { layoutNames, readyLayout, type Places } from "../../model/dock/ready_la
 import type { ViewState } from "../../model/view_state";
 
 const at = (name: string, slot: Places["edit"], more: Partial<Places> = {}): Places => ({
-  ...{ name, edit: slot, debug: slot, operate: slot },
+  ...{ name, title: name, edit: slot, debug: slot, operate: slot },
   ...more,
 });
 const panels: Places[] = [

@@ -1,6 +1,14 @@
 import { describe, expect, it } from "vitest";
 import type { PanelControl } from "../../model/protocol";
-import { deflected, deflectionOf, neutralInputs, padInputs, pushOf, released, stepOfSlider } from "../../model/run/panel_inputs";
+import {
+  deflected,
+  deflectionOf,
+  directionOf,
+  neutralInputs,
+  pushOf,
+  released,
+  stepOfSlider,
+} from "../../model/run/panel_inputs";
 
 const control = (
   field: string,
@@ -45,17 +53,15 @@ describe("panel inputs", () => {
     for (const value of [-1, -0.5, 0, 0.25, 1]) expect(deflectionOf(forward, deflected(forward, value))).toBeCloseTo(value);
   });
 
-  it("follow the arrow keys, and opposite keys cancel each other", () => {
-    expect(pushOf(new Set(["ArrowUp", "ArrowLeft"]), false)).toEqual([-1, 1]);
-    expect(pushOf(new Set(["ArrowUp", "ArrowDown"]), false)).toEqual([0, 0]);
-    expect(pushOf(new Set(["ArrowRight"]), true)[0]).toBeCloseTo(1 / 3);
-  });
-
-  it("follow a gamepad beyond its dead zone", () => {
-    const pad = { axes: [0.5, -1, 0.05, 1], buttons: [{ pressed: true }] };
-    expect(padInputs(controls, pad, 0)).toEqual({ turn: 1, forward: 0.5, horn: true });
-    expect(padInputs(controls, pad, 1)).toEqual({ forward: -0.2 });
-    expect(padInputs(controls, { axes: [], buttons: [] }, 0)).toEqual({});
+  it("follow keys, and opposite keys cancel each other", () => {
+    expect(pushOf(["up", "left"], false)).toEqual([-1, 1]);
+    expect(pushOf(["up", "down"], false)).toEqual([0, 0]);
+    expect(pushOf(["right"], true)[0]).toBeCloseTo(1 / 3);
+    expect(directionOf("W", "both")).toBe("up");
+    expect(directionOf("w", "arrows")).toBeUndefined();
+    expect(directionOf("ArrowLeft", "arrows")).toBe("left");
+    expect(directionOf("ArrowLeft", "letters")).toBeUndefined();
+    expect(directionOf("q", "both")).toBeUndefined();
   });
 
   it("have steps of a slider that are round", () => {

@@ -11,6 +11,7 @@ import { Scrolled } from "../panels/scrolled";
 import { VerifyPanel } from "../panels/verify_panel";
 import { Centre } from "./centre";
 
+const EventPanel = lazy(() => import("../panels/events/event_panel"));
 const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export interface Panel extends Places {
@@ -79,6 +80,15 @@ export const panelTable: readonly Panel[] = [
     useContent: useTrack,
     edit: "below",
     debug: "below",
+    operate: "below",
+  },
+  {
+    name: "events",
+    title: "Events",
+    component: EventPanel,
+    useContent: useTrack,
+    edit: "below",
+    debug: "corner",
     operate: "below",
   },
   {

@@ -11,6 +11,7 @@ export const panelNames = [
   "run",
   "recordings",
   "timeline",
+  "events",
   "values",
   "world",
 ] as const;

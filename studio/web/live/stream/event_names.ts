@@ -16,6 +16,7 @@ const listened: Record<keyof Events, true> = {
   subsystems: true,
   deployment: true,
   parameters: true,
+  notices: true,
   driving: true,
 };
 

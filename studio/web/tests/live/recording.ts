@@ -11,6 +11,7 @@ export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings
     dropped: 0,
     values: {},
     path: [],
+    notices: { notices: [], dropped: 0 },
     track: null,
     scene: null,
     lacks_beginning: false,

@@ -10,15 +10,15 @@ function commandText({ command, path = "", text, value }: ControlRequest): { who
   const here = "from this page";
   switch (command) {
     case "pause":
-      return { who: "", text: `is paused ${here}` };
+      return { who: "", text: `the run is paused ${here}` };
     case "resume":
-      return { who: "", text: `is told to go on ${here}` };
+      return { who: "", text: `the run is told to go on ${here}` };
     case "stop":
-      return { who: "", text: `is stopped ${here}` };
+      return { who: "", text: `the run is stopped ${here}` };
     case "speed":
-      return { who: "", text: `gets the speed ${value === 0 ? "as fast as possible" : `${value} ×`} ${here}` };
+      return { who: "", text: `the run gets the speed ${value === 0 ? "as fast as possible" : `${value} ×`} ${here}` };
     case "set":
-      return { who: path.slice(0, Math.max(0, path.lastIndexOf("."))), text: `gets ${path} = ${text} ${here}` };
+      return { who: path.slice(0, Math.max(0, path.lastIndexOf("."))), text: `${path} = ${text} is set ${here}` };
     default:
       return null;
   }
@@ -74,8 +74,8 @@ export class RunLog {
     let { state } = runner.store.get();
     runner.store.subscribe(() => {
       const now = runner.store.get();
-      if (now.state === "paused" && state !== "paused") this.note("run", now.why ? `is paused: ${now.why}` : "is paused");
-      if (now.state === "running" && state === "paused") this.note("run", "goes on");
+      if (now.state === "paused" && state !== "paused") this.note("run", now.why ? `the run is paused: ${now.why}` : "the run is paused");
+      if (now.state === "running" && state === "paused") this.note("run", "the run goes on");
       state = now.state;
     });
     let { asked } = emergency.store.get();

@@ -80,14 +80,14 @@ function Log({ pane, track }: { pane: Pane; track: Track }) {
     <>
       <div className="event-filter">
         <input
-          type="search"
+          type="text"
           aria-label="Text in the events"
           placeholder="filter"
           value={typed}
           onChange={(event) => setTyped(event.target.value)}
         />
         <input
-          type="search"
+          type="text"
           aria-label="Agent or subsystem"
           placeholder="agent or subsystem"
           list={`paths-${track.id}`}

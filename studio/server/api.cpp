@@ -71,7 +71,9 @@ void Api::serve_on(HttpServer& server) {
   serve_spec(server);
   serve_work(server);
   serve_sources(server);
+  serve_layout(server);
   serve_consent(server);
+  serve_sweeps(server);
   server.Get("/api/events",
              [this, &server](const Request&, Response& response) { stream_events(server, response); });
 }
@@ -88,6 +90,7 @@ void Api::serve_files(HttpServer& server) {
   server.Get("/api/recordings/([^/]+)/coverage", [this](const Request& request, Response& response) {
     answer_found(response, parts_.recordings.coverage(request.matches[1]), "recording");
   });
+  server.Put("/api/recordings/([^/]+)/notes", by(&Api::put_notes));
   server.Get("/api/recordings/([^/]+)/poses", by(&Recordings::poses));
   server.Get("/api/scenes/([0-9a-f]{16})\\.glb", by(&Api::get_scene));
   server.Get("/api/tracks/([^/]+)", by(&Api::get_track));

@@ -8,6 +8,7 @@
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/language_answers.hpp"
+#include "server/analysis/layout_file.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "server/analysis/verify_jobs.hpp"
 #include "server/http/events.hpp"
@@ -15,6 +16,7 @@
 #include "server/recordings/recordings.hpp"
 #include "server/runs/driving_watch.hpp"
 #include "server/runs/runs.hpp"
+#include "server/runs/sweeps.hpp"
 #include "server/studio.hpp"
 
 namespace tessera::server {
@@ -24,10 +26,12 @@ class Api {
  public:
   struct Parts {
     SpecFile& file;
+    LayoutFile& layout;
     Analyses& analyses;
     Events& events;
     VerifyJobs& jobs;
     Runs& runs;
+    Sweeps& sweeps;
     Recordings& recordings;
     DrivingWatch& driving;
   };
@@ -51,6 +55,9 @@ class Api {
   void start_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
+  void serve_sweeps(HttpServer& server);
+  void start_sweep(const Request& request, Response& response);
+  void put_notes(const Request& request, Response& response);
   static void control_run(Run& run, const Request& request, Response& response);
   [[nodiscard]] static std::optional<Recordings::Span> span_of(const Request& request, Response& response);
   void get_views(const Request& request, Response& response);
@@ -64,6 +71,9 @@ class Api {
   void serve_work(HttpServer& server);
   /// The C++ beside the specification, and examples to start from.
   void serve_sources(HttpServer& server);
+  /// The positions of boxes that a user has moved.
+  void serve_layout(HttpServer& server);
+  void put_layout(const Request& request, Response& response);
   /// Trust in the project, and the emergency stop.
   void serve_consent(HttpServer& server);
   [[nodiscard]] bool is_trusted() const;

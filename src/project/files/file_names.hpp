@@ -11,6 +11,8 @@ inline constexpr const char* state_folder = ".tessera";  ///< of the project
 
 // In the folder of a run.
 inline constexpr const char* recording = recording_file_name;
+inline constexpr const char* notes_ending =
+    ".notes.json";  ///< RECORDING.notes.json: what the user says about it
 inline constexpr const char* summary = "summary.json";
 inline constexpr const char* deployment = "deployment.json";  ///< of several processes
 inline constexpr const char* simulation = "simulation.json";  ///< devices of the world, for the controller

@@ -40,7 +40,7 @@ std::uint64_t limit_of(const char* variable, std::uint64_t usual) {
 /// Whether Tessera or its controllers write a file with that name into the folder of a run.
 bool is_ours(const std::string& name) {
   static const std::regex ours(
-      R"(recording(\.\d+)?\.tsr|[0-9a-f]{16}\.glb|inputs\.tsr|path\.csv|(summary|simulation|deployment)\.json|process-.+\.(tsr|json|txt)|controller|death\.txt|in_use\.lock)");
+      R"(recording(\.\d+)?\.tsr|recording\.tsr\.notes\.json|[0-9a-f]{16}\.glb|inputs\.tsr|path\.csv|(summary|simulation|deployment)\.json|process-.+\.(tsr|json|txt)|controller|death\.txt|in_use\.lock)");
   return std::regex_match(name, ours);
 }
 

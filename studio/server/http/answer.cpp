@@ -116,6 +116,16 @@ std::vector<std::uint32_t> RequestBody::indices(const char* list, const char* me
   return numbers;
 }
 
+std::vector<json> RequestBody::objects(const char* name) {
+  constexpr std::size_t most = 10'000;
+  const json* member = find(name);
+  if (member == nullptr) return {};
+  if (member->is_array() && member->size() <= most && std::ranges::all_of(*member, &json::is_object))
+    return member->get<std::vector<json>>();
+  complain(std::string("'") + name + "' has to be a list of objects");
+  return {};
+}
+
 std::optional<std::map<std::string, std::variant<double, bool>>> RequestBody::inputs(const char* name) {
   const json* member = find(name);
   if (member == nullptr) return std::nullopt;

@@ -44,6 +44,8 @@ class RequestBody {
   /// it.
   [[nodiscard]] std::vector<std::uint32_t> indices(const char* list, const char* member);
   [[nodiscard]] std::vector<std::string> texts(const char* name);
+  /// A list of at most 10,000 objects; none if it is not given.
+  [[nodiscard]] std::vector<nlohmann::json> objects(const char* name);
   /// An object of numbers and truth values; nullopt: it is none.
   [[nodiscard]] std::optional<std::map<std::string, std::variant<double, bool>>> inputs(const char* name);
 

@@ -51,7 +51,8 @@ RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, 
     : recording(std::move(its_recording)),
       transitions(names.transitions_of(*recording)),
       values(*recording),
-      has_changed(recording->buffers.size()) {}
+      has_changed(recording->buffers.size()),
+      lost(recording->buffers.size()) {}
 
 RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached)
     : names_(net), stream_(std::move(source)), tokens_(net), reached_(reached) {}
@@ -70,11 +71,7 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
     if (reached_ != nullptr) fired_.push_back(transition);
     batch.firings.emplace_back(event.time_ns, transition.value);
   } else if (event.kind() == Event::Kind::value) {
-    const auto change = segment_->values.follow(entry);
-    if (change && !change->event.has(ValueFlags::same)) arrays_.take(*change);
-    if (!change || change->event.has(ValueFlags::same) || segment_->has_changed[change->number]) return;
-    segment_->has_changed[change->number] = true;
-    segment_->changed.push_back(change->number);
+    keep_value(batch, entry);
   } else if (event.kind() == Event::Kind::marking) {
     const std::vector<net::PlaceId> places = names_.marked(entry.text);
     if (reached_ != nullptr) marked_.insert(marked_.end(), places.begin(), places.end());
@@ -90,10 +87,33 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   }
 }
 
-/// If there are many firings, keeps only the last ones.
+void RecordingTail::keep_value(Batch& batch, const Recording::Entry& entry) {
+  const auto change = segment_->values.follow(entry);
+  if (!change) return;
+  const ValueEvent& event = change->event;
+  if (!event.has(ValueFlags::same)) arrays_.take(*change);
+  const bool is_news = event.has(ValueFlags::fresh) || !event.has(ValueFlags::valid);
+  if (event.has(ValueFlags::stamped) && is_news)
+    batch.arrivals.push_back(
+        {change->buffer.path, entry.event.time_ns, event.stamp_ns, event.has(ValueFlags::valid)});
+  const bool lost = event.has(ValueFlags::silent | ValueFlags::failed);
+  const bool as_before = event.has(ValueFlags::same) && lost == segment_->lost[change->number];
+  segment_->lost[change->number] = lost;
+  if (as_before || segment_->has_changed[change->number]) return;
+  segment_->has_changed[change->number] = true;
+  segment_->changed.push_back(change->number);
+}
+
+/// If there are many firings or arrivals, keeps only the last ones.
 void RecordingTail::keep_the_last(Batch& batch) {
   // Threads write one after the other; the page shows the order of time.
   std::ranges::stable_sort(batch.firings, {}, &decltype(batch.firings)::value_type::first);
+  if (batch.arrivals.size() > most_arrivals) {
+    const std::size_t beyond = batch.arrivals.size() - most_arrivals;
+    batch.arrivals_dropped += beyond;
+    batch.arrivals.erase(batch.arrivals.begin(),
+                         batch.arrivals.begin() + static_cast<std::ptrdiff_t>(beyond));
+  }
   if (batch.firings.size() <= most_firings) return;
   const std::size_t beyond = batch.firings.size() - most_firings;
   batch.dropped += beyond;
@@ -133,6 +153,10 @@ nlohmann::json RecordingTail::take_changed_values(std::size_t most) {
     const std::uint32_t buffer = segment_->changed.front();
     segment_->changed.pop_front();
     segment_->has_changed[buffer] = false;
+    if (segment_->lost[buffer]) {
+      values_[segment_->recording->buffers[buffer].path] = nullptr;
+      continue;
+    }
     const replay::ValueTrack::Value held = segment_->values.value(buffer);
     if (held.hashed || held.layout == nullptr || held.bytes.size() > largest_value) continue;
     nlohmann::json value = json_of(*held.layout, held.bytes);

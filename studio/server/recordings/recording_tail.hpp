@@ -69,11 +69,20 @@ class RecordingTail {
   RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached = nullptr);
 
   static constexpr std::size_t most_firings = 2000, largest_value = 4096, most_notices = 500;
+  static constexpr std::size_t most_arrivals = 2000;
+  struct Arrived {
+    std::string path;
+    std::int64_t time_ns = 0, written_ns = 0;
+    bool valid = true;
+  };
   struct Batch {
     std::int64_t time_ns = 0;   ///< of the last event
     std::uint64_t dropped = 0;  ///< firings that are not listed; they came before the listed ones
     std::vector<std::pair<std::int64_t, std::uint32_t>> firings;  ///< time, transition of the net
     std::vector<replay::RobotPoint> path;                         ///< of the only robot (PoseTrack)
+    /// when inputs got values of their senders: path, and what `arrivals` of docs/reference/studio.md has
+    std::vector<Arrived> arrivals;
+    std::uint64_t arrivals_dropped = 0;  ///< those that are not listed; they came before the listed ones
     /// path and value of parameters that were given to the run, or that it has taken since
     std::vector<std::pair<std::string, std::string>> parameters;
     bool lacks_parameters = false;  ///< it begins in a later segment: parameters taken before are unknown
@@ -96,7 +105,7 @@ class RecordingTail {
   }
   /// {"robot.sensor.line": number, bool, text, list or object} for the buffers whose values have changed
   /// since they were last taken, about `most` bytes of them; the others come next time. Leaves out values
-  /// that are not recorded completely, or are larger than largest_value.
+  /// that are not recorded completely, or are larger than largest_value. null: its device gives none any more.
   [[nodiscard]] nlohmann::json take_changed_values(std::size_t most = SIZE_MAX);
 
  private:
@@ -107,8 +116,10 @@ class RecordingTail {
     replay::ValueTrack values;
     std::deque<std::uint32_t> changed;  // indices of buffers
     std::vector<bool> has_changed;      // per buffer
+    std::vector<bool> lost;             // per buffer: the device gives no value
   };
   void keep(Batch& batch, const Recording::Entry& entry);
+  void keep_value(Batch& batch, const Recording::Entry& entry);
   static void keep_the_last(Batch& batch);
   NetNames names_;
   RecordingStream stream_;

@@ -82,7 +82,11 @@ class ValueSeries {
     if (time_ns >= span.from_ns) show_what_was(span.from_ns);
     const std::optional<replay::ValueTrack::Change> change = track_->follow(entry);
     if (!change || time_ns > span.to_ns) return;
-    if (time_ns < span.from_ns)
+    const bool lost = change->event.has(ValueFlags::silent | ValueFlags::failed);
+    if (time_ns >= span.from_ns) arrived(*change, time_ns);
+    if (lost)
+      lose(change->number, std::max(time_ns, span.from_ns));
+    else if (time_ns < span.from_ns)
       before_.insert(change->number);
     else
       show(change->number, time_ns);
@@ -92,9 +96,27 @@ class ValueSeries {
   }
   [[nodiscard]] bool complete() const { return samples_ <= Recordings::most_samples; }
   [[nodiscard]] json take() { return std::move(series_); }
+  /// When the inputs got values of their senders: {"robot.control.line": [[t, written, valid]...]}
+  [[nodiscard]] json take_arrivals() { return std::move(arrivals_); }
 
  private:
   static constexpr std::size_t most_scalars = 16;  // per value: longer lists get no curves
+
+  void arrived(const replay::ValueTrack::Change& change, std::int64_t time_ns) {
+    const ValueEvent& event = change.event;
+    const bool is_news = event.has(ValueFlags::fresh) || !event.has(ValueFlags::valid);
+    if (!event.has(ValueFlags::stamped) || !is_news) return;
+    if (++samples_ > Recordings::most_samples) return;
+    arrivals_[change.buffer.path].push_back({time_ns, event.stamp_ns, event.has(ValueFlags::valid)});
+  }
+  /// The device gives no value from then on: its curves have a gap.
+  void lose(std::uint32_t buffer, std::int64_t time_ns) {
+    before_.erase(buffer);
+    for (const std::string& path : paths_[buffer]) {
+      if (++samples_ > Recordings::most_samples) return;
+      series_[path].push_back({time_ns, nullptr});
+    }
+  }
 
   void show(std::uint32_t buffer, std::int64_t time_ns) {
     const replay::ValueTrack::Value value = track_->value(buffer);
@@ -105,7 +127,9 @@ class ValueSeries {
         [&](const std::string& path, const ValueLayout::ScalarValue& scalar) {
           if (++samples_ > Recordings::most_samples) return;
           const std::string dot = path.empty() || path.front() == '[' ? "" : ".";
-          series_[recording_->buffers[buffer].path + dot + path].push_back({time_ns, json_of(scalar)});
+          const std::string whole = recording_->buffers[buffer].path + dot + path;
+          paths_[buffer].insert(whole);
+          series_[whole].push_back({time_ns, json_of(scalar)});
         },
         [&](const std::string& path, std::size_t length) {
           if (++samples_ > Recordings::most_samples) return;
@@ -118,7 +142,8 @@ class ValueSeries {
   std::optional<replay::ValueTrack> track_;
   std::set<std::uint32_t> before_;  // buffers that got a value before the span
   std::size_t samples_ = 0;
-  json series_ = json::object();
+  json series_ = json::object(), arrivals_ = json::object();
+  std::map<std::uint32_t, std::set<std::string>> paths_;  // of the curves of a buffer
 };
 
 /// The part of a recording that is shown.
@@ -178,6 +203,7 @@ class Content {
     content_["truncated"] = dropped_ > 0 || !values_.complete() || is_cut;
     values_.show_what_was(span_.from_ns);
     content_["values"] = values_.take();
+    content_["arrivals"] = values_.take_arrivals();
     return std::move(content_);
   }
 
@@ -284,11 +310,20 @@ std::string Recordings::list() const {
     json one = known_summary_of(file);
     if (one.is_null()) continue;
     one["name"] = name;
+    one["notes"] = RecordingNotes::of(file);
     list.push_back(std::move(one));
   }
   std::stable_sort(list.begin(), list.end(),
                    [](const json& one, const json& other) { return one["modified"] > other["modified"]; });
   return text_of(list);
+}
+
+std::optional<RecordingNotes::Outcome> Recordings::write_notes(const std::string& name, const Notes& notes,
+                                                               const std::string& revision) {
+  const auto all = files();
+  const auto found = all.find(name);
+  if (found == all.end()) return std::nullopt;
+  return notes_.write(found->second, notes, revision);
 }
 
 std::optional<std::string> Recordings::content(const std::string& name, Span span) const {

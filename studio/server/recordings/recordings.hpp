@@ -10,6 +10,7 @@
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/spec_file.hpp"
+#include "server/recordings/recording_notes.hpp"
 
 namespace tessera::server {
 
@@ -24,16 +25,21 @@ class Recordings {
   static constexpr std::size_t most_firings = 200'000, most_samples = 400'000, most_points = 20'000,
                                most_notices = 10'000;
 
-  /// [{"name", "bytes", "modified", "system", "net_hash", "clock", "duration"}]
+  /// [{"name", "bytes", "modified", "system", "net_hash", "clock", "duration", "notes"}]
   [[nodiscard]] std::string list() const;
   struct Span {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "lacks_beginning", "cut", "truncated", "path", "notices", "track", "scene"} of
+  /// "values", "arrivals", "lacks_beginning", "cut", "truncated", "path", "notices", "track", "scene"} of
   /// docs/reference/studio.md, within the time span: at most most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
   /// name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;
+
+  /// Replaces the notes of a recording (RecordingNotes::write). nullopt: no recording has that name.
+  [[nodiscard]] std::optional<RecordingNotes::Outcome> write_notes(const std::string& name,
+                                                                   const Notes& notes,
+                                                                   const std::string& revision);
 
   /// {"frames": [[t, base64]...], "until"} of docs/reference/studio.md: the poses in the time span, those at its
   /// beginning first, at most about most_pose_bytes. nullopt: no recording has that name. Throws
@@ -57,6 +63,7 @@ class Recordings {
   [[nodiscard]] nlohmann::json known_summary_of(const std::filesystem::path& file) const;
   SpecFile& file_;
   Analyses& analyses_;
+  RecordingNotes notes_;
   struct KnownSummary {
     std::int64_t bytes = 0, modified_ns = 0;  ///< of the newest file
     nlohmann::json summary;

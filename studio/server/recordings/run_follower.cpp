@@ -1,6 +1,7 @@
 #include "server/recordings/run_follower.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <thread>
 #include <utility>
 
@@ -12,6 +13,7 @@ using Clock = std::chrono::steady_clock;
 namespace {
 
 constexpr std::size_t most_values = std::size_t{64} << 10U;  // size of one event in bytes
+constexpr std::size_t most_arrivals = 4000;                  // of one event
 constexpr std::size_t most_arrays = std::size_t{1} << 20U;
 constexpr auto between_arrays = std::chrono::milliseconds(200);
 constexpr auto between_looks = std::chrono::milliseconds(30);
@@ -69,6 +71,14 @@ std::vector<PathPoint> RunFollower::add_firings(News& news) {
   news.parameters = std::move(batch.parameters);
   news.lacks_parameters = batch.lacks_parameters;
   news.notices = recording_.notices().take();
+  arrivals_.insert(arrivals_.end(), std::make_move_iterator(batch.arrivals.begin()),
+                   std::make_move_iterator(batch.arrivals.end()));
+  arrivals_dropped_ += batch.arrivals_dropped;
+  if (arrivals_.size() > most_arrivals) {
+    const auto beyond = static_cast<std::ptrdiff_t>(arrivals_.size() - most_arrivals);
+    arrivals_dropped_ += static_cast<std::uint64_t>(beyond);
+    arrivals_.erase(arrivals_.begin(), arrivals_.begin() + beyond);
+  }
   time_ns_ = std::max(time_ns_, batch.time_ns);
   news.time_ns = time_ns_;
   if (batch.firings.empty() && batch.dropped == 0 && !batch.jumped) return std::move(batch.path);
@@ -92,9 +102,15 @@ std::vector<PathPoint> RunFollower::add_firings(News& news) {
 void RunFollower::add_values(News& news, bool at_once) {
   if (!at_once && Clock::now() - values_told_ < between_values) return;
   json values = recording_.take_changed_values(at_once ? SIZE_MAX : most_values);
-  if (values.empty()) return;
+  if (values.empty() && arrivals_.empty() && arrivals_dropped_ == 0) return;
   values_told_ = Clock::now();
-  news.values = {{"t", time_ns_}, {"values", std::move(values)}};
+  json arrivals = json::object();
+  for (const RecordingTail::Arrived& one : std::exchange(arrivals_, {}))
+    arrivals[one.path].push_back({one.time_ns, one.written_ns, one.valid});
+  news.values = {{"t", time_ns_},
+                 {"values", std::move(values)},
+                 {"arrivals", std::move(arrivals)},
+                 {"arrivals_dropped", std::exchange(arrivals_dropped_, 0)}};
 }
 
 void RunFollower::add_arrays(News& news, bool at_once) {

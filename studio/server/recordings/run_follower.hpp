@@ -64,6 +64,8 @@ class RunFollower {
   bool scene_told_ = false;
   std::optional<PathPoint> pose_waiting_;
   std::optional<Snapshot> snapshot_;
+  std::vector<RecordingTail::Arrived> arrivals_;  ///< not told yet
+  std::uint64_t arrivals_dropped_ = 0;
   std::uint64_t pauses_ = 0, total_firings_ = 0;
   std::int64_t time_ns_ = 0;
 };

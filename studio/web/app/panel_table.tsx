@@ -3,6 +3,7 @@ import { useHasWorld, useStore, useStudio } from "../hooks/use";
 import type { Places } from "../model/dock/ready_layouts";
 import type { PanelName } from "../model/view_state";
 import { InspectPanel } from "../panels/inspect_panel";
+import { PlotPanel, usePlot } from "../panels/plots/plot_panel";
 import { Timelines, ValueLists, Worlds } from "../panels/plots/watch";
 import { PlayPanel } from "../panels/run/play_panel";
 import { RecordingsPanel } from "../panels/run/recordings_panel";
@@ -11,6 +12,7 @@ import { Scrolled } from "../panels/scrolled";
 import { VerifyPanel } from "../panels/verify_panel";
 import { Centre } from "./centre";
 
+const CodePanel = lazy(() => import("../panels/forms/code_panel"));
 const EventPanel = lazy(() => import("../panels/events/event_panel"));
 const TextPane = lazy(() => import("../panels/text/text_pane"));
 
@@ -60,6 +62,7 @@ export const panelTable: readonly Panel[] = [
     operate: "left",
     closed: ["operate"],
   },
+  { name: "code", title: "C++", component: CodePanel, edit: "left", debug: "left", operate: "left", closed: ["operate"] },
   {
     name: "inspect",
     title: "Element",
@@ -100,5 +103,6 @@ export const panelTable: readonly Panel[] = [
     debug: "middle",
     operate: "corner",
   },
+  { name: "plots", title: "Plots", component: PlotPanel, useContent: usePlot, edit: "below", debug: "below", operate: "below" },
   { name: "world", title: "World", component: Worlds, useContent: useWorld, edit: "end", debug: "end", operate: "end" },
 ];

@@ -1,35 +1,39 @@
 import { ViewportPortal } from "@xyflow/react";
-import { useState } from "react";
 import { roundedPath } from "../model/net/geometry";
-import { channelLabel, channelPath, withoutIndex, type Channel, type Structure } from "../model/structure/structure";
-import { isNext, type StructureDrawing } from "../model/structure/structure_graph";
+import { bundlePath, bundleTitle, isNext } from "../model/structure/bundles";
+import { channelMeaning, waits } from "../model/structure/channel_words";
+import {
+  channelLabel,
+  channelPath,
+  selectedPath,
+  withoutIndex,
+  type Channel,
+  type Structure,
+} from "../model/structure/structure";
+import type { DrawnBundle, StructureDrawing } from "../model/structure/structure_graph";
 
-/** The appearance of a channel besides its modes. */
+/** The appearance of channels besides their modes. */
 export interface ChannelLook {
   selected: string | null;
   complaints: ReadonlyMap<string, { severity: "error" | "warning" }>;
   /** Indices of the channels at which a subsystem is stuck. */
   stuck: ReadonlySet<number>;
+  /** The channel or bundle under the pointer, or with the focus. */
+  over: string | null;
+  onOver: (path: string | null) => void;
 }
-
-const blocks = ({ send, receive, model }: Channel) => send === "blocking" || receive !== "non_blocking" || model !== "";
 
 const spoken = (channel: Channel) => {
   const { modes, timeout } = channelLabel(channel);
   return `${modes}${timeout ? ` ${timeout}` : ""}, channel from ${channel.from}, ${channel.send}, to ${channel.to}, ${channel.receive}`;
 };
 
-/** The text of a label. */
-const meaning = ({ send, receive, model, timeout }: Channel) =>
-  model
-    ? `It works as the communication model ${model} says.`
-    : `The sender ${send === "blocking" ? "waits until the value is taken (B)" : "does not wait (N)"}, ` +
-      `the receiver ${receive !== "non_blocking" ? "waits for a value (B)" : "does not wait (N)"}` +
-      `${timeout ? `, at most ${timeout}` : ""}.`;
+const joined = (...classes: (string | false | undefined)[]) => classes.filter(Boolean).join(" ");
 
 /**
- * The channels of the structure: solid if an end waits, dashed if none does. Labels name the modes of both
- * ends. All of it comes from the same layout as the boxes, so a channel ends where its buffer is drawn.
+ * The channels of the structure: solid if an end waits, dashed if none does. Those between two agents are one line with
+ * their number; the lines to their buffers are drawn once it is open. All of it comes from the same layout as the
+ * boxes, so a channel ends where its buffer is drawn.
  */
 export function ChannelLayer({
   structure,
@@ -40,71 +44,101 @@ export function ChannelLayer({
   drawing: StructureDrawing;
   look: ChannelLook;
 }) {
-  const [over, setOver] = useState<number | null>(null);
-  const chosen = structure.channels.findIndex(({ index }) => channelPath(index) === look.selected);
-  const isAt = (path: string) => look.selected !== null && withoutIndex(path).startsWith(`${withoutIndex(look.selected)}.`);
-  const wires = drawing.wires.map((wire, at) => ({
-    wire,
-    at,
-    channels: wire.channels.flatMap((one) => structure.channels[one] ?? []),
-  }));
-  const rank = (channels: readonly Channel[]) => Number(channels.some(({ index }) => index === over || index === chosen));
+  const { selected, over, stuck, complaints } = look;
+  const at = selected === null ? null : withoutIndex(selectedPath(selected));
+  const touches = (path: string) => at !== null && (withoutIndex(path) === at || withoutIndex(path).startsWith(`${at}.`));
+  const isAt = ({ from, to }: Channel) => touches(from) || touches(to);
+  const isShown = (path: string) => path === selected || path === over;
+  const isError = ({ index }: Channel) => complaints.get(channelPath(index))?.severity === "error";
+  const known = (index: number) => structure.channels[index];
+  // An agent has too many channels to open all of their bundles.
+  const opensAt = at !== null && at.includes(".");
+  const shows = (channel: Channel) =>
+    isShown(channelPath(channel.index)) ||
+    (opensAt && isAt(channel)) ||
+    stuck.has(channel.index) ||
+    isShown(bundlePath(channel) ?? "");
+  const wires = drawing.wires.flatMap((wire) => {
+    const channel = known(wire.channel);
+    return channel && (wire.bundle === undefined || shows(channel)) ? [{ wire, channel }] : [];
+  });
+  const bundles = drawing.bundles.map((bundle) => ({ bundle, channels: bundle.channels.flatMap((one) => known(one) ?? []) }));
+  const hover = (path: string) => ({ onPointerEnter: () => look.onOver(path), onPointerLeave: () => look.onOver(null) });
+  const focus = (path: string) => ({ ...hover(path), onFocus: () => look.onOver(path), onBlur: () => look.onOver(null) });
+  const open = (channels: readonly Channel[], path: string) =>
+    isShown(path) || channels.some(({ index }) => isShown(channelPath(index)));
   return (
     <ViewportPortal>
       <svg className="channels" width={drawing.width} height={drawing.height} aria-hidden="true">
-        {wires
-          .sort((a, b) => rank(a.channels) - rank(b.channels))
-          .map(({ wire, at, channels }) => {
-            const classes = [
-              "channel",
-              channels.some(blocks) ? "blocking" : "",
-              channels.length > 1 ? "trunk" : "",
-              wire.between ? "between" : "inside",
-              wire.between?.forth ? "forth" : "",
-              wire.between?.back ? "back" : "",
-              channels.some(({ from, to }) => isAt(from) || isAt(to)) ? "of-selected" : "",
-              channels.some(({ index }) => index === chosen) ? "selected" : "",
-              channels.some(({ index }) => index === over) ? "over" : "",
-              channels.some(({ index }) => look.complaints.get(channelPath(index))?.severity === "error") ? "error" : "",
-              channels.some(({ index }) => look.stuck.has(index)) ? "stuck" : "",
-            ];
-            const path = roundedPath(wire.points, 8);
-            const [only] = channels;
+        {bundles
+          .sort((a, b) => Number(open(a.channels, a.bundle.path)) - Number(open(b.channels, b.bundle.path)))
+          .map(({ bundle, channels }) => {
+            const { path, points, forth, back } = bundle;
+            const line = roundedPath(points, 8);
+            const classes = joined(
+              "channel between",
+              channels.some(waits) && "blocking",
+              forth && "forth",
+              back && "back",
+              channels.some(isAt) && "of-selected",
+              open(channels, path) && "over",
+              channels.some(isError) && "error",
+              channels.some(({ index }) => stuck.has(index)) && "stuck",
+            );
             return (
-              <g key={at} data-channels={wire.channels.join(" ")}>
-                <path className={classes.join(" ")} d={path} markerEnd={wire.ends ? "url(#channel-tip)" : undefined} />
-                {channels.length === 1 && (
-                  <path
-                    className="channel-reach"
-                    d={path}
-                    data-reach={channelPath(only!.index)}
-                    onPointerEnter={() => setOver(only!.index)}
-                    onPointerLeave={() => setOver(null)}
-                  />
-                )}
+              <g key={path} data-channels={bundle.channels.join(" ")} data-bundle={path}>
+                <path className="halo" d={line} />
+                <path className={classes} d={line} />
+                <path className="channel-reach" d={line} data-reach={path} {...hover(path)}>
+                  <title>{namesOf(bundle, channels)}</title>
+                </path>
               </g>
             );
           })}
+        {wires.map(({ wire, channel }, key) => {
+          const path = channelPath(channel.index);
+          const classes = joined(
+            "channel inside",
+            wire.bundle && "opened",
+            waits(channel) && "blocking",
+            isAt(channel) && "of-selected",
+            path === selected && "selected",
+            (path === over || (wire.bundle && isShown(wire.bundle))) && "over",
+            isError(channel) && "error",
+            stuck.has(channel.index) && "stuck",
+          );
+          const line = roundedPath(wire.points, 6);
+          return (
+            <g key={key} data-channels={channel.index}>
+              <path className={classes} d={line} markerEnd={wire.ends ? "url(#channel-tip)" : undefined} />
+              <path className="channel-reach" d={line} data-reach={path} {...hover(path)}>
+                <title>{`${channel.from} → ${channel.to}`}</title>
+              </path>
+            </g>
+          );
+        })}
       </svg>
       {structure.channels.map((channel) => {
         const box = drawing.labels.get(channel.index);
         if (!box) return null;
         const { modes, timeout } = channelLabel(channel);
         const path = channelPath(channel.index);
-        const complaint = look.complaints.get(path)?.severity ?? "";
+        const complaint = complaints.get(path)?.severity;
         return (
           <button
             key={channel.index}
-            className={`channel-label nodrag nopan ${path === look.selected ? "selected" : ""} ${complaint} ${look.stuck.has(channel.index) ? "stuck" : ""}`}
+            className={joined(
+              "channel-label nodrag nopan",
+              path === selected && "selected",
+              complaint,
+              stuck.has(channel.index) && "stuck",
+            )}
             style={{ left: box.x, top: box.y, width: box.width, height: box.height }}
             data-path={path}
             aria-label={spoken(channel)}
-            aria-pressed={path === look.selected}
-            title={`${channel.from} → ${channel.to}\n${meaning(channel)}`}
-            onPointerEnter={() => setOver(channel.index)}
-            onPointerLeave={() => setOver(null)}
-            onFocus={() => setOver(channel.index)}
-            onBlur={() => setOver(null)}
+            aria-pressed={path === selected}
+            title={`${channel.from} → ${channel.to}\n${channelMeaning(channel)}`}
+            {...focus(path)}
           >
             {isNext(channel) && <span aria-hidden="true">↻ </span>}
             {modes}
@@ -112,38 +146,62 @@ export function ChannelLayer({
           </button>
         );
       })}
+      {bundles.map(({ bundle, channels }) => {
+        const { path, label: box } = bundle;
+        const isOpen = open(channels, path);
+        return (
+          <button
+            key={path}
+            className={joined(
+              "channel-label bundle nodrag nopan",
+              isOpen && "selected",
+              channels.some(isError) && "error",
+              channels.some(({ index }) => stuck.has(index)) && "stuck",
+            )}
+            style={{ left: box.x, top: box.y, width: box.width, height: box.height }}
+            data-path={path}
+            aria-label={namesOf(bundle, channels)}
+            aria-pressed={path === selected}
+            title={namesOf(bundle, channels)}
+            {...focus(path)}
+          >
+            <span>{channels.length}</span>
+          </button>
+        );
+      })}
     </ViewportPortal>
   );
 }
 
-/** The tip of all channels. */
+const namesOf = (bundle: DrawnBundle, channels: readonly Channel[]) =>
+  `${bundleTitle(bundle)}\n${channels.map(({ from, to }) => `${from} → ${to}`).join("\n")}`;
+
+/** The tips of channels and of the arrows of state machines. */
 export const ChannelTip = () => (
   <svg width="0" height="0" aria-hidden="true" style={{ position: "absolute" }}>
     <defs>
-      <marker
-        id="channel-tip"
-        viewBox="0 0 10 8"
-        refX="9.5"
-        refY="4"
-        markerWidth="9"
-        markerHeight="7.2"
-        markerUnits="userSpaceOnUse"
-        orient="auto"
-      >
-        <path className="tip" d="M0 0L10 4L0 8L2.5 4Z" />
-      </marker>
-      {/* For the lines between agents, seen from afar. */}
-      <marker
-        id="trunk-tip"
-        viewBox="0 0 10 8"
-        refX="9.5"
-        refY="4"
-        markerWidth="6"
-        markerHeight="4.8"
-        orient="auto-start-reverse"
-      >
+      <Tip id="channel-tip" size={9} />
+      <Tip id="machine-tip" size={7} />
+      <Tip id="failure-tip" size={7} />
+      {/* For the lines between agents: their width is that of the line. */}
+      <marker id="trunk-tip" viewBox="0 0 10 8" refX="9.5" refY="4" markerWidth="5" markerHeight="4" orient="auto-start-reverse">
         <path className="tip" d="M0 0L10 4L0 8Z" />
       </marker>
     </defs>
   </svg>
+);
+
+const Tip = ({ id, size }: { id: string; size: number }) => (
+  <marker
+    id={id}
+    viewBox="0 0 10 8"
+    refX="9.5"
+    refY="4"
+    markerWidth={size}
+    markerHeight={size * 0.8}
+    markerUnits="userSpaceOnUse"
+    orient="auto"
+  >
+    <path className={`tip ${id}`} d="M0 0L10 4L0 8L2.5 4Z" />
+  </marker>
 );

@@ -6,6 +6,7 @@ import { drawnIn, filmOf, mostFirings, type Scenes } from "../model/run/film";
 import { initialMarking } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
 import { filmPage } from "./film_page";
+import { withVectors } from "./painted/vectors";
 import { asPng, download, takeFirstPicture, takePicture } from "./picture";
 
 /** Buttons that save the visible part as a file. film: also a film of what is played on it. */
@@ -17,7 +18,7 @@ export function ExportButtons({ name, film }: { name: string; film?: boolean }) 
     if (areas.length === 0) return;
     setBusy(true);
     try {
-      download(await make(areas), `${name || "system"}.${ending}`);
+      download(await withVectors(areas, () => make(areas)), `${name || "system"}.${ending}`);
     } catch (error) {
       studio.draft.store.set({ notice: message(error) });
     }

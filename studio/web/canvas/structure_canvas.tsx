@@ -2,86 +2,41 @@ import {
   Background,
   BackgroundVariant,
   Controls,
+  MiniMap,
   Panel,
   ReactFlow,
   ReactFlowProvider,
   useReactFlow,
   useStore as useFlow,
-  useUpdateNodeInternals,
   type Connection,
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
+import { useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
-import { keysNow, named } from "../live/editor";
 import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { connect as connectEdit, freshAgent, insert, remove } from "../model/text/edits";
+import { connect as connectEdit } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
 import { channelEnd } from "../model/structure/connections";
-import { channelOf, channelPath, findThing, withoutIndex, type Structure } from "../model/structure/structure";
-import { drawStructure, type StructureDrawing } from "../model/structure/structure_graph";
-import { YamlText } from "../model/text/yaml_text";
+import { bundleAt, bundlePath, isBundlePath } from "../model/structure/bundles";
+import { agentHead, detailAt, structureStep, type Detail } from "../model/structure/levels";
+import { channelOf, channelPath, withoutIndex } from "../model/structure/structure";
+import { mostBundleLetters } from "../model/structure/structure_graph";
+import { leastPixels } from "../model/structure/text_size";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
-import { detailAt, structureStep, type Detail } from "./detail";
-import { elk } from "./elk";
+import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { ExportButtons } from "./export_button";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useSteadyView } from "./steady_view";
-import { AgentNode, DeviceNode, SubsystemNode } from "./structure_nodes";
+import { selectionAt, StructureHands } from "./structure_hands";
+import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
+import { AgentNode, DeviceNode, SubsystemNode, SurroundingsContext, type Surroundings } from "./structure_nodes";
 
 const nodeTypes = { agent: AgentNode, subsystem: SubsystemNode, device: DeviceNode };
 
-/**
- * Shows all of a drawing, with the channels around its boxes, until the user moves it. Returns the function
- * to call after a move.
- */
-function useWholeUntilMoved(whole: Box | undefined): (event: unknown) => void {
-  const flow = useReactFlow();
-  const size = useFlow((state) => `${state.width} ${state.height}`);
-  const moved = useRef(false);
-  useEffect(() => {
-    if (size.startsWith("0 ") || !whole || moved.current) return;
-    const { width, height } = whole;
-    // A small system is not drawn larger than it is.
-    const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
-    const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
-    void flow.fitBounds(box, { duration: 0, padding: 0.03 });
-  }, [size, whole, flow]);
-  // Moves that the page itself makes have no event.
-  return (event) => void (moved.current ||= event !== null);
-}
-
-/** A structure and its drawing, which arrives a moment after it. */
-interface Drawn {
-  structure: Structure;
-  drawing: StructureDrawing;
-}
-
 const still = matchMedia("(prefers-reduced-motion: reduce)");
-
-const nothing: Drawn = {
-  structure: { agents: [], channels: [], system: "", types: [], yaml: new YamlText("") },
-  drawing: { width: 1, height: 1, boxes: new Map(), wires: [], labels: new Map() },
-};
-
-/**
- * The drawing of the last structure with a layout. Its boxes stay in place until the next layout is ready.
- */
-function useDrawn(structure: Structure): Drawn {
-  const [drawn, setDrawn] = useState(nothing);
-  useEffect(() => {
-    let wanted = true;
-    void drawStructure(structure, elk).then((drawing) => wanted && setDrawn({ structure, drawing }));
-    return () => void (wanted = false);
-  }, [structure]);
-  const update = useUpdateNodeInternals();
-  // A buffer that has moved within its box moves its handle, too.
-  useEffect(() => update([...drawn.drawing.boxes.keys()]), [drawn, update]);
-  return drawn;
-}
 
 type Complaints = ReturnType<typeof useComplaints>;
 
@@ -110,7 +65,7 @@ function nodesOf({ structure, drawing }: Drawn, selected: string | null, complai
   for (const agent of structure.agents) {
     add(agent.name, "agent", 0, { agent, selected: selected === agent.name, complaint: complaints.get(agent.name) });
     for (const subsystem of agent.subsystems) {
-      add(subsystem.path, "subsystem", 3, { subsystem, selected, complaints });
+      add(subsystem.path, "subsystem", 3, { subsystem, selected, complaints, card: drawing.cards.get(subsystem.path) });
       add(`${subsystem.path}#device`, "device", 3, { subsystem, selected });
     }
   }
@@ -125,7 +80,7 @@ function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): B
     const height = Math.min(box.height, 40 / zoom);
     return { ...box, y: box.y + (box.height - height) / 2, height };
   };
-  const head = (box: Box): Box => ({ ...box, height: 50 });
+  const head = (box: Box): Box => ({ ...box, height: agentHead });
   const named = (path: string, place: (box: Box) => Box) => {
     const box = drawing.boxes.get(path);
     return box ? [place(box)] : [];
@@ -139,9 +94,6 @@ function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): B
 /** The element, or the line of a channel, at a click. */
 const pathOf = (target: Element) =>
   target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
-
-/** The name that a click selects: a buffer has another one there than in paths. */
-const selectionOf = (target: Element) => target.closest("[data-path]")?.getAttribute("data-selection") ?? pathOf(target);
 
 /** The wires between virtual receptors and effectors and their devices. */
 function wiresOf({ structure, drawing }: Drawn): Edge[] {
@@ -164,6 +116,33 @@ function wiresOf({ structure, drawing }: Drawn): Edge[] {
     });
 }
 
+/** The agents of the bundle, or of the channel, under the pointer. */
+function endsOf({ structure }: Drawn, over: string | null): readonly string[] {
+  if (over === null) return [];
+  const channel = structure.channels.find(({ index }) => channelPath(index) === over);
+  const path = channel ? bundlePath(channel) : isBundlePath(over) ? over : undefined;
+  return path === undefined ? [] : (bundleAt(structure, path)?.agents ?? []);
+}
+
+/** Says that a layout is being computed, or that it failed. It waits a moment: most layouts are there at once. */
+const Notice = ({ first, problem }: { first: boolean; problem: string }) => (
+  <p className={`layout-notice${first ? " first" : ""}`} role="status">
+    {problem ? `The drawing could not be laid out: ${problem}` : "Arranging the drawing…"}
+  </p>
+);
+
+/** A small map with the visible part, while a part of the drawing is out of sight. */
+function Map({ whole }: { whole: Box }) {
+  const partly = useFlow(({ transform: [x, y, zoom], width, height }) => {
+    const margin = 4;
+    const inside = x >= -margin && y >= -margin && x + whole.width * zoom <= width + margin;
+    return !(inside && y + whole.height * zoom <= height + margin) && width > 420;
+  });
+  if (!partly) return null;
+  const agents = (node: Node) => (node.type === "agent" ? "map-agent" : "map-part");
+  return <MiniMap position="top-right" pannable zoomable nodeClassName={agents} ariaLabel="Map of the whole system" />;
+}
+
 /** Agents in the form that robotics uses. Dragging from an output to an input makes a channel. */
 export function StructureCanvas() {
   return (
@@ -180,17 +159,25 @@ function Drawing() {
   const selected = useStore(studio.view, (view) => view.selected);
   const net = useStore(studio.draft.store, (draft) => draft.net);
   const lens = useLens(net);
-  const drawn = useDrawn(structure);
-  const { drawing } = drawn;
+  const { drawn, busy, problem } = useDrawn(structure);
+  const { drawing, levels } = drawn;
+  const [over, setOver] = useState<string | null>(null);
   const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
   const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
   useSteadyView(drawn === nothing ? undefined : whole);
-  const move = useWholeUntilMoved(drawn === nothing ? undefined : whole);
+  const moved = useRef(false);
+  const comeNear = useComeNear(drawn, moved);
+  useWholeUntilMoved(drawn, whole, comeNear, moved);
+  useNearness(drawn, comeNear);
   const edges = useMemo(() => wiresOf(drawn), [drawn]);
   const stuck = useMemo(
     () => new Set((lens?.waits ?? []).flatMap(({ channel }) => channelOf(drawn.structure, channel)?.index ?? [])),
     [lens, drawn],
   );
+  const surroundings = useMemo((): Surroundings => {
+    const connected = drawn.structure.channels.flatMap(({ from, to }) => [withoutIndex(from), withoutIndex(to)]);
+    return { structure: drawn.structure, levels, connected: new Set(connected), ends: endsOf(drawn, over) };
+  }, [drawn, levels, over]);
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
@@ -199,29 +186,27 @@ function Drawing() {
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
-  const detail = detailAt(zoom);
+  const detail = detailAt(zoom, levels);
   // If subsystems are not drawn, their agent replaces them.
   const boxOf = (path: string) => drawing.boxes.get(detail === "agents" ? path.split(/[.[]/)[0]! : withoutIndex(path));
   const dragged = useRef(false);
   // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
-  const click = (event: MouseEvent) => dragged.current || select(selectionOf(event.target as Element));
-  /** Flies to an agent, or to a subsystem in it. */
+  const click = (event: MouseEvent) => dragged.current || select(selectionAt(event.target as Element));
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);
-    const box = path === null ? undefined : drawing.boxes.get(path.split(".").slice(0, 2).join("."));
-    if (box) void flow.fitBounds(box, { duration: still.matches ? 0 : 350, padding: 0.06 });
+    if (path !== null) comeNear(path);
   };
-  const key = (event: KeyboardEvent) => {
-    const thing = selected === null ? undefined : findThing(structure, selected);
-    if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
-      void studio.change(remove(["channels", thing.of.index]), () => ({ selected: null }));
-    }
+  const area = useRef<HTMLDivElement>(null);
+  const drag = () => {
+    dragged.current = true;
+    addEventListener("pointerup", dragEnds, { once: true });
   };
-  const add = () => {
-    const added = named("agent", keysNow(["agents"]), (name) => insert(["agents"], name, freshAgent));
-    void studio.change(added.wish, () => ({ selected: added.name, panel: "inspect" }));
+  const overview = () => {
+    moved.current = false;
+    void flow.fitBounds(whole, { duration: still.matches ? 0 : 350, padding: 0.03 });
   };
+  const counts = zoom * mostBundleLetters >= leastPixels;
   return (
     <div className="canvas structure" data-testid="structure">
       <div className="breadcrumbs">
@@ -232,50 +217,72 @@ function Drawing() {
           {detail === "all" ? "drag from an output to an input to connect them" : "double-click an agent to see what is in it"}
         </span>
         <span className="spring" />
-        <button className="quiet" onClick={add}>
+        <button className="quiet" title="Show the whole system" onClick={overview}>
+          Overview
+        </button>
+        <button className="quiet" onClick={() => void studio.elements.addAgent()}>
           Add agent
         </button>
         <ExportButtons name={structure.system} />
       </div>
       <ChannelTip />
       <div
-        className={`canvas-area detail-${detail}`}
+        className={`canvas-area detail-${detail}${counts ? "" : " no-counts"}`}
+        aria-busy={busy}
         style={{ "--zoom": zoom } as CSSProperties}
         onClick={click}
         onDoubleClick={doubleClick}
-        onKeyDown={key}
+        ref={area}
+        tabIndex={-1}
       >
-        <ReactFlow
-          nodes={nodes}
-          edges={edges}
-          nodeTypes={nodeTypes}
-          onMove={move}
-          onConnect={connect}
-          onConnectStart={() => (dragged.current = true)}
-          onConnectEnd={dragEnds}
-          nodesDraggable={false}
-          elementsSelectable={false}
-          zoomOnDoubleClick={false}
-          disableKeyboardA11y
-          fitViewOptions={{ padding: 0.08, maxZoom: 1.1 }}
-          minZoom={0.05}
-          proOptions={{ hideAttribution: true }}
-          connectionRadius={28}
-        >
-          <ChannelLayer structure={drawn.structure} drawing={drawing} look={{ selected, complaints, stuck }} />
-          <LensOverlay
-            net={net}
-            whole={whole}
-            boxOf={boxOf}
-            names={lens ? namesOf(drawn, detail, zoom) : none}
-            version={drawing}
-          />
-          <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
-          <Panel position="bottom-left">
-            <Legend of="structure" />
-          </Panel>
-          <Controls showInteractive={false} position="bottom-right" />
-        </ReactFlow>
+        <SurroundingsContext.Provider value={surroundings}>
+          <ReactFlow
+            nodes={nodes}
+            edges={edges}
+            nodeTypes={nodeTypes}
+            // Moves that the page itself makes have no event.
+            onMove={(event) => void (moved.current ||= event !== null)}
+            onConnect={connect}
+            onConnectStart={() => (dragged.current = true)}
+            onConnectEnd={dragEnds}
+            nodesDraggable={false}
+            elementsSelectable={false}
+            zoomOnDoubleClick={false}
+            disableKeyboardA11y
+            fitViewOptions={{ padding: 0.08, maxZoom: 1.1 }}
+            minZoom={Math.max(0.02, levels.agents)}
+            proOptions={{ hideAttribution: true }}
+            connectionRadius={28}
+          >
+            <ChannelLayer
+              structure={drawn.structure}
+              drawing={drawing}
+              look={{ selected, complaints, stuck, over, onOver: setOver }}
+            />
+            <LensOverlay
+              net={net}
+              whole={whole}
+              boxOf={boxOf}
+              names={lens ? namesOf(drawn, detail, zoom) : none}
+              version={drawing}
+            />
+            <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
+            <Panel position="bottom-left">
+              <Legend of="structure" />
+            </Panel>
+            <Map whole={whole} />
+            <Controls showInteractive={false} showFitView={false} position="bottom-right" />
+            <StructureHands
+              structure={structure}
+              area={area}
+              boxes={drawing.boxes}
+              move={() => false}
+              arrange={undefined}
+              onDrag={drag}
+            />
+          </ReactFlow>
+        </SurroundingsContext.Provider>
+        {(busy || problem) && <Notice first={drawn === nothing} problem={problem} />}
       </div>
     </div>
   );

@@ -1,87 +1,124 @@
 import { Handle, Position, useStore as useFlow, type NodeProps } from "@xyflow/react";
-import { Fragment, type CSSProperties } from "react";
+import { createContext, useContext } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useRunning } from "../hooks/use_stage";
-import { behavioursIn, withoutIndex, type Agent, type Buffer, type Subsystem } from "../model/structure/structure";
-import { chipText, chipWidth, head, ports, row } from "../model/structure/structure_layout";
-import { linesIn } from "./detail";
+import { agentNote, deviceTitle, head, kindTitle, ports, rateText, row, type Card } from "../model/structure/cards";
+import {
+  agentAbove,
+  agentFilled,
+  detailAt,
+  structureStep,
+  subsystemFilled,
+  type FilledBox,
+  type Levels,
+} from "../model/structure/levels";
+import type { Agent, Buffer, Structure, Subsystem } from "../model/structure/structure";
+import { lineHeight, leastPixels, type FittedText } from "../model/structure/text_size";
+import { Flag, type Complaint } from "./flag";
+import { MachineView } from "./machine_view";
+import { measured } from "./measured_text";
 
-interface Complaint {
-  severity: "error" | "warning";
-  messages: string[];
+/** What the boxes share: they are drawn again when it changes, and not for each move of the view. */
+export interface Surroundings {
+  structure: Structure;
+  levels: Levels;
+  /** Buffers that have a channel. */
+  connected: ReadonlySet<string>;
+  /** The agents at the ends of the bundle under the pointer. */
+  ends: readonly string[];
 }
-const Flag = ({ of }: { of: Complaint | undefined }) =>
-  of ? (
-    <span
-      className={`dot ${of.severity}`}
-      role="img"
-      aria-label={`${of.severity}: ${of.messages.join("; ")}`}
-      title={of.messages.join("\n")}
-    />
-  ) : null;
+export const SurroundingsContext = createContext<Surroundings | null>(null);
+const useSurroundings = () => useContext(SurroundingsContext)!;
 
-/** A name that may break after its underscores. */
-const Name = ({ of }: { of: string }) =>
-  of.split(/(?<=_)/).map((part, at) => (
-    <Fragment key={at}>
-      {part}
-      <wbr />
-    </Fragment>
-  ));
+/** The step of the zoom while it scales letters; 0: everything is drawn, in letters of fixed size. */
+function useStep(levels: Levels): number {
+  return useFlow(({ transform }) => {
+    const step = structureStep(transform[2]);
+    return detailAt(step, levels) === "all" ? 0 : step;
+  });
+}
 
-/** The number of lines of a name that fills its box; it changes seldom during a zoom. */
-const useLines = (height: number, letters: number) =>
-  ({ "--lines": useFlow(({ transform }) => linesIn(height, transform[2], letters)) }) as CSSProperties;
-
-export function AgentNode({ data, height = 0 }: NodeProps) {
-  const { agent, selected, complaint } = data as { agent: Agent; selected: boolean; complaint: Complaint | undefined };
+/** Lines of a text in letters of a fixed size on the screen. */
+function Lines({ of, step, notes = [] }: { of: FittedText; step: number; notes?: readonly string[] }) {
+  const style = (size: number) => ({ fontSize: size / step, lineHeight });
   return (
-    <div className={`agent-box${selected ? " selected" : ""}`} style={useLines(height - 60, 13)}>
-      <button className="agent-name" data-path={agent.name} aria-pressed={selected} title={agent.name}>
-        <span className="cut">
-          <Name of={agent.name} />
+    <>
+      {of.lines.map((line, at) => (
+        <span key={at} className="line" style={style(of.size)}>
+          {line}
         </span>
-        {agent.count && <span className="faint"> × {agent.count}</span>}
-        {agent.template && <span className="faint"> uses {agent.template}</span>}
+      ))}
+      {notes.map((note) => (
+        <span key={note} className="line note" style={style(leastPixels + 1)}>
+          {note}
+        </span>
+      ))}
+    </>
+  );
+}
+
+export function AgentNode({ data, width = 0, height = 0 }: NodeProps) {
+  const { agent, selected, complaint } = data as { agent: Agent; selected: boolean; complaint: Complaint | undefined };
+  const { levels, ends } = useSurroundings();
+  const step = useStep(levels);
+  const box = { x: 0, y: 0, width, height };
+  const far = step > 0 && detailAt(step, levels) === "agents";
+  const note = agentNote(agent);
+  const text = step === 0 ? undefined : far ? agentFilled(agent, box, step, measured) : agentAbove(agent, box, step, measured);
+  return (
+    <div className={`agent-box${selected ? " selected" : ""}${ends.includes(agent.name) ? " end" : ""}`}>
+      <button className="agent-name" data-path={agent.name} aria-pressed={selected} title={agent.name + note}>
+        <span className="agent-title">
+          {step === 0 ? agent.name : text ? <Lines of={text} step={step} notes={(text as FilledBox).notes} /> : null}
+        </span>
+        {step === 0 && note && <span className="faint">{note}</span>}
         <Flag of={complaint} />
       </button>
     </div>
   );
 }
 
-const kindTitle = { control: "control subsystem", receptor: "virtual receptor", effector: "virtual effector" };
-
-export function SubsystemNode({ data, height = 0 }: NodeProps) {
-  const { subsystem, selected, complaints } = data as {
+export function SubsystemNode({ data, width = 0, height = 0 }: NodeProps) {
+  const { subsystem, selected, complaints, card } = data as {
     subsystem: Subsystem;
     selected: string | null;
     complaints: ReadonlyMap<string, Complaint>;
+    card: Card;
   };
   const studio = useStudio();
+  const { structure, levels } = useSurroundings();
+  const step = useStep(levels);
   const running = useRunning(useStore(studio.scene.store, ({ panes }) => panes[0]!.stage));
   const now = running.get(subsystem.path) ?? [...running].find(([path]) => path.replace(/\[\d+\]/, "") === subsystem.path)?.[1];
   const of = (direction: Buffer["direction"]) => subsystem.buffers.filter((buffer) => buffer.direction === direction);
   const isSelected = selected === subsystem.path;
+  const rate = rateText(structure, subsystem);
+  const kind = kindTitle[subsystem.kind];
+  const box = { x: 0, y: 0, width, height };
+  const far = step > 0 && detailAt(step, levels) === "subsystems" && subsystemFilled(subsystem, box, step, measured, now);
+  const title = `${subsystem.path}\n${kind}${rate && `, ${rate}`}${now ? `\n${now} is running` : ""}`;
   return (
-    <div
-      className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}
-      style={useLines(height - (now ? 60 : 0), 10)}
-    >
+    <div className={`subsystem-box ${subsystem.kind}${isSelected ? " selected" : ""}`}>
       <button
-        className="subsystem-head"
+        className={`subsystem-head${now ? " running" : ""}`}
         data-path={subsystem.path}
         aria-pressed={isSelected}
-        title={subsystem.path}
-        style={{ height: head - 4 }}
+        title={title}
+        style={far ? undefined : { height: head - 2 }}
       >
-        <span className="subsystem-name">
-          <Name of={subsystem.name} />
-        </span>
-        {now && <span className="now">{now}</span>}
-        <span className="kind">
-          {kindTitle[subsystem.kind]}
-          {subsystem.rate && ` · ${subsystem.rate}`}
-        </span>
+        {far ? (
+          <span className="subsystem-name">
+            <Lines of={far} step={step} notes={far.notes} />
+          </span>
+        ) : (
+          <>
+            <span className="first-line">
+              <span className="subsystem-name">{subsystem.name}</span>
+              {rate && <span className="rate">{rate}</span>}
+            </span>
+            <span className="kind">{kind}</span>
+          </>
+        )}
         <Flag of={complaints.get(subsystem.path)} />
       </button>
       {subsystem.kind !== "control" && (
@@ -97,63 +134,24 @@ export function SubsystemNode({ data, height = 0 }: NodeProps) {
         <Ports buffers={of("input")} selected={selected} side="in" />
         <Ports buffers={of("output")} selected={selected} side="out" />
       </div>
-      <div className="chips">
-        <Chips subsystem={subsystem} group="" selected={selected} complaints={complaints} now={now && withoutIndex(now)} />
+      <div className="machine" style={{ left: card.machineAt.x, top: card.machineAt.y }}>
+        <MachineView subsystem={subsystem} machine={card.machine} selected={selected} complaints={complaints} now={now} />
       </div>
     </div>
   );
 }
 
-/** The behaviours of a subsystem or of a group. A group stands on lines of its own, with what is in it. */
-function Chips({
-  subsystem,
-  group,
-  ...shown
-}: {
-  subsystem: Subsystem;
-  group: string;
-  selected: string | null;
-  complaints: ReadonlyMap<string, Complaint>;
-  now: string | undefined;
-}) {
-  return behavioursIn(subsystem, group).map((behaviour) => {
-    const { selected, complaints, now } = shown;
-    const own = behaviour.path.slice(subsystem.path.length + 1);
-    const runs = now === own || (behaviour.isGroup && now?.startsWith(`${own}.`));
-    const what = behaviour.isGroup ? "group" : "behaviour";
-    const chip = (
-      <button
-        key={behaviour.path}
-        style={{ width: chipWidth(behaviour, subsystem) }}
-        className={`chip${behaviour.isGroup ? " group" : ""}${runs ? " running" : ""}`}
-        data-path={behaviour.path}
-        aria-pressed={selected === behaviour.path}
-        title={behaviour.for ? `${own}, for ${behaviour.for}` : own}
-        aria-label={`${what} ${own}${runs ? ", running" : ""}`}
-      >
-        {chipText(behaviour)}
-        <Flag of={complaints.get(behaviour.path)} />
-      </button>
-    );
-    if (!behaviour.isGroup) return chip;
-    return (
-      <div key={behaviour.path} className="chip-group">
-        {chip}
-        <Chips subsystem={subsystem} group={behaviour.path} {...shown} />
-      </div>
-    );
-  });
-}
-
 function Ports({ buffers, selected, side }: { buffers: Buffer[]; selected: string | null; side: "in" | "out" }) {
+  const { connected } = useSurroundings();
   return (
     <div className={`port-list ${side}`}>
       {buffers.map((buffer, at) => (
-        <div key={buffer.selection} className="port">
+        <div key={buffer.selection} className="port" style={{ height: row }}>
           <Handle
             id={buffer.path}
             type={side === "in" ? "target" : "source"}
             position={side === "in" ? Position.Left : Position.Right}
+            className={connected.has(buffer.path) ? "connected" : ""}
             style={{ top: head + at * row + row / 2 }}
             data-handle={buffer.path}
           />
@@ -177,10 +175,9 @@ const BufferButton = ({ of, selected }: { of: Buffer; selected: string | null })
 
 export function DeviceNode({ data }: NodeProps) {
   const { subsystem, selected } = data as { subsystem: Subsystem; selected: string | null };
-  const receptor = subsystem.kind !== "effector";
   return (
     <div className="device-box">
-      <span className="kind">{receptor ? "real receptor" : "real effector"}</span>
+      <span className="kind">{deviceTitle(subsystem)}</span>
       {subsystem.buffers
         .filter((buffer) => buffer.direction === "real")
         .map((buffer) => (
@@ -188,7 +185,7 @@ export function DeviceNode({ data }: NodeProps) {
         ))}
       <Handle
         id="device"
-        type={receptor ? "source" : "target"}
+        type={subsystem.kind === "effector" ? "target" : "source"}
         position={Position.Top}
         className="device-handle"
         isConnectable={false}

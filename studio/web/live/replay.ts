@@ -133,6 +133,7 @@ export class Replay {
     track.known = this.end;
     for (const [path, samples] of Object.entries(recording.values))
       for (const [time, value] of samples) track.series.add(time, path, value);
+    track.arrived(recording.arrivals ?? {});
     track.pathUpTo(this.path);
     return track;
   }

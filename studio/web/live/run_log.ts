@@ -74,7 +74,8 @@ export class RunLog {
     let { state } = runner.store.get();
     runner.store.subscribe(() => {
       const now = runner.store.get();
-      if (now.state === "paused" && state !== "paused") this.note("run", now.why ? `the run is paused: ${now.why}` : "the run is paused");
+      if (now.state === "paused" && state !== "paused")
+        this.note("run", now.why ? `the run is paused: ${now.why}` : "the run is paused");
       if (now.state === "running" && state === "paused") this.note("run", "the run goes on");
       state = now.state;
     });

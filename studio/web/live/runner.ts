@@ -29,7 +29,10 @@ import { Track } from "./track";
 import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment" | "driving" | "notices">;
+type RunEventName = Exclude<
+  keyof Events,
+  "hello" | "spec" | "layout" | "verify" | "deployment" | "driving" | "notices" | "sweep"
+>;
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
@@ -275,11 +278,13 @@ export class Runner {
     track.tell(t, runningBehaviours(track.net, stage.marking));
   }
 
-  private valued({ t, values }: ValuesEvent | RunInfo): void {
+  private valued(event: ValuesEvent | RunInfo): void {
+    const { t, values } = event;
     const { track } = this;
     track?.reached(t);
     // The requested values may be older than values received since.
     track?.values(track.now, values);
+    if ("arrivals" in event && event.arrivals) track?.arrived(event.arrivals, event.arrivals_dropped);
   }
 
   /**

@@ -5,6 +5,7 @@ import { Coverages } from "./coverage";
 import { Deployment } from "./deployment";
 import { Dock } from "./dock";
 import { followDock } from "./dock_view";
+import { ElementEdits } from "./element_edits";
 import { Emergency } from "./emergency";
 import { Draft } from "./draft";
 import { Editor, type Wish } from "./editor";
@@ -13,9 +14,12 @@ import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
+import { PlottedRecordings } from "./plotted";
+import { Plots } from "./plots";
 import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
+import { Guide } from "./guide";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -55,6 +59,7 @@ export class Studio {
   readonly connection = new Connection(this.api);
   readonly draft = new Draft(this.api);
   readonly editor = new Editor(this.api, this.draft);
+  readonly elements = new ElementEdits(this);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
@@ -70,8 +75,11 @@ export class Studio {
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly plots = new Plots();
+  readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
+  readonly guide = new Guide(localStorage);
   readonly dock = new Dock();
   /** The seconds that timelines and curves show. */
   readonly watched = new Store({ seconds: 10 });
@@ -87,6 +95,7 @@ export class Studio {
     ...linkedView(),
     line: null,
     flight: null,
+    near: null,
     folds: new Map(),
     searching: false,
   });
@@ -181,6 +190,7 @@ export class Studio {
       const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } catch (error) {
       this.project.set({ problem: message(error) });
     }
@@ -230,6 +240,7 @@ export class Studio {
       this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
       this.sources.restore(project.folder);
+      this.plots.restore(fileOf(project));
     } else if (known !== undefined && known !== start) {
       const { project } = this.project.get();
       // Another project at this address: its text is not to be mixed with that of this page.
@@ -335,6 +346,12 @@ export class Studio {
 
   showLine(line: number): void {
     this.view.set({ line: { line, request: (this.view.get().line?.request ?? 0) + 1 } });
+  }
+
+  /** Selects an element, and shows it in the structure from near. */
+  comeNear(path: string, structure: Structure): void {
+    this.choose(path, structure);
+    this.view.set({ view: "structure", near: path });
   }
 
   /** Moves the drawing of the net to an element. */

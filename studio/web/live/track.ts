@@ -4,7 +4,8 @@ import { Series } from "../model/run/series";
 import { bounded, count } from "../model/sorted";
 import { Timeline } from "../model/run/timeline";
 import type { Floor } from "./api";
-import type { FiringRow, PathRow } from "../model/protocol";
+import { ArrivalLog } from "../model/plots/arrivals";
+import type { Arrival, FiringRow, PathRow } from "../model/protocol";
 import { LiveArrays, type Arrays } from "./arrays";
 import type { World } from "./world";
 
@@ -26,6 +27,8 @@ export class Track {
   readonly id = (made += 1);
   readonly timeline: Timeline;
   readonly series: Series;
+  /** When the inputs got new values of their senders, by path of the input. */
+  readonly arrivals: ArrivalLog;
   readonly log: EventLog;
   path: Pose[] = [];
   /** All firings so far. */
@@ -49,6 +52,7 @@ export class Track {
   ) {
     this.timeline = whole ? new Timeline(net, Infinity) : new Timeline(net);
     this.series = whole ? new Series(Infinity) : new Series();
+    this.arrivals = whole ? new ArrivalLog(Infinity) : new ArrivalLog();
     this.log = whole ? new EventLog(net, Infinity) : new EventLog(net);
   }
 
@@ -81,6 +85,17 @@ export class Track {
 
   values(time: number, values: Readonly<Record<string, unknown>>): void {
     for (const [path, value] of Object.entries(values)) this.series.add(time, path, value);
+  }
+
+  /** What came through channels. An input whose last value is not valid has a gap. dropped: some are not listed. */
+  arrived(arrivals: Readonly<Record<string, readonly Arrival[]>>, dropped = 0): void {
+    if (dropped > 0) this.arrivals.interrupt(this.now);
+    for (const [path, rows] of Object.entries(arrivals))
+      for (const [time, written, valid] of rows) {
+        if (!valid) this.series.lose(time, path);
+        else if (this.arrivals.isInvalid(path)) this.series.regain(time, path);
+        this.arrivals.add(path, time, written, valid);
+      }
   }
 
   pose(pose: Pose): void {

@@ -18,6 +18,8 @@ export type Breakpoint = { place: number } | { transition: number } | { conditio
 export type FiringRow = [number, number];
 /** Nanoseconds of the run's clock, and the value. */
 export type Sample = [number, unknown];
+/** When an input got a value, when its sender wrote it (nanoseconds of the run's clock), and whether it is valid. */
+export type Arrival = [number, number, boolean];
 /** Nanoseconds of the run's clock, and a frame (tessera/poses.hpp), base64. */
 export type PoseFrameRow = [number, string];
 /** Nanoseconds of the run's clock, and what has changed since the row before. */
@@ -129,6 +131,17 @@ export interface Requests {
     status: 200;
     answer: { revision: string };
   };
+  "GET /api/layout": { status: 200; answer: LayoutAnswer };
+  /** 409: Conflict. */
+  "PUT /api/layout": {
+    body: {
+      boxes: BoxPositions;
+      /** The revision of the file that was changed. */
+      revision: string;
+    };
+    status: 200;
+    answer: { revision: string };
+  };
   "GET /api/examples": { status: 200; answer: { name: string; title: string }[] };
   /** Copies an example into a project that has no specification yet. */
   "POST /api/begin": {
@@ -216,6 +229,28 @@ export interface Requests {
     status: 200;
     answer: RecordedArrays;
   };
+  /** 409: somebody else has changed the notes, or they are not the studio's; the answer has `notes` as they are. */
+  "PUT /api/recordings/NAME/notes": { body: NotesRequest; status: 200; answer: { notes: Notes | null } };
+  "POST /api/sweeps": {
+    body: SweepRequest;
+    status: 202;
+    answer: {
+      /** Names the sweep. */
+      sweep: string;
+    };
+  };
+  "GET /api/sweeps": {
+    status: 200;
+    answer: {
+      /** Those of the file on disk. */
+      parameters: ParameterShown[];
+      /** Runs at a time. */
+      processes: number;
+      sweeps: SweepListed[];
+    };
+  };
+  "GET /api/sweeps/JOB": { status: 200; answer: SweepEvent };
+  "DELETE /api/sweeps/JOB": { status: 200; answer: Nothing };
   "GET /api/views": { status: 200; answer: Views };
   "GET /api/scenes/HASH.glb": {
     status: 200;
@@ -417,7 +452,20 @@ export interface FunctionShown {
 }
 /** Does something with one part of a specification (src/language/edits/edits.hpp). */
 export interface Edit {
-  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template" | "move";
+  do:
+    | "set"
+    | "insert"
+    | "append"
+    | "replace"
+    | "remove"
+    | "rename"
+    | "connect"
+    | "channel"
+    | "next"
+    | "make_template"
+    | "move"
+    | "copy"
+    | "paste";
   at?: EditPath;
   key?: string;
   text?: string;
@@ -443,6 +491,17 @@ export interface FileRenamed {
   after: string;
   /** The revision of the text before. */
   revision: string;
+}
+export interface LayoutAnswer {
+  boxes: BoxPositions;
+  /** Empty: the file cannot be read. */
+  revision: string;
+  /** Why the file is not understood; null: it is, or there is none. */
+  error: string | null;
+}
+/** The boxes that a user has moved, by path: the upper left corner, of a subsystem from that of its agent. */
+export interface BoxPositions {
+  [k: string]: [number, number];
 }
 /**
  * The controllers that drive devices now: those of this user in real time, on real devices or in a simulated
@@ -540,7 +599,7 @@ export interface RunInfo {
 }
 /** Values of buffers, and of fields of memory, by path. */
 export interface Values {
-  /** A number, bool, text, list or object. */
+  /** A number, bool, text, list or object; null: its device gives none any more. */
   [k: string]: unknown;
 }
 export interface ParameterShown {
@@ -843,6 +902,23 @@ export interface RecordingInfo {
   clock: string;
   /** Seconds. */
   duration: number;
+  /** Null: there are none. */
+  notes: Notes | null;
+}
+/** The name and the notes that a user has given to a recording. */
+export interface Notes {
+  /** Empty: the recording has no name of its own. */
+  title: string;
+  text: string;
+  marks: Mark[];
+  revision: string;
+  /** Why the file cannot be read; then it is not replaced. Empty: it was read. */
+  problem: string;
+}
+export interface Mark {
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  text: string;
 }
 export interface Recording {
   net_hash: string;
@@ -855,6 +931,7 @@ export interface Recording {
   dropped: number;
   /** By path of the scalar. */
   values: { [k: string]: Sample[] };
+  arrivals: Arrivals;
   path: PathRow[];
   notices: Notices;
   /** The floor picture; null: none, or unknown. */
@@ -873,6 +950,10 @@ export interface Recording {
   /** Firings of the whole recording. */
   total: number;
 }
+/** The new values that came through channels, by path of the input. */
+export interface Arrivals {
+  [k: string]: Arrival[];
+}
 export interface RecordedPoses {
   /** The first is whole. */
   frames: PoseFrameRow[];
@@ -887,6 +968,91 @@ export interface RecordedArrays {
 /** By path of a real receptor's buffer: its numbers as in a recording, base64; null: not recorded, or too large. */
 export interface Arrays {
   [k: string]: string | null;
+}
+export interface NotesRequest {
+  /** One line of up to 200 bytes. */
+  title: string;
+  /** Up to 10,000 bytes. */
+  text: string;
+  /** Up to 500, each of up to 500 bytes. */
+  marks: Mark[];
+  /** Of the notes that are replaced; empty: there are none. */
+  revision: string;
+}
+/** Many simulated runs: each value of a parameter with each seed. */
+export interface SweepRequest {
+  /** Its path; `robot[*].control.v` is that of all members of a fleet. Absent: only the seeds differ. */
+  parameter?: string;
+  /** Of the parameter, with their units: "0.3 m/s". */
+  values?: string[];
+  /** For each value, with the next seeds; 1 if it is absent. */
+  runs?: number;
+  /** The first one; 1 if it is absent. */
+  seed?: number;
+  /** The length of a run; 10s if it is absent. */
+  for?: string;
+  /** The seed decides the order of the subsystems, too, as in `tessera schedules`. */
+  interleave?: boolean;
+}
+export interface SweepListed {
+  /** Names the sweep. */
+  sweep: string;
+  state: "building" | "running" | "done" | "stopped" | "failed";
+  /** Why it failed. */
+  why: string;
+  /** The progress of the build. */
+  line: string;
+  /** Empty: only the seeds differ. */
+  parameter: string;
+  values: string[];
+  /** For each value. */
+  runs: number;
+  seed: number;
+  for: string;
+  interleave: boolean;
+  /** Runs that have ended. */
+  done: number;
+  of: number;
+  /** Results of an earlier sweep. */
+  reused: number;
+}
+/** A sweep, and rows of its results from number `from` on. */
+export interface SweepEvent {
+  /** Names the sweep. */
+  sweep: string;
+  state: "building" | "running" | "done" | "stopped" | "failed";
+  /** Why it failed. */
+  why: string;
+  /** The progress of the build. */
+  line: string;
+  /** Empty: only the seeds differ. */
+  parameter: string;
+  values: string[];
+  /** For each value. */
+  runs: number;
+  seed: number;
+  for: string;
+  interleave: boolean;
+  /** Runs that have ended. */
+  done: number;
+  of: number;
+  /** Results of an earlier sweep. */
+  reused: number;
+  from: number;
+  rows: SweepRow[];
+}
+/** The result of one run. */
+export interface SweepRow {
+  /** Of the parameter; empty: there is none. */
+  value: string;
+  seed: number;
+  failed: boolean;
+  /** Why it ended; what has failed. */
+  ended: string;
+  /** By measure; null: it was never taken. */
+  numbers: { [k: string]: number | null };
+  /** Of the measures that have one. */
+  units: { [k: string]: string };
 }
 export interface Views {
   views: WorldView[];
@@ -917,6 +1083,7 @@ export interface WorldView {
 export interface Events {
   hello: Hello;
   spec: SpecEvent;
+  layout: LayoutEvent;
   verify: VerifyEvent;
   build: LineEvent;
   log: LineEvent;
@@ -931,6 +1098,7 @@ export interface Events {
   pose: PoseEvent;
   scene: SceneEvent;
   poses: PosesEvent;
+  sweep: SweepEvent;
   driving: Driving;
 }
 export interface Hello {
@@ -944,6 +1112,10 @@ export interface Hello {
 }
 /** The file changed on disk, or, with the same revision, a file that it includes. */
 export interface SpecEvent {
+  revision: string;
+}
+/** The file with the positions of boxes changed on disk. */
+export interface LayoutEvent {
   revision: string;
 }
 export interface VerifyStarted {
@@ -1022,6 +1194,9 @@ export interface ValuesEvent {
   /** Nanoseconds of the run's clock. */
   t: number;
   values: Values;
+  arrivals?: Arrivals;
+  /** Arrivals that are not listed, because there were too many. */
+  arrivals_dropped?: number;
 }
 /** All parameters: when the run begins, and when one has taken a value. */
 export interface ParametersEvent {
@@ -1076,7 +1251,7 @@ export interface Refusal {
   /** A proposed remedy; may be empty. */
   hint: string;
 }
-/** 409 of `PUT /api/spec` and `PUT /api/sources`: another program has changed the file. */
+/** 409 of `PUT /api/spec`, `PUT /api/sources` and `PUT /api/layout`: another program has changed the file. */
 export interface Conflict {
   /** The file on disk. */
   text: string;

@@ -10,9 +10,11 @@ export const panelNames = [
   "play",
   "run",
   "recordings",
+  "code",
   "timeline",
   "events",
   "values",
+  "plots",
   "world",
 ] as const;
 export type PanelName = (typeof panelNames)[number];
@@ -28,6 +30,8 @@ export interface ViewState {
   line: { line: number; request: number } | null;
   /** Path to fly to, with a number that makes each request new. */
   flight: { path: string; request: number } | null;
+  /** Path of an element that the drawing of the structure is to come near to; null: it has done so. */
+  near: string | null;
   /** Pages that the user folded or unfolded, against the rule. */
   folds: ReadonlyMap<string, boolean>;
   searching: boolean;

@@ -4,7 +4,7 @@ import { useStructure } from "../hooks/use_structure";
 import { layerTitle } from "../model/net/labels";
 import type { NetModel } from "../model/net/net";
 import { rank } from "../model/structure/rank";
-import type { Structure } from "../model/structure/structure";
+import { findThing, type Structure } from "../model/structure/structure";
 
 interface Found {
   path: string;
@@ -52,6 +52,7 @@ function candidates(net: NetModel | null, text: string): Found[] {
 export function Search() {
   const studio = useStudio();
   const net = useStore(studio.draft.store, (draft) => draft.net);
+  const view = useStore(studio.view, (all) => all.view);
   const [text, setText] = useState("");
   const [chosen, setChosen] = useState(0);
   const head = net && net.elements.agents.length > manyAgents ? text : "";
@@ -62,10 +63,10 @@ export function Search() {
   const close = () => studio.view.set({ searching: false });
   useEffect(() => void dialog.current?.showModal(), []);
   const take = (one: Found | undefined) => {
-    if (one?.selection) {
-      studio.view.set({ view: "structure" });
-      studio.choose(one.selection, structure);
-    } else if (one) studio.flyTo(one.path);
+    if (one?.selection) studio.comeNear(one.selection, structure);
+    // The structure has all but places and transitions.
+    else if (one && view === "structure" && findThing(structure, one.path)) studio.comeNear(one.path, structure);
+    else if (one) studio.flyTo(one.path);
     close();
   };
   const key = (event: KeyboardEvent) => {

@@ -1,7 +1,13 @@
 import type { Samples } from "./series";
 
-/** A table of values over time: a row for each time at which one of them changed. Times in seconds. */
-export function csvOf(series: readonly { path: string; samples: Samples }[]): string {
+const quoted = (text: string) => (/[",\n\r]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+const cell = (value: unknown) => (value === undefined || value === null || Number.isNaN(value) ? "" : quoted(String(value)));
+
+/**
+ * A table of values over time: a row for each time at which one of them changed. Times in seconds. An empty cell: there is
+ * no valid value.
+ */
+export function csvOf(series: readonly { path: string; samples: Samples<unknown> }[]): string {
   const times = [...new Set(series.flatMap(({ samples }) => samples.times))].sort((a, b) => a - b);
   const at = series.map(() => -1);
   const rows = times.map((time) =>
@@ -9,9 +15,9 @@ export function csvOf(series: readonly { path: string; samples: Samples }[]): st
       (time / 1e9).toFixed(9),
       ...series.map(({ samples }, column) => {
         while (samples.times[at[column]! + 1] !== undefined && samples.times[at[column]! + 1]! <= time) at[column]! += 1;
-        return samples.values[at[column]!] ?? "";
+        return cell(samples.values[at[column]!]);
       }),
     ].join(","),
   );
-  return [["time_s", ...series.map(({ path }) => path)].join(","), ...rows, ""].join("\n");
+  return [["time_s", ...series.map(({ path }) => quoted(path))].join(","), ...rows, ""].join("\n");
 }

@@ -45,7 +45,7 @@ interface Sized {
 /** The shape of a window that the drawing should fill: width by height. */
 const shape = 1.25;
 const lanePitch = 18;
-const plainRoom = 12;
+const plainRoom = 18;
 
 export function placed(agents: readonly Sized[], trunks: readonly Trunk[]): Grid {
   let best: { cells: Map<string, Cell>; columns: number; rows: number; zoom: number } | undefined;
@@ -175,7 +175,98 @@ class Lanes {
   }
 }
 
+/** Leads the trunks through the lanes, in the order in which they cross each other least. */
 export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: string) => Placed): Routed {
+  const shifts = shiftsOf(grid, inside);
+  let best: { routed: Routed; cost: number } | undefined;
+  for (const order of orders(trunks)) {
+    const one = routedInOrder(grid, order, inside, shifts);
+    const cost = crossings(one.trunks.map(({ points }) => points));
+    if (!best || cost < best.cost) best = { routed: one, cost };
+  }
+  return best!.routed;
+}
+
+/** Orders in which trunks may take lanes. They are always the same ones, so that a text has one drawing. */
+function* orders(trunks: readonly Trunk[]): Generator<readonly Trunk[]> {
+  yield trunks;
+  if (trunks.length < 2) return;
+  yield [...trunks].reverse();
+  const tries = trunks.length > 60 ? 2 : 60;
+  let seed = 1;
+  const random = (below: number) => (seed = (seed * 48271) % 2147483647) % below;
+  for (let at = 0; at < tries; at += 1) {
+    const order = [...trunks];
+    for (let last = order.length - 1; last > 0; last -= 1) {
+      const other = random(last + 1);
+      [order[last], order[other]] = [order[other]!, order[last]!];
+    }
+    yield order;
+  }
+}
+
+/** How often lines cross each other. */
+function crossings(lines: readonly (readonly Point[])[]): number {
+  const pieces = lines.map((points) => points.slice(1).map((to, at) => ({ from: points[at]!, to })));
+  const between = (value: number, one: number, other: number) => value > Math.min(one, other) && value < Math.max(one, other);
+  let count = 0;
+  pieces.forEach((own, at) =>
+    pieces.slice(at + 1).forEach((others) => {
+      for (const a of own)
+        for (const b of others) {
+          const [flat, upright] = a.from.y === a.to.y ? [a, b] : [b, a];
+          if (flat.from.y !== flat.to.y || upright.from.x !== upright.to.x) continue;
+          const crosses = between(upright.from.x, flat.from.x, flat.to.x) && between(flat.from.y, upright.from.y, upright.to.y);
+          count += Number(crosses);
+        }
+    }),
+  );
+  return count;
+}
+
+/** Lines that begin at both sides of a space have at least this distance. */
+const apart = 9;
+const mostShift = 36;
+
+/**
+ * Moves agents down a little, so that no two trunks meet in the space between two neighbours: they would look like one
+ * line. A trunk between both becomes straight, if possible.
+ */
+function shiftsOf({ cells }: Grid, inside: (agent: string) => Placed): Map<string, number> {
+  const shifts = new Map<string, number>();
+  const inOrder = [...cells].sort(([, a], [, b]) => a.row - b.row || a.column - b.column);
+  for (const [agent, { column, row }] of inOrder) {
+    const left = inOrder.find(([, cell]) => cell.row === row && cell.column === column - 1)?.[0];
+    if (left === undefined) {
+      shifts.set(agent, 0);
+      continue;
+    }
+    const { box, ports: there } = inside(left);
+    const theirs = [...there].filter(([, { x }]) => x >= box.width / 2).map(([id, { y }]) => ({ id, y: y + shifts.get(left)! }));
+    const own = [...inside(agent).ports].filter(([, { x }]) => x < 1).map(([id, { y }]) => ({ id, y }));
+    const straight = own.flatMap(({ id, y }) => theirs.filter((one) => one.id === id).map((one) => one.y - y));
+    const steps = Array.from({ length: mostShift / 3 + 1 }, (_, at) => at * 3);
+    const cost = (shift: number) =>
+      own.reduce((sum, { id, y }) => {
+        const near = theirs.filter((one) => one.id !== id && Math.abs(one.y - y - shift) < apart).length;
+        const aligned = theirs.some((one) => one.id === id && Math.abs(one.y - y - shift) < 0.01);
+        return sum + near - Number(aligned) * 0.5;
+      }, shift / 1000);
+    const possible = [...steps, ...straight.filter((shift) => shift >= 0 && shift <= mostShift)];
+    shifts.set(
+      agent,
+      possible.reduce((best, shift) => (cost(shift) < cost(best) ? shift : best)),
+    );
+  }
+  return shifts;
+}
+
+function routedInOrder(
+  grid: Grid,
+  trunks: readonly Trunk[],
+  inside: (agent: string) => Placed,
+  shifts: ReadonlyMap<string, number>,
+): Routed {
   const { cells, columns, rows } = grid;
   const ways = trunks.map((trunk) => wayOf(trunk, grid));
   const least = (count: number) => Array.from({ length: count }, () => 0);
@@ -184,7 +275,7 @@ export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: str
   for (const [agent, { column, row }] of cells) {
     const { width, height } = inside(agent).box;
     widths[column] = Math.max(widths[column]!, width);
-    heights[row] = Math.max(heights[row]!, height);
+    heights[row] = Math.max(heights[row]!, height + shifts.get(agent)!);
   }
   // Horizontal lanes: the space below row r. Their number determines the positions of the rows.
   const level = Array.from({ length: rows }, () => new Lanes());
@@ -196,7 +287,8 @@ export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: str
     y += heights[row]! + 60 + level[row]!.count * lanePitch;
   }
   // Vertical lanes: the space on the right of column c.
-  const heightAt = (agent: string, trunk: string) => tops[cells.get(agent)!.row]! + inside(agent).ports.get(trunk)!.y;
+  const heightAt = (agent: string, trunk: string) =>
+    tops[cells.get(agent)!.row]! + shifts.get(agent)! + inside(agent).ports.get(trunk)!.y;
   const levelAt = ({ id, below }: Way) => tops[below!]! + heights[below!]! + 30 + levelOf.get(id)! * lanePitch;
   const upright = Array.from({ length: columns }, () => new Lanes());
   const laneOf = new Map<string, [number, number]>();
@@ -216,7 +308,8 @@ export function routed(grid: Grid, trunks: readonly Trunk[], inside: (agent: str
     x += widths[column]! + gapOf(labelRoom[column]!, upright[column]!.count);
   }
   const agents = new Map<string, Box>();
-  for (const [agent, { column, row }] of cells) agents.set(agent, { ...inside(agent).box, x: lefts[column]!, y: tops[row]! });
+  for (const [agent, { column, row }] of cells)
+    agents.set(agent, { ...inside(agent).box, x: lefts[column]!, y: tops[row]! + shifts.get(agent)! });
   const laneAt = (column: number, lane: number) =>
     lefts[column]! + widths[column]! + 22 + labelRoom[column]! + 14 + lane * lanePitch;
   const drawn = ways.map((way) => {

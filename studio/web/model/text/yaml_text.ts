@@ -62,6 +62,15 @@ export class YamlText {
     return this.text.slice(node.range[0], node.range[1]).trim();
   }
 
+  /** valueText of the value that an alias stands for. */
+  followedText(path: YamlPath): string | undefined {
+    const node = this.node(path);
+    if (!isAlias(node)) return this.valueText(path);
+    const meant = node.resolve(this.document);
+    if (isScalar(meant)) return String(meant.value ?? "");
+    return meant?.range ? this.text.slice(meant.range[0], meant.range[1]).trim() : node.toString();
+  }
+
   /** valueText in one line: lists and maps as [a, b] and { a: b }. */
   lineText(path: YamlPath): string {
     const text = this.valueText(path) ?? "";

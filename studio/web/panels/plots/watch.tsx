@@ -68,19 +68,14 @@ export function ValueLists() {
   const seconds = useStore(studio.watched, (all) => all.seconds);
   return (
     <div className="watches">
-      {useWatched().map(({ id, label, title, track, replay, beside }) => (
+      {useWatched().map(({ id, label, title, track, replay }) => (
         <section key={id} className="watch-pane values" aria-label={`Values of ${label}`}>
           {title && (
             <div className="watch-title">
               <h2 title={title}>{title}</h2>
             </div>
           )}
-          <ValueList
-            track={track}
-            beside={beside}
-            seconds={seconds}
-            none={replay ? "This recording holds no values" : "No values yet"}
-          />
+          <ValueList track={track} seconds={seconds} none={replay ? "This recording holds no values" : "No values yet"} />
         </section>
       ))}
     </div>

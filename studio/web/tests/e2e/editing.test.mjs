@@ -14,6 +14,7 @@ import {
   find,
   folder,
   judges,
+  near,
   noProblems,
   onNet,
   onPage,
@@ -152,7 +153,8 @@ test("a behaviour and an output of one name have forms and names of their own", 
     const before = server.text();
     const name = page.getByRole("textbox", { name: "Name" });
     await tab(page, "Structure").click();
-    await page.locator('[data-selection="output:supervisor.control.call"]').click({ force: true });
+    await near(page, "supervisor.control");
+    await page.locator('[data-selection="output:supervisor.control.call"]').click();
     await page.getByText("output buffer").waitFor();
     await name.fill("summon");
     await page.keyboard.press("Enter");
@@ -168,7 +170,7 @@ test("a behaviour and an output of one name have forms and names of their own", 
     );
     await button(page, "Undo").click();
     await until(page, async () => server.text() === before, "the text of before on disk");
-    await page.locator('.chip[data-path="supervisor.control.call"]').click({ force: true });
+    await page.locator('.chip[data-path="supervisor.control.call"]').click();
     await page.getByRole("heading", { name: "Behaviour call" }).waitFor();
     await name.fill("roll_call");
     await page.keyboard.press("Enter");
@@ -346,7 +348,7 @@ test("checks, measures, limits, templates and models have fields, which leave a 
       await page.setViewportSize({ width: 1440, height: 900 });
     };
     await tab(page, "Structure").click();
-    await page.locator('.channel-label[data-path="channel:0"]').waitFor();
+    await page.locator('.subsystem-head[data-path="robot.control"]').waitFor();
     await tab(page, "Element").click();
 
     // By keys alone: a check is added, its kind is chosen, and its fields follow.
@@ -397,7 +399,9 @@ test("checks, measures, limits, templates and models have fields, which leave a 
     await fill(within("Safe command", "command").getByLabel("ahead (m/s)"), "0.1");
     await judged("the effector of a template");
 
-    await page.locator('.channel-label[data-path="channel:2"]').click();
+    // The channels between two agents are one line, which names them.
+    await page.locator('.channel-label[data-path="bundle:crossing|robot"]').click();
+    await button(page, "robot[0].control.request → crossing.control.request_0 N → N").click();
     await page.getByLabel("Communication model").selectOption("one_value");
     // An agent that is to be a fleet becomes a template, as it is.
     await page.locator('.agent-name[data-path="crossing"]').click();

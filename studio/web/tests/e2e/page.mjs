@@ -12,11 +12,14 @@ export { environment, serve };
 export const example = (name) => fileURLToPath(new URL(`../../../../examples/${name}`, import.meta.url));
 export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, import.meta.url));
 
-/** Runs a test on a page of a server for a copy of `project`; fails on errors of the page and on requests to elsewhere. */
+/**
+ * Runs a test on a page of a server for a copy of `project`; fails on errors of the page and on requests to elsewhere.
+ * `first`: this browser has never shown the page, so the tour is offered.
+ */
 export async function onPage(project, test, options = {}) {
   const server = await serve(project, options.server);
   try {
-    await inSharedBrowser((browser) => onServer(browser, server, test));
+    await inSharedBrowser((browser) => onServer(browser, server, test, options));
   } finally {
     await server.close();
   }
@@ -40,12 +43,13 @@ async function slowDown(context) {
     });
 }
 
-async function onServer(browser, server, test) {
+async function onServer(browser, server, test, { first = false }) {
   const context = await browser.newContext({
     viewport: { width: 1440, height: 900 },
     reducedMotion: "reduce",
   });
   await slowDown(context);
+  if (!first) await context.addInitScript(() => location.protocol === "http:" && localStorage.setItem("tessera.visited", "1"));
   const problems = [];
   const open = async (on = server) => {
     const page = await context.newPage();
@@ -93,6 +97,15 @@ export async function find(page, path) {
   await page.keyboard.press("Enter");
 }
 
+/** Comes near to an element of the structure by the search, and gives its text or button there. */
+export async function near(page, path) {
+  await tab(page, "Structure").click();
+  await find(page, path);
+  const found = page.locator(`[data-path="${path}"]`).first();
+  await middleOf(page, found);
+  return found;
+}
+
 export const element = (page, path) => page.locator(`.sheet [data-path="${path}"]`).first();
 export const tab = (page, name) => page.getByRole("tab", { name, exact: true });
 export const button = (page, name) => page.getByRole("button", { name, exact: true });
@@ -103,7 +116,7 @@ export const checked = (page) => page.locator('.app[aria-busy="true"]').waitFor(
 /** Waits until the text as it is now has no problems. */
 export async function noProblems(page) {
   await checked(page);
-  await page.getByText("No problems").waitFor();
+  await page.getByTestId("problem-count").getByText("No problems").waitFor();
 }
 
 /** The text of the page that is not saved, once the last edit is done; undefined: all is saved. */
@@ -179,3 +192,6 @@ export async function judges(page, found) {
     found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
   };
 }
+
+/** The whole text of an editor of C++; empty while another editor takes its place. */
+export const codeText = (area) => area.evaluate((one) => one.closest(".code-editor")?.editor.state.doc.toString() ?? "");

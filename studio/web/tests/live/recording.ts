@@ -10,6 +10,7 @@ export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings
     marking: null,
     dropped: 0,
     values: {},
+    arrivals: {},
     path: [],
     notices: { notices: [], dropped: 0 },
     track: null,

@@ -2,7 +2,10 @@ import { describe, expect, it } from "vitest";
 import { exampleOf } from "../../model/structure/kept_cells";
 import { groupTemplates, takenBy } from "../../model/structure/group_templates";
 import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../model/structure/structure";
-import { chipLines, chipText, chipWidth } from "../../model/structure/structure_layout";
+import { chipText } from "../../model/structure/machine_layout";
+import { drawStructure } from "../../model/structure/structure_graph";
+import { estimated } from "../../model/structure/text_size";
+import { elk } from "./line_follower";
 
 const text = `agents:
   robot: { use: carrier, count: 2 }
@@ -66,11 +69,23 @@ describe("groups of behaviours", () => {
     expect(leadsFailures(structure, control, of("charge"))).toEqual({ text: "work", of: "subsystem" });
   });
 
-  it("have room in the drawing", () => {
+  it("have room in the drawing for what is in them, and for their names", async () => {
     expect(chipText(of("lend"))).toBe("lend[i]");
-    expect(chipWidth(of("charge.an_extremely_long_name_of_a_behaviour"), control)).toBe(210);
-    // work | charge ask | dock turn | the long name | lend[i]
-    expect(chipLines(control)).toBe(5);
+    const { states } = (await drawStructure(structure, elk, estimated)).cards.get("desk.control")!.machine;
+    const box = (path: string) => states.get(`desk.control.${path}`)!;
+    const long = "charge.an_extremely_long_name_of_a_behaviour";
+    expect(box(long).width).toBeGreaterThan(estimated("an_extremely_long_name_of_a_behaviour", "text"));
+    for (const [inside, group] of [
+      ["charge.ask", "charge"],
+      [long, "charge"],
+      ["charge.dock.turn", "charge.dock"],
+    ] as const) {
+      const [one, around] = [box(inside), box(group)];
+      expect(one.x).toBeGreaterThan(around.x);
+      expect(one.y).toBeGreaterThan(around.y + 20);
+      expect(one.x + one.width).toBeLessThan(around.x + around.width);
+      expect(one.y + one.height).toBeLessThan(around.y + around.height);
+    }
   });
 });
 

@@ -54,7 +54,7 @@ function eventOf({ t, kind, who, text, level }: Notice): LogEvent {
   };
 }
 
-/** Puts what a recording says in words into the log. What is there already is not added again. */
+/** Puts the notices of a recording into the log. Those that are there already are not added again. */
 export function noteNotices(log: EventLog, { notices, dropped }: Notices): void {
   log.addOnce(notices.map(eventOf));
   log.lost.notices = Math.max(log.lost.notices, dropped);

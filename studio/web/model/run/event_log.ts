@@ -50,7 +50,7 @@ export const stuckText = "stuck for good";
 /** The number of events, and of firings, that are kept of an endless run. */
 export const mostEvents = 100_000;
 
-/** What has happened in a run, in the order of time: firings, and the notices of the controller, the page and the operator. */
+/** The events of a run in the order of time: firings, and notices of the controller, the page and the operator. */
 export class EventLog {
   readonly teller: Teller;
   /** All but the steps within behaviours. */

@@ -123,7 +123,7 @@ function Log({ pane, track }: { pane: Pane; track: Track }) {
   );
 }
 
-/** What the log does not have. */
+/** The things that the log does not have. */
 function Missing({ pane, track, firings }: { pane: Pane; track: Track; firings: boolean }) {
   const studio = useStudio();
   const outcome = useStore(studio.runner.store, (all) => all.outcome);

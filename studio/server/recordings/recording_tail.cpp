@@ -62,6 +62,8 @@ void RecordingTail::keep(Batch& batch, const Recording::Entry& entry) {
   batch.time_ns = std::max(batch.time_ns, event.time_ns);
   poses_.take(entry);
   if (const auto point = poses_.take_point()) batch.path.push_back(*point);
+  if (std::optional<nlohmann::json> notice = notice_of(*segment_->recording, entry))
+    notices_.add(std::move(*notice));
   if (event.kind() == Event::Kind::firing) {
     const net::TransitionId transition = segment_->transitions[event.subject];
     if (!transition.valid()) return;

@@ -16,6 +16,7 @@
 #include "replay/values.hpp"
 #include "server/recordings/arrays.hpp"
 #include "server/recordings/marking_tracker.hpp"
+#include "server/recordings/notices.hpp"
 #include "server/recordings/pose_track.hpp"
 #include "server/recordings/recording_stream.hpp"
 #include "tessera/recording.hpp"
@@ -67,7 +68,7 @@ class RecordingTail {
   /// net, reached: must outlive this object. reached: nullptr: not needed.
   RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached = nullptr);
 
-  static constexpr std::size_t most_firings = 2000, largest_value = 4096;
+  static constexpr std::size_t most_firings = 2000, largest_value = 4096, most_notices = 500;
   static constexpr std::size_t most_arrivals = 2000;
   struct Arrived {
     std::string path;
@@ -95,6 +96,7 @@ class RecordingTail {
   [[nodiscard]] std::vector<std::uint32_t> marking() const { return tokens_.marked(); }
   [[nodiscard]] ArrayTrack& arrays() { return arrays_; }
   [[nodiscard]] PoseTrack& poses() { return poses_; }
+  [[nodiscard]] Notices& notices() { return notices_; }
   /// Whether the end of the recording is missing so far.
   [[nodiscard]] bool is_cut() const { return stream_.is_cut(); }
   /// The hash of the recorded net; nullopt: no header has been read.
@@ -126,6 +128,7 @@ class RecordingTail {
   MarkingTracker tokens_;
   PoseTrack poses_;
   ArrayTrack arrays_;
+  Notices notices_{most_notices};
   Reached* reached_;
   std::vector<net::TransitionId> fired_;  // since the last report to reached_
   std::vector<net::PlaceId> marked_;

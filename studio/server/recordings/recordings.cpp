@@ -15,6 +15,7 @@
 #include "server/http/json_text.hpp"
 #include "server/recordings/growing_file.hpp"
 #include "server/recordings/marking_tracker.hpp"
+#include "server/recordings/notices.hpp"
 #include "server/recordings/pose_track.hpp"
 #include "server/recordings/recording_tail.hpp"
 #include "server/recordings/robot_path.hpp"
@@ -157,6 +158,7 @@ class Content {
 
   void begin(const Recording& recording) {
     values_.begin(recording, span_);
+    header_ = &recording;
     transitions_ = names_ ? names_->transitions_of(recording) : std::vector<net::TransitionId>();
     if (!content_.is_null()) return;
     content_ = {
@@ -178,6 +180,7 @@ class Content {
     }
     if (event.kind() == Event::Kind::value) values_.add(entry, span_);
     if (event.kind() == Event::Kind::firing) add_firing(event);
+    if (std::optional<json> notice = notice_of(*header_, entry)) notices_.add(std::move(*notice));
     if (!poses_.has_one_robot()) return;
     poses_.take(entry);
     if (const auto point = poses_.take_point();
@@ -191,6 +194,7 @@ class Content {
     content_["marking"] = marking();
     content_["firings"] = std::move(firings_);
     content_["path"] = rows_of(path_);
+    content_["notices"] = notices_.kept();
     content_["first"] = total_ > 0 ? json(first_ns_) : json();
     content_["last"] = total_ > 0 ? json(last_ns_) : json();
     content_["total"] = total_;
@@ -236,6 +240,8 @@ class Content {
   std::vector<net::TransitionId> transitions_;  // per transition of the recording: that of the net
   ValueSeries values_;
   PoseTrack poses_;
+  const Recording* header_ = nullptr;  // of the segment
+  Notices notices_{Recordings::most_notices};
   replay::Thinned<PathPoint> path_{Recordings::most_points};
   std::vector<std::pair<std::int64_t, std::uint32_t>> firings_;
   std::uint64_t dropped_ = 0, total_ = 0;

@@ -22,7 +22,8 @@ class Recordings {
  public:
   Recordings(SpecFile& file, Analyses& analyses) : file_(file), analyses_(analyses) {}
 
-  static constexpr std::size_t most_firings = 200'000, most_samples = 400'000, most_points = 20'000;
+  static constexpr std::size_t most_firings = 200'000, most_samples = 400'000, most_points = 20'000,
+                               most_notices = 10'000;
 
   /// [{"name", "bytes", "modified", "system", "net_hash", "clock", "duration", "notes"}]
   [[nodiscard]] std::string list() const;
@@ -30,7 +31,7 @@ class Recordings {
     std::int64_t from_ns = INT64_MIN, to_ns = INT64_MAX;
   };
   /// {"net_hash", "system", "subsystems", "marking", "firings", "dropped", "first", "last", "total",
-  /// "values", "arrivals", "lacks_beginning", "cut", "truncated", "path", "track", "scene"} of
+  /// "values", "arrivals", "lacks_beginning", "cut", "truncated", "path", "notices", "track", "scene"} of
   /// docs/reference/studio.md, within the time span: at most most_firings, most_samples (of all values together) and most_points. nullopt: no recording has that
   /// name. Throws std::runtime_error if it cannot be read.
   [[nodiscard]] std::optional<std::string> content(const std::string& name, Span span) const;

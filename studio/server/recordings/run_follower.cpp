@@ -70,6 +70,7 @@ std::vector<PathPoint> RunFollower::add_firings(News& news) {
   news.more = batch.more;
   news.parameters = std::move(batch.parameters);
   news.lacks_parameters = batch.lacks_parameters;
+  news.notices = recording_.notices().take();
   arrivals_.insert(arrivals_.end(), std::make_move_iterator(batch.arrivals.begin()),
                    std::make_move_iterator(batch.arrivals.end()));
   arrivals_dropped_ += batch.arrivals_dropped;

@@ -27,8 +27,8 @@ class RunFollower {
   RunFollower(RecordingStream::Source recording, const Analysis& analysis, Reached* reached = nullptr);
 
   struct News {
-    nlohmann::json firings, values, arrays, pose, poses,
-        subsystems;               ///< data of the events; null: nothing new
+    nlohmann::json firings, values, arrays, pose, poses, subsystems,
+        notices;                  ///< data of the events; null: nothing new
     nlohmann::json scene;         ///< of the event; null: no new one
     nlohmann::json whole_poses;   ///< with `poses`: {"t", "frame"} for a new page
     std::vector<PathPoint> path;  ///< new points of the path

@@ -291,6 +291,8 @@ bool Run::tell(RunFollower& follower, std::optional<Snapshot> snapshot, bool las
     time_ns_ = std::max(time_ns_, news.time_ns);
     firings_ = std::max(firings_, news.total_firings);
     if (news.marking) marking_ = *news.marking;
+    if (!news.notices.is_null())
+      for (const json& notice : news.notices.at("notices")) notices_.add(notice);
     if (!news.values.is_null()) values_.update(news.values.at("values"));
     if (!news.pose.is_null()) pose_ = news.pose;
     if (!news.scene.is_null()) scene_ = news.scene;
@@ -304,6 +306,7 @@ bool Run::tell(RunFollower& follower, std::optional<Snapshot> snapshot, bool las
   if (!parameters.is_null()) publish("parameters", std::move(parameters));
   if (!news.firings.is_null()) publish("firings", std::move(news.firings));
   if (!news.values.is_null()) publish("values", std::move(news.values));
+  if (!news.notices.is_null()) publish("notices", std::move(news.notices));
   if (!news.arrays.is_null()) publish("arrays", std::move(news.arrays));
   if (!news.pose.is_null()) publish("pose", std::move(news.pose));
   if (!news.scene.is_null()) publish("scene", std::move(news.scene));
@@ -322,6 +325,7 @@ json Run::info(bool all) const {
   info["firings"] = firings_;
   info["values"] = values_;
   info["parameters"] = parameters_.shown();
+  info["notices"] = notices_.kept();
   info["panels"] = panels_of(*analysis_->model, request_);
   info["pose"] = pose_;
   info["path"] = rows_of(path_);

@@ -15,6 +15,7 @@
 #include "project/build/controller.hpp"
 #include "server/analysis/analysis.hpp"
 #include "server/http/events.hpp"
+#include "server/recordings/notices.hpp"
 #include "server/recordings/robot_path.hpp"
 #include "server/recordings/run_follower.hpp"
 #include "server/runs/controller_link.hpp"
@@ -127,6 +128,7 @@ class Run {
   replay::Thinned<PathPoint> path_{5000};
   std::string glb_;  ///< of scene_; empty: it is beside the recording, or has not arrived yet
   RunParameters parameters_;
+  Notices notices_{1000};
   std::vector<std::uint32_t> marking_;
   std::int64_t time_ns_ = 0;
   std::uint64_t firings_ = 0;

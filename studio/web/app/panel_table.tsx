@@ -14,6 +14,7 @@ import { VerifyPanel } from "../panels/verify_panel";
 import { Centre } from "./centre";
 
 const CodePanel = lazy(() => import("../panels/forms/code_panel"));
+const EventPanel = lazy(() => import("../panels/events/event_panel"));
 const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export interface Panel extends Places {
@@ -97,6 +98,15 @@ export const panelTable: readonly Panel[] = [
     useContent: useTrack,
     edit: "below",
     debug: "below",
+    operate: "below",
+  },
+  {
+    name: "events",
+    title: "Events",
+    component: EventPanel,
+    useContent: useTrack,
+    edit: "below",
+    debug: "corner",
     operate: "below",
   },
   {

@@ -18,6 +18,7 @@ const structure: [string, ReactNode, ReactNode][] = [
   ["start", "●", "The behaviour that an arrow from here leads to is the first one"],
   ["arrow", "→", "An entry of next, with its condition; red: after a failure"],
   ["device", <span key="" className="legend-device" />, "The device of a virtual receptor or effector"],
+  ["running", <Name key="" of="running" />, "The behaviour that runs now; blue: selected"],
 ];
 
 const net: [string, ReactNode, ReactNode][] = [
@@ -36,6 +37,8 @@ const net: [string, ReactNode, ReactNode][] = [
       A transition <Term of="transition" />; grey: it can never fire
     </>,
   ],
+  ["fired", <Bar key="" of="fired" />, "It has just fired: green and thick"],
+  ["selected", <Bar key="" of="selected" />, "It is selected: blue"],
   ["condition", "[x > 0]", "It fires only if this holds"],
   ["page", "◎", "A page: a net of its own, folded; double frame: open"],
 ];
@@ -46,6 +49,20 @@ function Line({ dash, wide = 1.5 }: { dash?: string; wide?: number }) {
       <path d="M0 4H30" stroke="var(--arc)" strokeWidth={wide} strokeDasharray={dash} />
     </svg>
   );
+}
+
+/** A transition as it is drawn after it has fired, or while it is selected. */
+function Bar({ of }: { of: "fired" | "selected" }) {
+  const wide = of === "fired" ? 6 : 3;
+  return (
+    <svg width="14" height="16" aria-hidden="true">
+      <path d="M7 1V15" stroke={of === "fired" ? "var(--green)" : "var(--accent)"} strokeWidth={wide} />
+    </svg>
+  );
+}
+
+function Name({ of }: { of: string }) {
+  return <span style={{ color: "var(--green)", fontWeight: 650 }}>{of}</span>;
 }
 
 /** Explains the symbols of a drawing. */

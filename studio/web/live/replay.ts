@@ -3,6 +3,7 @@ import type { Scenes } from "../model/run/film";
 import type { NetModel } from "../model/net/net";
 import { count } from "../model/sorted";
 import type { FiringRow, PathRow, Recording } from "../model/protocol";
+import { noteNotices } from "./run_log";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Track } from "./track";
@@ -126,6 +127,7 @@ export class Replay {
     const track = new Track(this.net, true);
     if (recording.marking) track.tell(this.begin, runningBehaviours(this.net, this.stage.marking));
     for (const row of recording.firings) track.fired(row);
+    noteNotices(track.log, recording.notices);
     // Those of other parts are loaded when they are shown.
     track.firings = track.listed = recording.total;
     track.known = this.end;

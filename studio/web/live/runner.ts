@@ -29,7 +29,8 @@ import { Track } from "./track";
 import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "layout" | "verify" | "deployment" | "driving" | "sweep">;
+type RunEventName =
+  "build" | "log" | "run" | "firings" | "values" | "parameters" | "pose" | "arrays" | "scene" | "poses" | "subsystems";
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";
@@ -266,9 +267,8 @@ export class Runner {
     track.listed += firings.length;
     this.counted(total);
     for (const row of firings) {
-      const [, transition] = row;
       track.fired(row);
-      stage.fired(transition, marking === undefined && total > this.marked);
+      stage.fired(row[1], marking === undefined && total > this.marked);
     }
     this.marked = Math.max(this.marked, total);
     if (!marking || !this.setMarked(marking, total)) return;

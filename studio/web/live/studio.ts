@@ -25,6 +25,7 @@ import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
 import type { Replay } from "./replay";
+import { RunLog } from "./run_log";
 import { Runner } from "./runner";
 import { Scene } from "./scene";
 import { Sources } from "./sources";
@@ -71,6 +72,7 @@ export class Studio {
   readonly runner = new Runner(this.api, this.draft, this.connection);
   readonly trust = new Trust(this.api);
   readonly emergency = new Emergency(this.api, this.connection);
+  readonly runLog = new RunLog(this.runner, this.connection, this.emergency);
   readonly operator = new Operator(this.api, this.runner);
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);

@@ -579,6 +579,7 @@ export interface RunInfo {
   firings: number;
   values: Values;
   parameters: ParameterShown[];
+  notices: Notices;
   panels: PanelShown[];
   pose: Pose | null;
   /** Null: nothing is simulated, or the run has not begun. */
@@ -616,6 +617,23 @@ export interface ParameterShown {
   value: string | null;
   /** Not every subsystem holds the same value. */
   differs: boolean;
+}
+/** In the order of time. */
+export interface Notices {
+  notices: Notice[];
+  /** Older ones that are left out: there were too many of their kind. */
+  dropped: number;
+}
+/** Something that the recording of a run says in words. */
+export interface Notice {
+  /** Nanoseconds of the run's clock. */
+  t: number;
+  /** safe: of the safe command of a device. parameter: a subsystem has taken a value. end: why the run ended. */
+  kind: "message" | "fault" | "overrun" | "safe" | "parameter" | "end";
+  /** The path of the subsystem; empty: the system. */
+  who: string;
+  text: string;
+  level: "info" | "warning" | "error";
 }
 /** Controls that an operator moves, behind a real buffer of the controller. */
 export interface PanelShown {
@@ -915,6 +933,7 @@ export interface Recording {
   values: { [k: string]: Sample[] };
   arrivals: Arrivals;
   path: PathRow[];
+  notices: Notices;
   /** The floor picture; null: none, or unknown. */
   track: string | null;
   /** Null: it was recorded without poses. */
@@ -1074,6 +1093,7 @@ export interface Events {
   deployment: DeploymentEvent;
   values: ValuesEvent;
   parameters: ParametersEvent;
+  notices: NoticesEvent;
   arrays: ArraysEvent;
   pose: PoseEvent;
   scene: SceneEvent;
@@ -1185,6 +1205,14 @@ export interface ParametersEvent {
   /** Nanoseconds of the run's clock. */
   t: number;
   parameters: ParameterShown[];
+}
+/** The notices since the last such event. */
+export interface NoticesEvent {
+  /** Names the run. */
+  run: string;
+  notices: Notice[];
+  /** Older ones that are left out: there were too many of their kind. */
+  dropped: number;
 }
 export interface ArraysEvent {
   /** Names the run. */

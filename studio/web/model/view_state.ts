@@ -13,6 +13,7 @@ export const panelNames = [
   "code",
   "narrative",
   "timeline",
+  "events",
   "values",
   "plots",
   "world",

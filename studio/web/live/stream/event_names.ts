@@ -17,6 +17,7 @@ const listened: Record<keyof Events, true> = {
   subsystems: true,
   deployment: true,
   parameters: true,
+  notices: true,
   driving: true,
   sweep: true,
 };

@@ -45,7 +45,7 @@ export function spelledOut(specification: string, behaviour: string, text: strin
   return index === undefined ? spelled : spelled.replaceAll("[i]", `[${index}]`);
 }
 
-/** What a condition reads: "memory.battery" and the like, each once. */
+/** The things that a condition reads: "memory.battery" and the like, each once. */
 export function readIn(condition: string): string[] {
   const found = condition.match(/\b(?:memory|in|out|parameters)\.[A-Za-z_]\w*(?:\[\d+\]|\.[A-Za-z_]\w*)*/g) ?? [];
   return [...new Set(found)];

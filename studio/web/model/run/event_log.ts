@@ -27,6 +27,7 @@ export interface LogEvent {
   who: string;
   /** Without `who`; empty: the words of the firing say it. */
   text: string;
+  level?: "warning" | "error";
   /** The firing, and what ended the behaviour before. */
   firing?: { transition: number; ending: Ending };
 }
@@ -39,13 +40,17 @@ export interface LogRow {
   text: string;
   /** The path to select; empty: none. */
   place: string;
+  level: "info" | "warning" | "error";
   words: Words | null;
 }
+
+/** The runtime begins with these words when subsystems wait for each other for ever (watch/stuck.cpp). */
+export const stuckText = "stuck for good";
 
 /** The number of events, and of firings, that are kept of an endless run. */
 export const mostEvents = 100_000;
 
-/** What has happened in a run, in the order of time: firings, and the notices of the controller, the page and the operator. */
+/** The events of a run in the order of time: firings, and notices of the controller, the page and the operator. */
 export class EventLog {
   readonly teller: Teller;
   /** All but the steps within behaviours. */
@@ -53,7 +58,9 @@ export class EventLog {
   /** The firings, one by one. */
   readonly firings: FiringRow[] = [];
   /** The numbers of those that were too old to be kept. */
-  lost = { events: 0, firings: 0 };
+  lost = { events: 0, firings: 0, notices: 0 };
+  /** The runtime has found that subsystems wait for each other for ever. */
+  stuck: LogEvent | null = null;
   /** Another number after each change. */
   version = 0;
   /** By subsystem, the last firing that ended an iteration as terminal or by an error. */
@@ -94,6 +101,20 @@ export class EventLog {
     this.version += 1;
   }
 
+  /** Adds those that are not there already: they may be asked for, and reported as well. */
+  addOnce(events: readonly LogEvent[]): void {
+    const first = events.reduce((least, { t }) => Math.min(least, t), Infinity);
+    const known = new Set<string>();
+    for (let at = this.events.length - 1; at >= 0 && this.events[at]!.t >= first; at -= 1) known.add(keyOf(this.events[at]!));
+    const fresh = events.filter((event) => !known.has(keyOf(event)));
+    for (const event of fresh) if (event.kind === "message" && event.text.startsWith(stuckText)) this.stuck = event;
+    if (fresh.length <= few) return fresh.forEach((event) => this.add(event));
+    this.lost.events += cut(this.events, this.most);
+    this.events.push(...fresh);
+    this.events.sort((one, other) => one.t - other.t);
+    this.version += 1;
+  }
+
   /** The events up to a time whose firing changed a behaviour, failed or timed out: the last of them; null: none. */
   lastTold(time: number): LogEvent | null {
     for (let at = this.events.length - 1; at >= 0; at -= 1) {
@@ -106,12 +127,12 @@ export class EventLog {
   row(entry: LogEvent | FiringRow): LogRow {
     if (!("kind" in entry)) {
       const words = this.teller.words(entry[1]);
-      return { t: entry[0], kind: "firing", who: words.who, text: textOf(words), place: words.place, words };
+      return { t: entry[0], kind: "firing", who: words.who, text: textOf(words), place: words.place, level: "info", words };
     }
-    const { t, kind, who, text, firing } = entry;
-    if (!firing) return { t, kind, who, text, place: who, words: null };
+    const { t, kind, who, text, firing, level = kind === "failure" || kind === "emergency" ? "error" : "info" } = entry;
+    if (!firing) return { t, kind, who, text, place: who, level, words: null };
     const words = this.teller.words(firing.transition, firing.ending);
-    return { t, kind, who, text: text || textOf(words), place: words.place, words };
+    return { t, kind, who, text: text || textOf(words), place: words.place, level, words };
   }
 
   private insert(event: LogEvent): void {
@@ -121,6 +142,11 @@ export class EventLog {
     this.events.splice(at, 0, event);
   }
 }
+
+/** So many events are put at their places one by one. */
+const few = 20;
+
+const keyOf = ({ t, kind, who, text }: LogEvent) => `${t} ${kind} ${who} ${text}`;
 
 /** The words without the one who acts. */
 const textOf = (words: Words) => sentenceOf({ ...words, who: "" }).replace(/^the system /, "");

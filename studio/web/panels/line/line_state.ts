@@ -2,6 +2,7 @@ import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import type { RunnerState } from "../../live/runner_state";
 import { activeTransitions } from "../../model/net/game";
+import { stuckText } from "../../model/run/event_log";
 import { reason } from "../pane_title";
 
 /** The state of what the line shows: a word, and a colour with a sign of its own. */
@@ -12,19 +13,19 @@ export interface LineState {
   why: string;
 }
 
-/** The words in which the runtime says that subsystems wait for each other. */
-const stuckText = "stuck for good";
-
 const look_ms = 1000;
 
-/** Whether nothing can fire in the run that this page follows: no condition can change that. */
-function useDead(): boolean {
+/**
+ * Why the run that this page follows cannot go on: nothing can fire, whatever conditions say; or the runtime has found
+ * that some subsystems wait for each other for ever. Empty: it can.
+ */
+function useStuck(): string {
   const { runner } = useStudio();
   const { state, kind, run } = useStore(runner.store, (all) => all);
-  const [dead, setDead] = useState(false);
+  const [stuck, setStuck] = useState("");
   const watched = (state === "running" || state === "paused") && kind !== "deployment";
   useEffect(() => {
-    setDead(false);
+    setStuck("");
     if (!watched) return;
     let before = -1;
     const timer = setInterval(() => {
@@ -32,11 +33,12 @@ function useDead(): boolean {
       if (!track) return;
       const stands = track.firings === before && track.firings > 0;
       before = track.firings;
-      setDead(stands && activeTransitions(track.net, stage.marking).length === 0);
+      const dead = stands && activeTransitions(track.net, stage.marking).length === 0;
+      setStuck(track.log.stuck?.text ?? (dead ? "nothing can fire" : ""));
     }, look_ms);
     return () => clearInterval(timer);
   }, [runner, watched, run]);
-  return dead;
+  return stuck;
 }
 
 /** The reason of the emergency stop of the system of this page; null: there is none. */
@@ -61,11 +63,11 @@ const words: Record<RunnerState["state"], LineState> = {
 export function useRunState(): LineState {
   const { runner } = useStudio();
   const { state, kind, why } = useStore(runner.store, (all) => all);
-  const dead = useDead();
+  const stuck = useStuck();
   const emergency = useEmergency();
   const goesOn = state === "running" || state === "paused";
   if (goesOn && kind !== "simulate" && emergency !== null) return { tone: "emergency", word: "Emergency stop", why: emergency };
-  if (goesOn && dead) return { tone: "stuck", word: "Stuck", why: "nothing can fire" };
+  if (goesOn && stuck) return { tone: "stuck", word: "Stuck", why: stuck };
   if (why.includes(stuckText)) return { tone: "stuck", word: "Stuck", why: reason(why) };
   return { ...words[state], why: reason(why) };
 }

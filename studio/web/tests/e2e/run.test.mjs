@@ -84,6 +84,27 @@ test("a run is made again with the code as it is now, and goes on from a moment"
     await page.getByTestId("run-state").getByText("Ended").waitFor();
   }));
 
+/** The line says in words what has happened, and the log leads to the place of an event. */
+async function toldByTheLine(page) {
+  const line = page.getByRole("region", { name: "The run" });
+  assert.equal(await line.getByTestId("line-state").innerText(), "Paused");
+  assert.match(await line.locator(".sentence").innerText(), /^robot\W+(control|sensor|motor) [a-z]+/);
+  await tab(page, "Events").click();
+  const events = page.getByRole("listbox", { name: "Events" });
+  await events.getByText("is set from this page").first().waitFor();
+  const change = events.getByRole("option").filter({ hasText: "goes on from init to follow" });
+  await button(page, "Behaviours").click();
+  await change.waitFor({ state: "detached" });
+  await button(page, "Behaviours").click();
+  await page.getByRole("textbox", { name: "Text in the events" }).fill("init to follow");
+  await change.click();
+  await until(page, () => page.evaluate(() => location.hash.includes("robot.control.follow")), "its place is selected");
+  await button(page, "Each firing").click();
+  await page.getByRole("textbox", { name: "Text in the events" }).fill("calls its function follow()");
+  await events.getByText("calls its function follow()").first().waitFor();
+  await tab(page, "Timeline").click();
+}
+
 test("a run moves tokens and the robot's path, pauses, steps, and is replayed", () =>
   onBuiltNet(lineFollower, async (page, server) => {
     await tab(page, "Run").click();
@@ -117,6 +138,7 @@ test("a run moves tokens and the robot's path, pauses, steps, and is replayed", 
     const paused = await count();
     await button(page, "Step one firing").click();
     await until(page, async () => (await count()) === paused + 1, "one more firing");
+    await toldByTheLine(page);
     await button(page, "Stop").click();
     await page.getByTestId("run-state").getByText("Ended").waitFor();
     await tab(page, "Recordings").click();

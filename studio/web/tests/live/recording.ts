@@ -12,6 +12,7 @@ export function recordingOf(known: Partial<Recording> & Pick<Recording, "firings
     values: {},
     arrivals: {},
     path: [],
+    notices: { notices: [], dropped: 0 },
     track: null,
     scene: null,
     lacks_beginning: false,

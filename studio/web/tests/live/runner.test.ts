@@ -33,6 +33,7 @@ function served(drawn: NetModel | null = net) {
     marking: [],
     firings: 3,
     values: { "robot.control.motion": { linear: 1, angular: 2 } },
+    notices: { notices: [], dropped: 0 },
     pose: null,
     scene: null,
     poses: null,

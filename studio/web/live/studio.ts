@@ -27,6 +27,7 @@ import { Scene } from "./scene";
 import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
+import { Sweeps } from "./sweeps";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
 
@@ -70,6 +71,7 @@ export class Studio {
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly sweeps = new Sweeps(this.api, this.connection);
   readonly plots = new Plots();
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);

@@ -92,6 +92,8 @@ export class Track {
     if (dropped > 0) this.arrivals.interrupt(this.now);
     for (const [path, rows] of Object.entries(arrivals))
       for (const [time, written, valid] of rows) {
+        // An input that nobody has sent to yet is read again and again.
+        if (!valid && this.arrivals.isInvalid(path)) continue;
         if (!valid) this.series.lose(time, path);
         else if (this.arrivals.isInvalid(path)) this.series.regain(time, path);
         this.arrivals.add(path, time, written, valid);

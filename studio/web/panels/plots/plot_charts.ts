@@ -151,7 +151,12 @@ export class PlotCharts {
         width,
         height,
         legend: { show: false },
-        padding: [8, hasRight && right === null ? side + labelSize : 10, last ? 0 : 2, left === undefined ? side + labelSize : 0],
+        padding: [
+          8,
+          hasRight && right === null ? side + labelSize + 10 : 10,
+          last ? 0 : 2,
+          left === undefined ? side + labelSize : 0,
+        ],
         cursor: { sync: { key: this.sync.key }, y: false, drag: { x: false, y: false }, points: { show: curves.length > 0 } },
         select: { show: true, left: 0, top: 0, width: 0, height: 0 },
         scales: {

@@ -124,16 +124,18 @@ export function PlotPanel() {
         picture={() => charts?.picture()}
       />
       {(problem || loading.problem) && <p className="problem-hint pad">{problem || loading.problem}</p>}
-      <div
-        className="plot-charts"
-        ref={root}
-        tabIndex={0}
-        role="group"
-        aria-label="Plot. Arrows move it, plus and minus zoom, Home resets it."
-        aria-keyshortcuts="ArrowLeft ArrowRight + - Home"
-        onKeyDown={key}
-      />
-      <PlotTable lines={all} from={drawing.from} to={drawing.to} cursors={cursors} />
+      <div className="plot-body">
+        <div
+          className="plot-charts"
+          ref={root}
+          tabIndex={0}
+          role="group"
+          aria-label="Plot. Arrows move it, plus and minus zoom, Home resets it."
+          aria-keyshortcuts="ArrowLeft ArrowRight + - Home"
+          onKeyDown={key}
+        />
+        <PlotTable lines={all} from={drawing.from} to={drawing.to} cursors={cursors} />
+      </div>
       {sources.some(({ remark }) => remark) && (
         <p className="faint pad">
           {sources

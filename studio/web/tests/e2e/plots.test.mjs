@@ -63,6 +63,7 @@ test("signals of a recording are plotted, measured, kept and saved; two recordin
     // The control reads at 20 Hz.
     const age = all["age of robot.control.line"].max;
     assert.ok(age > 0.02 && age < 0.11, `greatest age: ${age}`);
+    assert.ok(Math.abs(all["age of robot.control.line"]["per s"] - 20) < 1);
     const rate = all["rate of robot.control.line"].mean;
     assert.ok(Math.abs(rate - 20) < 1, `mean rate: ${rate}`);
     // Cursors by hand and in numbers.

@@ -124,7 +124,9 @@ describe("ages and rates of an input", () => {
     expect(valueAt(age, 0.52 * s, "slope")).toBeCloseTo(0.02);
     expect(valueAt(age, 0.57 * s, "slope")).toBeCloseTo(0.07);
     expect(valueAt(age, 2.5 * s, "slope")).toBeCloseTo(0.6);
-    expect(statisticsOf(age, 1 * s, 1.9 * s, "slope")!.max).toBeCloseTo(0.12);
+    const facts = statisticsOf(age, 1 * s, 1.9 * s, "slope")!;
+    expect(facts.max).toBeCloseTo(0.12);
+    expect(facts.count).toBe(9);
   });
   it("counts new values in the last second", () => {
     const rate = rateOf(arrivals, 4 * s);

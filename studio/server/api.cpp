@@ -71,6 +71,7 @@ void Api::serve_on(HttpServer& server) {
   serve_spec(server);
   serve_work(server);
   serve_sources(server);
+  serve_layout(server);
   serve_consent(server);
   serve_sweeps(server);
   server.Get("/api/events",

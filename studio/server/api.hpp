@@ -8,6 +8,7 @@
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/language_answers.hpp"
+#include "server/analysis/layout_file.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "server/analysis/verify_jobs.hpp"
 #include "server/http/events.hpp"
@@ -25,6 +26,7 @@ class Api {
  public:
   struct Parts {
     SpecFile& file;
+    LayoutFile& layout;
     Analyses& analyses;
     Events& events;
     VerifyJobs& jobs;
@@ -69,6 +71,9 @@ class Api {
   void serve_work(HttpServer& server);
   /// The C++ beside the specification, and examples to start from.
   void serve_sources(HttpServer& server);
+  /// The positions of boxes that a user has moved.
+  void serve_layout(HttpServer& server);
+  void put_layout(const Request& request, Response& response);
   /// Trust in the project, and the emergency stop.
   void serve_consent(HttpServer& server);
   [[nodiscard]] bool is_trusted() const;

@@ -12,6 +12,7 @@
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/file_watch.hpp"
+#include "server/analysis/layout_file.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "server/analysis/verify_jobs.hpp"
 #include "server/api.hpp"
@@ -49,6 +50,7 @@ struct Studio::Parts {
   explicit Parts(const StudioOptions& given)
       : options(given),
         file(given.spec),
+        layout(file.folder()),
         analyses(file.path()),
         jobs(analyses, events),
         runs(file, analyses, events),
@@ -56,7 +58,7 @@ struct Studio::Parts {
         recordings(file, analyses),
         driving(events),
         assets(given.page),
-        api(options, {file, analyses, events, jobs, runs, sweeps, recordings, driving}),
+        api(options, {file, layout, analyses, events, jobs, runs, sweeps, recordings, driving}),
         http(given.limits),
         port(http.bind(given.port, given.tries)),
         guard(port, token) {
@@ -104,12 +106,21 @@ struct Studio::Parts {
   /// the text that includes it.
   void look_at_file() {
     const std::lock_guard lock(looking);
+    look_at_layout();
     const SpecFile::Content now = file.read();
     const bool included_changed = state_of(included) != seen_included;
     if (now.revision == seen_revision && !included_changed) return;
     seen_revision = now.revision;
     events.publish("spec", text_of(nlohmann::json{{"revision", seen_revision}}));
     look_at_included(now.text);
+  }
+
+  /// Precondition: `looking` is locked.
+  void look_at_layout() {
+    const std::string now = layout.read().revision;
+    if (now == seen_layout) return;
+    seen_layout = now;
+    events.publish("layout", text_of(nlohmann::json{{"revision", now}}));
   }
 
   /// Watches the files that the text includes. Precondition: `looking` is locked.
@@ -122,6 +133,7 @@ struct Studio::Parts {
 
   StudioOptions options;
   SpecFile file;
+  LayoutFile layout;
   Analyses analyses;
   Events events;
   VerifyJobs jobs;
@@ -137,6 +149,7 @@ struct Studio::Parts {
   RequestGuard guard;
   std::mutex looking;  ///< guards what follows
   std::string seen_revision = file.read().revision;
+  std::string seen_layout = layout.read().revision;
   std::vector<std::filesystem::path> included;
   std::string seen_included;
   std::optional<FileWatch> watch;
@@ -148,6 +161,7 @@ Studio::Studio(const StudioOptions& options) : parts_(std::make_unique<Parts>(op
   Parts& parts = *parts_;
   parts.declare();
   parts.watch.emplace(parts.file.path(), [&parts] { parts.look_at_file(); });
+  parts.watch->add(parts.layout.path());
   parts.serving = std::thread([&parts] { parts.http.serve(); });
   // The first requests of every page are answered without a wait.
   parts.looking_ahead = std::thread([&parts] {

@@ -1,9 +1,23 @@
 import react from "@vitejs/plugin-react";
+import { resolve } from "node:path";
+import type { Plugin } from "vite";
 import { defineConfig } from "vitest/config";
+import { writeDocuments } from "./scripts/documents.mjs";
+
+/** The documents of docs/ as HTML, beside the page: it works without a network. */
+function documents(): Plugin {
+  let folder = "";
+  return {
+    name: "documents",
+    apply: "build",
+    configResolved: ({ root, build }) => void (folder = resolve(root, build.outDir)),
+    closeBundle: () => writeDocuments(resolve(folder, "docs")),
+  };
+}
 
 // `npm run dev` serves the page itself and forwards its requests to a running `tessera studio`.
 export default defineConfig({
-  plugins: [react()],
+  plugins: [react(), documents()],
   base: "./",
   worker: { format: "es" },
   build: { target: "es2022", chunkSizeWarningLimit: 1800, rollupOptions: { input: ["index.html", "operate.html"] } },

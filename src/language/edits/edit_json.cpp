@@ -14,9 +14,9 @@ constexpr int deepest_value = 16;
 constexpr std::size_t longest_path = 64;
 
 /// The words of Edit::Kind and of Writing, in their order.
-constexpr std::array<std::string_view, 11> kinds{"set",    "insert",        "append",  "replace",
-                                                 "remove", "rename",        "connect", "channel",
-                                                 "next",   "make_template", "move"};
+constexpr std::array<std::string_view, 13> kinds{"set",    "insert",  "append",  "replace", "remove",
+                                                 "rename", "connect", "channel", "next",    "make_template",
+                                                 "move",   "copy",    "paste"};
 constexpr std::array<std::string_view, 4> writings{"scalar", "list", "quoted", "as_is"};
 
 template <class Word, std::size_t count>

@@ -60,6 +60,8 @@ bool changed(const Document& document, TextEditor& editor, const Edit& edit) {
     case Edit::Kind::make_template:
       return make_template(editor, edit.at);
     case Edit::Kind::move:
+    case Edit::Kind::copy:
+    case Edit::Kind::paste:
     case Edit::Kind::rename:
       break;
   }
@@ -69,11 +71,14 @@ bool changed(const Document& document, TextEditor& editor, const Edit& edit) {
 /// Why an edit cannot be done; nullopt: the editor has its text.
 std::optional<std::string> problem_with(const Document& document, TextEditor& editor, const Edit& edit) {
   if (leads_elsewhere(document, edit.at)) return not_there + perhaps_included(document);
-  if (edit.kind == Edit::Kind::insert && editor.entry(edit.at / edit.key) != nullptr)
+  if ((edit.kind == Edit::Kind::insert || edit.kind == Edit::Kind::paste) &&
+      editor.entry(edit.at / edit.key) != nullptr)
     return fmt::format("'{}' is there already", edit.key);
   if (edit.kind == Edit::Kind::remove)
     if (std::optional<std::string> why = needed_by(document, editor, edit.at)) return why;
   if (edit.kind == Edit::Kind::move) return move_to_group(editor, edit.at, edit.text);
+  if (edit.kind == Edit::Kind::copy) return copy_element(document, editor, edit.at, edit.key);
+  if (edit.kind == Edit::Kind::paste) return paste_element(editor, edit.at, edit.key, edit.text);
   if (changed(document, editor, edit)) return std::nullopt;
   if (edit.kind == Edit::Kind::make_template)
     return "the agent is written in one line, with anchors, or beside templates of another layout: "

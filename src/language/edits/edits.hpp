@@ -26,6 +26,8 @@ struct Edit {
     next,     ///< `fields` to, when and sets of the entry `key` of the behaviour `at`; no key: a new one
     make_template,  ///< of the agent `at`
     move,           ///< the behaviour `at` to the group `text`, "charge.dock"; empty: to the subsystem itself
+    copy,           ///< what is `at`, behind it, under the name `key`
+    paste,          ///< the one entry of the text `text`, into the map `at`, under the name `key`
   } kind = Kind::set;
   Path at;
   std::string key;

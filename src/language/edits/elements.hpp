@@ -45,4 +45,19 @@ bool make_template(TextEditor& editor, const Path& agent);
 /// Returns why it cannot be done; nullopt: it is moved.
 std::optional<std::string> move_to_group(TextEditor& editor, const Path& behaviour, const std::string& group);
 
+/// Copies what is `at`, with its comments, to the lines behind it, under a new name. Where the copy names itself (a
+/// behaviour in its own `next`), it has the new name. Anchors in it get new names. With an agent, the channels between
+/// its own subsystems are copied; those to other agents, drivers and placed models are not.
+///
+/// Returns why it cannot be done; nullopt: it is copied.
+std::optional<std::string> copy_element(const Document& document, TextEditor& editor, const Path& at,
+                                        const std::string& name);
+
+/// Adds the one entry of a text, with the comments above it, to the end of the map `map`, under a new name. The map is
+/// made if it is not there.
+///
+/// Returns why it cannot be done; nullopt: it is added.
+std::optional<std::string> paste_element(TextEditor& editor, const Path& map, const std::string& name,
+                                         const std::string& text);
+
 }  // namespace tessera::language

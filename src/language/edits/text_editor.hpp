@@ -37,6 +37,7 @@ class TextEditor {
   TextEditor& operator=(const TextEditor&) = delete;
 
   [[nodiscard]] const std::string& text() const { return text_; }
+  [[nodiscard]] const Outline& outline() const { return outline_; }
 
   /// The entry or item at a path; nullptr: there is none.
   [[nodiscard]] const Entry* entry(const Path& path) const;

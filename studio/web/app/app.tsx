@@ -5,11 +5,14 @@ import { LineBar } from "../panels/line/line_bar";
 import { Problems } from "../panels/problems";
 import { Search } from "../panels/search";
 import { Toolbar } from "../panels/toolbar";
+import { RemovalDialog } from "../panels/forms/removal_dialog";
 import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
 import { Boundary } from "./boundary";
 import { Dock } from "./dock";
 import { useStore, useStudio } from "../hooks/use";
+import { shortcutOf, type ShortcutOf } from "../model/shortcuts";
+import { Guide, TourOffer } from "../panels/help/guide";
 
 export function App() {
   const studio = useStudio();
@@ -25,6 +28,7 @@ export function App() {
       <Toolbar />
       <LineBar />
       <ConnectionBanner />
+      <TourOffer />
       <Boundary>
         <Dock />
       </Boundary>
@@ -32,7 +36,9 @@ export function App() {
       {searching && <Search />}
       <ConflictDialog />
       <RenameDialog />
+      <RemovalDialog />
       <TrustDialog />
+      <Guide />
     </div>
   );
 }
@@ -42,23 +48,27 @@ function useShortcuts(): void {
   const studio = useStudio();
   useEffect(() => {
     const key = (event: KeyboardEvent) => {
-      if (!(event.ctrlKey || event.metaKey)) return;
-      const actions: Record<string, () => void> = {
-        k: () => studio.view.set({ searching: true }),
-        s: () => void studio.draft.save(),
-        z: () => void (event.shiftKey ? studio.editor.redo() : studio.editor.undo()),
-        y: () => void studio.editor.redo(),
+      const actions: Record<ShortcutOf<"everywhere">, () => void> = {
+        search: () => studio.view.set({ searching: true }),
+        save: () => void studio.draft.save(),
+        undo: () => void studio.editor.undo(),
+        redo: () => void studio.editor.redo(),
+        help: () => studio.guide.open(true),
       };
-      const action = actions[event.key.toLowerCase()];
-      if (!action || isField(event.target, event.key)) return;
+      const pressed = shortcutOf("everywhere", event);
+      if (!pressed || isField(event.target, pressed)) return;
       event.preventDefault();
-      action();
+      actions[pressed]();
     };
     window.addEventListener("keydown", key);
     return () => window.removeEventListener("keydown", key);
   }, [studio]);
 }
 
-/** In a text field, the keys for undo belong to the field. */
-const isField = (target: EventTarget | null, key: string) =>
-  (target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement) && "zy".includes(key.toLowerCase());
+/** In a text field, the keys for undo and letters belong to the field. */
+function isField(target: EventTarget | null, pressed: ShortcutOf<"everywhere">): boolean {
+  const types =
+    target instanceof HTMLInputElement || target instanceof HTMLTextAreaElement || target instanceof HTMLSelectElement;
+  if (pressed === "undo" || pressed === "redo") return types && !(target instanceof HTMLSelectElement);
+  return pressed === "help" && (types || (target instanceof HTMLElement && target.isContentEditable));
+}

@@ -2,6 +2,7 @@ import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
 import { StructureCanvas } from "../canvas/structure_canvas";
 import { ComparisonBar } from "../panels/run/comparison";
 import { CoverageLegend } from "../panels/run/coverage";
+import { FilmButton } from "../panels/film/film_button";
 import { FleetPage } from "../panels/fleet/fleet_page";
 import { PaneHead } from "../panels/pane_head";
 import { usePaneTitle } from "../panels/pane_title";
@@ -77,7 +78,7 @@ function Nets({ players }: { players: React.ReactNode[] }) {
       {!current && !old && (
         <div className="strip warning">The specification has errors: this is the drawing of the last version without.</div>
       )}
-      <NetCanvas panes={drawn} between={beside && <ComparisonBar />} />
+      <NetCanvas panes={drawn} between={beside && <ComparisonBar />} film={<FilmButton />} />
     </>
   );
 }

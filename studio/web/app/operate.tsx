@@ -37,7 +37,6 @@ function OperatePage() {
     <div className="operate">
       <OperateBar />
       <main className={left.length > 0 ? "both-hands" : ""}>
-        <h1 className="visually-hidden">Operate</h1>
         <div className="operate-seen">
           <WhatRuns />
           {chooser}

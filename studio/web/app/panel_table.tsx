@@ -12,6 +12,7 @@ import { Scrolled } from "../panels/scrolled";
 import { VerifyPanel } from "../panels/verify_panel";
 import { Centre } from "./centre";
 
+const CodePanel = lazy(() => import("../panels/forms/code_panel"));
 const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export interface Panel extends Places {
@@ -60,6 +61,7 @@ export const panelTable: readonly Panel[] = [
     operate: "left",
     closed: ["operate"],
   },
+  { name: "code", title: "C++", component: CodePanel, edit: "left", debug: "left", operate: "left", closed: ["operate"] },
   {
     name: "inspect",
     title: "Element",

@@ -1,3 +1,4 @@
+import type { ReactNode } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { ExportButtons } from "./export_button";
 import { layerTitle, pageName } from "../model/net/labels";
@@ -5,9 +6,9 @@ import type { NetModel } from "../model/net/net";
 
 /**
  * The path from the system to the current page, and buttons to fold and unfold. A click on a part flies
- * there.
+ * there. film: the button that saves what is played as a film.
  */
-export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
+export function Breadcrumbs({ net, page, film }: { net: NetModel; page: number; film: ReactNode }) {
   const studio = useStudio();
   const selected = useStore(studio.view, (view) => view.selected);
   const chain = net.ancestry(page);
@@ -56,7 +57,8 @@ export function Breadcrumbs({ net, page }: { net: NetModel; page: number }) {
           </button>
         </>
       )}
-      <ExportButtons film name={net.page(page).path} />
+      {film}
+      <ExportButtons name={net.page(page).path} />
     </nav>
   );
 }

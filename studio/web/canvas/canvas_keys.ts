@@ -5,6 +5,7 @@ import type { Studio } from "../live/studio";
 import { neighbour, type Direction } from "../model/structure/neighbour";
 import type { NetModel } from "../model/net/net";
 import type { Sheets } from "../model/net/sheets";
+import { shortcutOf } from "../model/shortcuts";
 
 interface KeyContext {
   net: NetModel;
@@ -16,24 +17,28 @@ interface KeyContext {
   flow: ReturnType<typeof useReactFlow>;
 }
 
-const directions: Record<string, Direction> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
+const directions = { left: "left", right: "right", up: "up", down: "down" } as const satisfies Record<string, Direction>;
 
 /** Handles a key on the drawing; false: the key has no function there. */
 export function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
   const { net, sheets, selected, current, studio, stage, flow } = context;
-  // Keys of the browser, and of buttons within the drawing, keep their function.
-  if (event.ctrlKey || event.metaKey || event.altKey || event.target instanceof HTMLButtonElement) return false;
-  const direction = directions[event.key];
-  if (direction) {
-    const on = (selected === null ? undefined : net.find(selected)?.page) ?? current;
-    const next = neighbour(net, sheets, on, selected, direction);
-    if (next !== null) studio.select(next);
-    return true;
-  }
+  // Buttons within the drawing keep their keys.
+  if (event.target instanceof HTMLButtonElement) return false;
+  const pressed = shortcutOf("net", event);
   const page = selected === null ? undefined : net.pageByPath.get(selected);
-  switch (event.key) {
-    case "Enter":
-    case " ": {
+  switch (pressed) {
+    case undefined:
+      return false;
+    case "left":
+    case "right":
+    case "up":
+    case "down": {
+      const on = (selected === null ? undefined : net.find(selected)?.page) ?? current;
+      const next = neighbour(net, sheets, on, selected, directions[pressed]);
+      if (next !== null) studio.select(next);
+      return true;
+    }
+    case "enter": {
       const transition = selected === null ? undefined : net.transitionByName.get(selected);
       if (transition !== undefined && stage.mode === "game") return studio.play.choose(transition);
       if (page === undefined) return false;
@@ -43,28 +48,24 @@ export function canvasKey(event: KeyboardEvent, context: KeyContext): boolean {
       if (first && !sheets.folded(page)) studio.select(first.path);
       return true;
     }
-    case "Escape":
-    case "Backspace": {
+    case "leave": {
       const up = net.page(current).parent ?? 0;
       studio.select(current === 0 ? null : net.page(current).path);
       studio.fly(net.page(up).path);
       return true;
     }
-    case "f":
+    case "fold":
       if (page === undefined) return false;
       studio.fold(selected!, !sheets.folded(page));
       return true;
-    case "+":
-    case "=":
+    case "nearer":
       void flow.zoomIn();
       return true;
-    case "-":
+    case "farther":
       void flow.zoomOut();
       return true;
-    case "0":
+    case "whole":
       studio.fly("");
       return true;
-    default:
-      return false;
   }
 }

@@ -8,7 +8,16 @@ import {
   useStore as useFlow,
   type ReactFlowState,
 } from "@xyflow/react";
-import { useEffect, useMemo, useRef, type CSSProperties, type KeyboardEvent, type MouseEvent, type ReactNode } from "react";
+import {
+  useEffect,
+  useMemo,
+  useRef,
+  type CSSProperties,
+  type KeyboardEvent,
+  type MouseEvent,
+  type PointerEvent,
+  type ReactNode,
+} from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useLens } from "../hooks/use_lens";
 import type { Pane } from "../live/scene";
@@ -16,14 +25,18 @@ import { stuck } from "../live/verifier";
 import { flagsOf } from "../model/flags";
 import { header, textWidth, type Box } from "../model/net/geometry";
 import { help } from "../model/help";
+import { elementAt } from "../model/net/hit";
 import type { NetModel } from "../model/net/net";
-import type { Sheets } from "../model/net/sheets";
+import type { Placed, Sheets } from "../model/net/sheets";
 import { canvasKey } from "./canvas_keys";
 import { currentPage } from "./current_page";
 import { steps } from "./detail";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
 import { useFlight } from "./flight";
+import { NetLayer } from "./painted/net_layer";
+import { elementsIn, usePainted } from "./painted/use_painted";
+import { painted as paintedMark } from "./painted/vectors";
 import { SheetNodeView, type SheetNode } from "./sheet_node";
 import { useNodes } from "./sheet_nodes";
 import { useSharedView } from "./shared_view";
@@ -31,6 +44,7 @@ import { useSteadyView } from "./steady_view";
 
 const nodeTypes = { sheet: SheetNodeView };
 const noEdges: never[] = [];
+const noSheets: Placed[] = [];
 const windowOf = (state: ReactFlowState) => [...state.transform, state.width, state.height].join();
 
 interface DrawingProps {
@@ -63,7 +77,15 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     [x, y, zoom, width, height],
   );
   const visible = useMemo(() => (shown ? sheets.visible(window) : []), [sheets, version, shown, window]);
-  const nodes = useNodes(net, sheets, visible, window, selected, flags, stage);
+  const painted = usePainted(
+    useMemo(() => elementsIn(visible, window), [visible, window]),
+    window,
+  );
+  const nodes = useNodes(net, sheets, painted ? noSheets : visible, window, selected, flags, stage);
+  const scene = useMemo(
+    () => ({ net, folded: sheets.folded, visible, selected, flags }),
+    [net, sheets, visible, selected, flags],
+  );
   const current = currentPage(visible, window);
   useEffect(() => (lead ? onCurrent(current) : undefined), [lead, current, onCurrent]);
   useSteadyView(
@@ -85,7 +107,12 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     if (agents.length > 0) studio.foldMany(agents, false);
   }, [lens, lead, net, sheets, studio]);
 
-  const pathAt = (event: MouseEvent) => (event.target as Element).closest("[data-path]")?.getAttribute("data-path") ?? null;
+  const pathAt = (event: MouseEvent) => {
+    const target = event.target as Element;
+    if (!painted || !target.closest(".react-flow__pane")) return target.closest("[data-path]")?.getAttribute("data-path") ?? null;
+    const at = flow.screenToFlowPosition({ x: event.clientX, y: event.clientY }, { snapToGrid: false });
+    return elementAt(net, sheets.folded, visible, at);
+  };
   // The view may move between the two clicks of a double click; the first one
   // decides which element is meant.
   const first = useRef<string | null>(null);
@@ -95,6 +122,16 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     const transition = path === null ? undefined : net.transitionByName.get(path);
     if (stage.mode === "game" && transition !== undefined) studio.play.choose(transition);
     studio.select(path);
+  };
+  const pointed = useRef<string | null>(null);
+  const point = (event: PointerEvent<HTMLElement>) => {
+    if (event.buttons !== 0) return;
+    const path = pathAt(event);
+    const area = event.currentTarget;
+    area.classList.toggle("on-element", painted && path !== null);
+    if (path === pointed.current) return;
+    pointed.current = path;
+    area.title = path === null ? "" : help(net, path);
   };
   const doubleClick = () => {
     const path = first.current;
@@ -113,10 +150,9 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
       aria-label={`${label}. Arrow keys move, Enter opens, Escape goes up, F folds.`}
       tabIndex={0}
       style={{ "--zoom": steps(zoom) } as CSSProperties}
-      onPointerOver={(event) => {
-        const path = pathAt(event);
-        event.currentTarget.title = path === null ? "" : help(net, path);
-      }}
+      {...(painted ? { [paintedMark]: "" } : {})}
+      onPointerOver={point}
+      onPointerMove={painted ? point : undefined}
       onClick={click}
       onDoubleClick={doubleClick}
       onKeyDown={keys}
@@ -136,6 +172,7 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
         disableKeyboardA11y
         proOptions={{ hideAttribution: true }}
       >
+        {painted && <NetLayer scene={scene} window={window} stage={stage} />}
         <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
         {root && (
           <LensOverlay

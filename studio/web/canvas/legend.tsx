@@ -1,7 +1,15 @@
 import type { ReactNode } from "react";
+import { Term } from "./term";
 
-const structure: [string, ReactNode, string][] = [
-  ["N → B", "N → B", "The sender does not wait (N), the receiver waits (B)"],
+const structure: [string, ReactNode, ReactNode][] = [
+  [
+    "N → B",
+    "N → B",
+    <>
+      The sender does not wait (N <Term of="N" />
+      ), the receiver waits (B <Term of="B" />)
+    </>,
+  ],
   ["dashed", <Line key="" dash="6 4" />, "A channel at which nobody waits"],
   ["solid", <Line key="" />, "A channel at which an end waits"],
   ["thick", <Line key="" wide={3} />, "All channels between two agents"],
@@ -10,10 +18,22 @@ const structure: [string, ReactNode, string][] = [
   ["device", <span key="" className="legend-device" />, "The device of a virtual receptor or effector"],
 ];
 
-const net: [string, ReactNode, string][] = [
-  ["place", "○", "A place; dashed: memory of a channel"],
+const net: [string, ReactNode, ReactNode][] = [
+  [
+    "place",
+    "○",
+    <>
+      A place <Term of="place" />; dashed: memory of a channel
+    </>,
+  ],
   ["token", "●", "A token: this is so now"],
-  ["bar", "┃", "A transition; grey: it can never fire"],
+  [
+    "bar",
+    "┃",
+    <>
+      A transition <Term of="transition" />; grey: it can never fire
+    </>,
+  ],
   ["condition", "[x > 0]", "It fires only if this holds"],
   ["page", "◎", "A page: a net of its own, folded; double frame: open"],
 ];

@@ -1,7 +1,7 @@
 import { roundedPath } from "../model/net/geometry";
 import { markOf } from "../model/structure/machine";
 import { chipHeight, chipText, type DrawnArrow, type Machine } from "../model/structure/machine_layout";
-import { withoutIndex, type Behaviour, type Subsystem } from "../model/structure/structure";
+import { nextSelection, withoutIndex, type Behaviour, type Subsystem } from "../model/structure/structure";
 import { fontSize, lineHeight } from "../model/structure/text_size";
 import { Flag, type Complaint } from "./flag";
 
@@ -81,11 +81,19 @@ const markTitle = {
 function ArrowView({ arrow, selected }: { arrow: DrawnArrow; selected: string | null }) {
   const { points, place, lines, kind, from, to, entry } = arrow;
   const own = selected === from || selected === to;
+  const chosen = entry !== null && selected === nextSelection(from, entry);
   const [, begin = from] = /([^.#]*)$/.exec(from) ?? [];
   const end = to.split(/[.#]/).at(-1);
   return (
-    <g className={`arrow ${kind}${own ? " of-selected" : ""}`} data-from={from} data-to={to} data-entry={entry ?? undefined}>
+    <g
+      className={`arrow ${kind}${own ? " of-selected" : ""}${chosen ? " selected" : ""}`}
+      data-from={from}
+      data-to={to}
+      data-entry={entry ?? undefined}
+      tabIndex={-1}
+    >
       <title>{kind === "begin" ? `It begins with ${end}.` : `${begin} → ${end}${arrow.label ? `: ${arrow.label}` : ""}`}</title>
+      {entry !== null && <path className="arrow-reach" d={roundedPath(points, 5)} />}
       <path d={roundedPath(points, 5)} markerEnd={kind === "failure" ? "url(#failure-tip)" : "url(#machine-tip)"} />
       {place &&
         lines.map((line, at) => (

@@ -21,7 +21,7 @@ export interface DrawnPane {
 }
 
 /** The net, once or twice side by side. All panes show the same part of it. */
-export function NetCanvas({ panes, between }: { panes: readonly DrawnPane[]; between: ReactNode }) {
+export function NetCanvas({ panes, between, film }: { panes: readonly DrawnPane[]; between: ReactNode; film: ReactNode }) {
   const studio = useStudio();
   const selected = useStore(studio.view, (view) => view.selected);
   const sheets = useSheets(panes.map(({ net }) => net));
@@ -30,7 +30,7 @@ export function NetCanvas({ panes, between }: { panes: readonly DrawnPane[]; bet
   return (
     <div className="canvas" data-testid="canvas">
       <ArrowTips />
-      <Breadcrumbs net={net} page={current < net.pages.length ? current : 0} />
+      <Breadcrumbs net={net} page={current < net.pages.length ? current : 0} film={film} />
       {between}
       <div className="panes">
         {panes.map((drawn, at) => (

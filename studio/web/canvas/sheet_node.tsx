@@ -5,8 +5,8 @@ import { numbered } from "../live/breakpoints";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net/net";
 import type { Placed } from "../model/net/sheets";
+import { Marks } from "./marks";
 import { paint } from "./paint";
-import { crowd } from "./crowd";
 import { Arcs, BarSymbol, PageSymbol, PlaceSymbol, within } from "./symbols";
 
 export interface SheetData extends Record<string, unknown> {
@@ -15,11 +15,10 @@ export interface SheetData extends Record<string, unknown> {
   /** Pages whose nets are drawn by separate sheets. */
   open: string;
   folded: string;
-  /**
-   * The distance of the sheet: 2 means that lines and letters would be four times too large, -1 that they are
-   * small, -3 that they are dots.
-   */
+  /** The distance of the sheet (`nearness`). */
   near: number;
+  /** Its pages are frames without names (`isBare`). */
+  bare: boolean;
   /** The part that is drawn, "x,y,width,height"; empty: all of it. */
   clip: string;
   selected: string | null;
@@ -33,14 +32,14 @@ export type SheetNode = Node<SheetData, "sheet">;
 export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<SheetNode>) {
   const studio = useStudio();
   const ref = useRef<SVGSVGElement>(null);
-  const { net, placed, open, folded, near, clip, selected, flags, stage } = data;
+  const { net, placed, open, folded, near, bare, clip, selected, flags, stage } = data;
   const { page, sheet, scale } = placed;
   const opened = new Set(open.split(",").map(Number));
   const closed = new Set(folded.split(",").map(Number));
   useEffect(() => {
     const { store } = studio.runner;
     let last = store.get().breakpoints;
-    const now = () => ref.current && paint(ref.current, net, stage, numbered(net, last).found);
+    const now = () => ref.current && stage.is(net) && paint(ref.current, new Marks(net, stage, numbered(net, last).found));
     now();
     const told = store.subscribe(() => {
       const { breakpoints } = store.get();
@@ -84,7 +83,7 @@ export const SheetNodeView = memo(function SheetNodeView({ data }: NodeProps<She
             folded={closed.has(node.page)}
             open={opened.has(node.page)}
             far={far}
-            bare={far && sheet.nodes.length > crowd}
+            bare={bare}
             flagged={flags.get(path) ?? null}
             onFold={(at, to) => studio.fold(at, to)}
           />

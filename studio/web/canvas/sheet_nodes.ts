@@ -3,7 +3,8 @@ import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net/net";
 import type { Box } from "../model/net/geometry";
 import type { Placed, Sheets, Window } from "../model/net/sheets";
-import { crowd } from "./crowd";
+import { crowd, isBare } from "./crowd";
+import { nearness } from "./detail";
 import type { SheetNode } from "./sheet_node";
 
 /**
@@ -28,9 +29,10 @@ export function useNodes(
       const open = children.filter((child) => shown.has(child)).join();
       const folded = children.filter((child) => sheets.folded(child)).join();
       const mine = selected !== null && isOn(net, placed.page, selected) ? selected : null;
-      const near = Math.min(5, Math.max(-3, Math.floor(Math.log2((placed.scale * zoom) / 0.95))));
-      const clip = near > -3 && placed.sheet.nodes.length > crowd ? clipOf(placed, window) : "";
-      const data = { net, placed, open, folded, near, clip, selected: mine, flags, stage };
+      const near = nearness(placed.scale * zoom);
+      const bare = isBare(placed.sheet, placed.scale * zoom);
+      const clip = !bare && placed.sheet.nodes.length > crowd ? clipOf(placed, window) : "";
+      const data = { net, placed, open, folded, near, bare, clip, selected: mine, flags, stage };
       const old = before.current.get(placed.page);
       next.set(placed.page, old && alike(old, data) ? old : sheetNode(data));
     }
@@ -64,6 +66,7 @@ function alike(node: SheetNode, data: SheetNode["data"]): boolean {
     old.open === data.open &&
     old.folded === data.folded &&
     old.near === data.near &&
+    old.bare === data.bare &&
     old.clip === data.clip &&
     old.selected === data.selected &&
     old.flags === data.flags &&

@@ -12,25 +12,36 @@ import {
   type Edge,
   type Node,
 } from "@xyflow/react";
-import { useMemo, useRef, useState, type CSSProperties, type KeyboardEvent, type MouseEvent } from "react";
+import { useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
 import { useStudio, useStore } from "../hooks/use";
-import { keysNow, named } from "../live/editor";
 import { useLens } from "../hooks/use_lens";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { connect as connectEdit, freshAgent, insert, remove } from "../model/text/edits";
+import { connect as connectEdit } from "../model/text/edits";
 import type { Box } from "../model/net/geometry";
 import { channelEnd } from "../model/structure/connections";
 import { bundleAt, bundlePath, isBundlePath } from "../model/structure/bundles";
-import { agentHead, detailAt, structureStep, type Detail } from "../model/structure/levels";
-import { channelOf, channelPath, findThing, withoutIndex } from "../model/structure/structure";
+import {
+  agentFilled,
+  agentHead,
+  detailAt,
+  sizeOfFilled,
+  structureStep,
+  subsystemFilled,
+  type Detail,
+} from "../model/structure/levels";
+import { channelOf, channelPath, withoutIndex } from "../model/structure/structure";
 import { mostBundleLetters } from "../model/structure/structure_graph";
 import { leastPixels } from "../model/structure/text_size";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { ExportButtons } from "./export_button";
+import { LayoutProblem } from "./layout_problem";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
+import { useMoved } from "./moved_drawing";
+import { measured } from "./measured_text";
 import { useSteadyView } from "./steady_view";
+import { selectionAt, StructureHands } from "./structure_hands";
 import { useComeNear, useNearness, useWholeUntilMoved } from "./structure_view";
 import { AgentNode, DeviceNode, SubsystemNode, SurroundingsContext, type Surroundings } from "./structure_nodes";
 
@@ -76,27 +87,32 @@ const none: readonly Box[] = [];
 
 /** The positions of the names of agents and subsystems: in the middle of boxes without other text. */
 function namesOf({ structure, drawing }: Drawn, detail: Detail, zoom: number): Box[] {
-  const middle = (box: Box): Box => {
-    const height = Math.min(box.height, 40 / zoom);
-    return { ...box, y: box.y + (box.height - height) / 2, height };
-  };
+  const middle = (box: Box, size: { width: number; height: number }): Box => ({
+    x: box.x + (box.width - size.width) / 2,
+    y: box.y + (box.height - size.height) / 2,
+    ...size,
+  });
   const head = (box: Box): Box => ({ ...box, height: agentHead });
-  const named = (path: string, place: (box: Box) => Box) => {
-    const box = drawing.boxes.get(path);
-    return box ? [place(box)] : [];
-  };
-  return structure.agents.flatMap(({ name, subsystems }) => [
-    ...named(name, detail === "agents" ? middle : head),
-    ...(detail === "agents" ? [] : subsystems.flatMap(({ path }) => named(path, detail === "all" ? head : middle))),
-  ]);
+  return structure.agents.flatMap((agent) => {
+    const box = drawing.boxes.get(agent.name);
+    if (!box) return [];
+    if (detail === "agents") {
+      const text = agentFilled(agent, box, zoom, measured);
+      return text ? [middle(box, sizeOfFilled(text, "agent", zoom, measured))] : [];
+    }
+    const inside = agent.subsystems.flatMap((one) => {
+      const own = drawing.boxes.get(one.path);
+      if (!own) return [];
+      const text = detail === "all" ? undefined : subsystemFilled(one, own, zoom, measured);
+      return [text ? middle(own, sizeOfFilled(text, "subsystem", zoom, measured)) : head(own)];
+    });
+    return [head(box), ...inside];
+  });
 }
 
 /** The element, or the line of a channel, at a click. */
 const pathOf = (target: Element) =>
   target.closest("[data-path]")?.getAttribute("data-path") ?? target.closest("[data-reach]")?.getAttribute("data-reach") ?? null;
-
-/** The name that a click selects: a buffer has another one there than in paths. */
-const selectionOf = (target: Element) => target.closest("[data-path]")?.getAttribute("data-selection") ?? pathOf(target);
 
 /** The wires between virtual receptors and effectors and their devices. */
 function wiresOf({ structure, drawing }: Drawn): Edge[] {
@@ -138,8 +154,9 @@ const Notice = ({ first, problem }: { first: boolean; problem: string }) => (
 function Map({ whole }: { whole: Box }) {
   const partly = useFlow(({ transform: [x, y, zoom], width, height }) => {
     const margin = 4;
-    const inside = x >= -margin && y >= -margin && x + whole.width * zoom <= width + margin;
-    return !(inside && y + whole.height * zoom <= height + margin) && width > 420;
+    const inside =
+      x + whole.x * zoom >= -margin && y + whole.y * zoom >= -margin && x + (whole.x + whole.width) * zoom <= width + margin;
+    return !(inside && y + (whole.y + whole.height) * zoom <= height + margin) && width > 420;
   });
   if (!partly) return null;
   const agents = (node: Node) => (node.type === "agent" ? "map-agent" : "map-part");
@@ -162,11 +179,16 @@ function Drawing() {
   const selected = useStore(studio.view, (view) => view.selected);
   const net = useStore(studio.draft.store, (draft) => draft.net);
   const lens = useLens(net);
-  const { drawn, busy, problem } = useDrawn(structure);
-  const { drawing, levels } = drawn;
+  const { drawn: laidOut, busy, problem } = useDrawn(structure);
+  const { drawing, move: moveBox, arrange } = useMoved(laidOut.drawing);
+  const drawn = useMemo((): Drawn => (drawing === laidOut.drawing ? laidOut : { ...laidOut, drawing }), [laidOut, drawing]);
+  const { levels } = drawn;
   const [over, setOver] = useState<string | null>(null);
   const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
-  const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
+  const whole = useMemo(() => {
+    const { left = 0, top = 0, width, height } = drawing;
+    return { x: left, y: top, width, height };
+  }, [drawing]);
   useSteadyView(drawn === nothing ? undefined : whole);
   const moved = useRef(false);
   const comeNear = useComeNear(drawn, moved);
@@ -195,20 +217,15 @@ function Drawing() {
   const dragged = useRef(false);
   // The click that ends a drag does not select the element below it.
   const dragEnds = () => void setTimeout(() => (dragged.current = false), 0);
-  const click = (event: MouseEvent) => dragged.current || select(selectionOf(event.target as Element));
+  const click = (event: MouseEvent) => dragged.current || select(selectionAt(event.target as Element));
   const doubleClick = (event: MouseEvent) => {
     const path = pathOf(event.target as Element);
     if (path !== null) comeNear(path);
   };
-  const key = (event: KeyboardEvent) => {
-    const thing = selected === null ? undefined : findThing(structure, selected);
-    if ((event.key === "Delete" || event.key === "Backspace") && thing?.kind === "channel") {
-      void studio.change(remove(["channels", thing.of.index]), () => ({ selected: null }));
-    }
-  };
-  const add = () => {
-    const added = named("agent", keysNow(["agents"]), (name) => insert(["agents"], name, freshAgent));
-    void studio.change(added.wish, () => ({ selected: added.name, panel: "inspect" }));
+  const area = useRef<HTMLDivElement>(null);
+  const drag = () => {
+    dragged.current = true;
+    addEventListener("pointerup", dragEnds, { once: true });
   };
   const overview = () => {
     moved.current = false;
@@ -228,11 +245,12 @@ function Drawing() {
         <button className="quiet" title="Show the whole system" onClick={overview}>
           Overview
         </button>
-        <button className="quiet" onClick={add}>
+        <button className="quiet" onClick={() => void studio.elements.addAgent()}>
           Add agent
         </button>
         <ExportButtons name={structure.system} />
       </div>
+      <LayoutProblem />
       <ChannelTip />
       <div
         className={`canvas-area detail-${detail}${counts ? "" : " no-counts"}`}
@@ -240,7 +258,8 @@ function Drawing() {
         style={{ "--zoom": zoom } as CSSProperties}
         onClick={click}
         onDoubleClick={doubleClick}
-        onKeyDown={key}
+        ref={area}
+        tabIndex={-1}
       >
         <SurroundingsContext.Provider value={surroundings}>
           <ReactFlow
@@ -279,6 +298,18 @@ function Drawing() {
             </Panel>
             <Map whole={whole} />
             <Controls showInteractive={false} showFitView={false} position="bottom-right" />
+            <StructureHands
+              structure={structure}
+              area={area}
+              boxes={drawing.boxes}
+              move={(path, by, end) => {
+                // The view stays while boxes move in it.
+                moved.current = true;
+                return moveBox(withoutIndex(path), by, end);
+              }}
+              arrange={arrange}
+              onDrag={drag}
+            />
           </ReactFlow>
         </SurroundingsContext.Provider>
         {(busy || problem) && <Notice first={drawn === nothing} problem={problem} />}

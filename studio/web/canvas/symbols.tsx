@@ -1,7 +1,10 @@
 import { memo, type CSSProperties } from "react";
 import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/net/geometry";
-import { conditionText, nameLines, operationText, pageName, spoken } from "../model/net/labels";
+import { conditionText, operationText, pageName, spoken } from "../model/net/labels";
 import type { NetModel, Page } from "../model/net/net";
+import { tipOf, type ArcKind, type Strokes } from "../model/net/strokes";
+import { mostFarArcs, strokes } from "./painted/arcs";
+import { closedName, layerSize, runningSize } from "./closed_name";
 
 /** The paper's graphic language: circle place, double circle page, bar transition, dashed fused place. */
 
@@ -161,7 +164,7 @@ function Reach({ box, direction, name }: { box: Box; direction: "down" | "right"
  * if the net is too small to read.
  */
 function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open: boolean; child: number; bare: boolean }) {
-  if (bare) return <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
+  if (bare) return <rect className="shape bare" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />;
   return (
     <>
       <rect className="shape" x={box.x} y={box.y} width={box.width} height={box.height} rx={16} />
@@ -177,75 +180,42 @@ function OpenPage({ page, box, open, child, bare }: { page: Page; box: Box; open
   );
 }
 
-/** Widths in pixels of boxes with a cut name, and the space beside it. */
-const cutWidths = [40, 56, 76, 100, 130, 170, 220];
-const rim = 10;
-/** The width of a letter, as a part of its height. */
-const letter = 0.62;
-/** The distance of lines, as a part of the height of a letter. */
-const pitch = 1.15;
-
 /**
  * The name in the middle of a page, broken into the lines that allow the largest letters; cut if the whole
  * name is too small.
  */
 function ClosedName({ page, box, child }: { page: Page; box: Box; child: number }) {
-  const name = pageName(page);
-  const middle = { x: box.x + box.width / 2, textAnchor: "middle" as const };
-  const fitting = (lines: string[]) => {
-    const longest = Math.max(4, ...lines.map(({ length }) => length)) * letter;
-    const size = Math.min(34, (box.width - 30) / longest, (box.height - 12) / (lines.length * pitch + 1.6));
-    // Far away, letters grow to their ten pixels if they fit into the frame.
-    const largest = Math.min((box.width - 12) / longest, (box.height - 8) / (lines.length * pitch));
-    return { lines, size, more: largest / size };
-  };
-  const ways = [1, 2, 3].map((most) => fitting(nameLines(name, most)));
-  const { lines, size, more } = ways.reduce((best, one) => (one.size > best.size * 1.15 ? one : best));
-  const centre = box.y + box.height / 2;
-  const below = centre + size / 3 + ((lines.length - 1) * size * pitch) / 2;
+  const { lines, cuts, x, y, size, more, layerAt, runningAt } = closedName(pageName(page), box);
+  const middle = { x, textAnchor: "middle" as const };
   const style = { "--u": size, "--more": more } as CSSProperties;
-  // The width in pixels at which the whole name becomes readable.
-  const whole = (10 / (size * more)) * box.width;
   return (
     <g className="closed-name">
-      {lines.map((line, at) => (
-        <text
-          key={at}
-          className="label large"
-          {...middle}
-          y={centre}
-          dy={`${(at - (lines.length - 1) / 2) * pitch + 0.35}em`}
-          style={style}
-        >
-          {line}
+      {lines.map(({ text, shift }, at) => (
+        <text key={at} className="label large" {...middle} y={y} dy={`${shift}em`} style={style}>
+          {text}
         </text>
       ))}
-      {cutWidths.map((width, at) => {
-        const room = Math.floor((width - rim) / (10 * letter));
-        if (width >= whole) return null;
-        const to = Math.min(whole, cutWidths[at + 1] ?? Infinity);
-        return (
-          <text
-            key={width}
-            className="label cut"
-            {...middle}
-            y={centre}
-            dominantBaseline="central"
-            style={{ "--from": width / box.width, "--to": to / box.width } as CSSProperties}
-          >
-            {name.length > room ? `${name.slice(0, room - 1)}…` : name}
-          </text>
-        );
-      })}
-      <text className="label layer" {...middle} y={below + size * 0.75} style={{ "--u": size * 0.52 } as CSSProperties}>
+      {cuts.map(({ text, from, to }) => (
+        <text
+          key={from}
+          className="label cut"
+          {...middle}
+          y={y}
+          dominantBaseline="central"
+          style={{ "--from": from, "--to": to } as CSSProperties}
+        >
+          {text}
+        </text>
+      ))}
+      <text className="label layer" {...middle} y={layerAt} style={{ "--u": layerSize(size) } as CSSProperties}>
         {page.layer}
       </text>
       <text
         className="label running"
         data-running={child}
         {...middle}
-        y={below + size * 1.75}
-        style={{ "--u": size * 0.75 } as CSSProperties}
+        y={runningAt}
+        style={{ "--u": runningSize(size) } as CSSProperties}
       />
     </g>
   );
@@ -275,9 +245,8 @@ function around(points: readonly Point[]): Box {
 
 export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProps) {
   const { nodes, transitions } = net.page(page);
-  // So many arcs, so far away, would only be a grey area.
-  if (far && sheet.routes.length > 6000) return null;
-  if (far) return <path className="arc" d={sheet.routes.map((route) => roundedPath(route.points, 0)).join("")} />;
+  if (far && sheet.routes.length > mostFarArcs) return null;
+  if (far || sheet.grid) return <SharedArcs strokes={strokes(net, page, sheet, far)} far={far} clip={clip} />;
   const isDrawn = within(clip);
   return sheet.routes.map((route, at) => {
     if (clip && !isDrawn(around(route.points))) return null;
@@ -293,6 +262,35 @@ export const Arcs = memo(function Arcs({ net, page, sheet, far, clip }: ArcsProp
     );
   });
 });
+
+/** The arcs of a grid run in the same lanes, so what they share is one line. Tips and kinds are not visible far away. */
+function SharedArcs({ strokes, far, clip }: { strokes: ReadonlyMap<ArcKind, Strokes>; far: boolean; clip: string }) {
+  const isDrawn = within(clip);
+  return [...strokes].map(([kind, { lines, slanted, corners, tips }]) => {
+    const path: string[] = [];
+    const tipPath: string[] = [];
+    for (const all of [lines, slanted])
+      for (let at = 0; at < all.length; at += 4) {
+        const [x1, y1, x2, y2] = all.subarray(at, at + 4) as unknown as [number, number, number, number];
+        const box = { x: Math.min(x1, x2), y: Math.min(y1, y2), width: Math.abs(x2 - x1) + 0.1, height: Math.abs(y2 - y1) + 0.1 };
+        if (isDrawn(box)) path.push(`M${tenth(x1)} ${tenth(y1)}L${tenth(x2)} ${tenth(y2)}`);
+      }
+    for (let at = 0; at < corners.length; at += 6) {
+      const [x1, y1, x, y, x2, y2] = [...corners.subarray(at, at + 6)].map(tenth) as [number, number, number, number, number, number]; // prettier-ignore
+      if (isDrawn({ x: x - 8, y: y - 8, width: 16, height: 16 })) path.push(`M${x1} ${y1}Q${x} ${y} ${x2} ${y2}`);
+    }
+    for (let at = 0; at < (far ? 0 : tips.length); at += 4)
+      if (isDrawn({ x: tips[at]! - 8, y: tips[at + 1]! - 8, width: 16, height: 16 }))
+        tipPath.push(`M${tipOf(tips, at).map(({ x, y }) => `${tenth(x)} ${tenth(y)}`).join("L")}Z`); // prettier-ignore
+    return (
+      <g key={kind}>
+        <path className={`arc${kind && !far ? ` ${kind}` : ""}`} d={path.join("")} />
+        {tipPath.length > 0 && <path className={kind === "never" ? "tip-never" : "tip"} d={tipPath.join("")} />}
+      </g>
+    );
+  });
+}
+const tenth = (value: number) => Math.round(value * 10) / 10;
 
 export function ArrowTips() {
   return (

@@ -1,5 +1,4 @@
 import { useEffect, useState } from "react";
-import { runningBehaviours } from "../model/net/game";
 import type { Stage } from "../live/stage";
 import type { NetModel } from "../model/net/net";
 import { useStore, useStudio } from "./use";
@@ -15,7 +14,7 @@ export function useRunning(stage: Stage): ReadonlyMap<string, string> {
   const told = useStore(studio.runner.store, (all) => all.behaviours);
   const [text, setText] = useState("");
   useEffect(() => {
-    const look = () => setText(net && stage.mode !== "edit" && stage.is(net) ? running(net, stage.marking) : "");
+    const look = () => setText(net && stage.mode !== "edit" && stage.is(net) ? running(net, stage.running(net)) : "");
     look();
     return stage.subscribe(look);
   }, [net, stage]);
@@ -29,8 +28,7 @@ export function useRunning(stage: Stage): ReadonlyMap<string, string> {
   );
 }
 
-function running(net: NetModel, marking: Int32Array): string {
-  const now = runningBehaviours(net, marking);
+function running(net: NetModel, now: ReadonlyMap<number, string>): string {
   return net
     .subsystemPages()
     .flatMap((page) => {

@@ -159,10 +159,15 @@ export class Replay {
     if (Math.min(this.last, Math.max(this.first, time)) !== this.track.now) this.seek(time);
   }
 
-  private jump(index: number): void {
+  private markingAfter(index: number): Int32Array {
     const base = Math.floor(index / stride);
     const marking = this.checkpoints[base]!.slice();
     for (let at = base * stride; at < index; at += 1) fire(this.net, marking, this.firings[at]![1]);
+    return marking;
+  }
+
+  private jump(index: number): void {
+    const marking = this.markingAfter(index);
     const counts = new Uint32Array(this.net.transitions.length);
     for (let at = 0; at < index; at += 1) counts[this.firings[at]![1]]! += 1;
     this.stage.setMarking(marking);
@@ -170,16 +175,26 @@ export class Replay {
     this.index = index;
   }
 
-  /** The firings from the shown time on, as far as they are loaded; at the end: all that are loaded. */
-  scenes(most: number): Scenes {
-    const rest = this.index < this.firings.length;
-    const firings = this.firings.slice(rest ? this.index : 0).slice(0, most);
+  /** The first and the last time of the loaded part. */
+  get loaded(): { from: number; to: number } {
+    return { from: this.begin, to: this.end };
+  }
+
+  /** The firings between two times of the loaded part, at most so many. */
+  scenes(from: number, to: number, most: number): Scenes {
+    const first = count(this.firings, ([t]) => t < from);
+    const firings = this.firings
+      .slice(
+        first,
+        count(this.firings, ([t]) => t <= to),
+      )
+      .slice(0, most);
     return {
       title: this.name,
-      from: rest ? this.stage.marking.slice() : this.checkpoints[0]!,
+      from: this.markingAfter(first),
       firings: firings.map(([, transition]) => transition),
       times: firings.map(([time]) => time),
-      begin: rest ? this.track.now : this.begin,
+      begin: from,
     };
   }
 

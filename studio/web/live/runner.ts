@@ -29,7 +29,7 @@ import { Track } from "./track";
 import { LiveWorld } from "./world";
 
 /** The events of a run that this class handles. */
-type RunEventName = Exclude<keyof Events, "hello" | "spec" | "verify" | "deployment" | "driving" | "sweep">;
+type RunEventName = Exclude<keyof Events, "hello" | "spec" | "layout" | "verify" | "deployment" | "driving" | "sweep">;
 
 /** Whether it was started elsewhere. */
 const isWatched = (request: RunRequest) => request.kind === "attach" || request.kind === "deployment";

@@ -1,4 +1,4 @@
-import { fire, initialMarking, isEnabled, type Marking } from "../model/net/game";
+import { fire, initialMarking, isEnabled, runningBehaviours, type Marking } from "../model/net/game";
 import type { NetModel } from "../model/net/net";
 import type { Coverage } from "../model/protocol";
 import { Store } from "./store";
@@ -42,6 +42,8 @@ export class Stage {
   private readonly listeners = new Set<() => void>();
   private frame = 0;
   private told = -Infinity;
+  /** The behaviours that run in the present marking, once somebody has asked. */
+  private now: ReadonlyMap<number, string> | null = null;
 
   /** Shows a net with its initial marking, or with a token in each of the places. */
   reset(net: NetModel, mode: StageMode, marked?: readonly number[] | null): void {
@@ -59,6 +61,11 @@ export class Stage {
 
   is(net: NetModel): boolean {
     return this.net === net;
+  }
+
+  /** The behaviour that each subsystem runs. A look at a large marking takes long, so it is shared by all who ask. */
+  running(net: NetModel): ReadonlyMap<number, string> {
+    return (this.now ??= runningBehaviours(net, this.marking));
   }
 
   setMarking(marking: Marking): void {
@@ -111,6 +118,7 @@ export class Stage {
   };
 
   private touch(): void {
+    this.now = null;
     if (!this.frame) this.frame = requestAnimationFrame(this.tell);
   }
 

@@ -131,6 +131,17 @@ export interface Requests {
     status: 200;
     answer: { revision: string };
   };
+  "GET /api/layout": { status: 200; answer: LayoutAnswer };
+  /** 409: Conflict. */
+  "PUT /api/layout": {
+    body: {
+      boxes: BoxPositions;
+      /** The revision of the file that was changed. */
+      revision: string;
+    };
+    status: 200;
+    answer: { revision: string };
+  };
   "GET /api/examples": { status: 200; answer: { name: string; title: string }[] };
   /** Copies an example into a project that has no specification yet. */
   "POST /api/begin": {
@@ -441,7 +452,20 @@ export interface FunctionShown {
 }
 /** Does something with one part of a specification (src/language/edits/edits.hpp). */
 export interface Edit {
-  do: "set" | "insert" | "append" | "replace" | "remove" | "rename" | "connect" | "channel" | "next" | "make_template" | "move";
+  do:
+    | "set"
+    | "insert"
+    | "append"
+    | "replace"
+    | "remove"
+    | "rename"
+    | "connect"
+    | "channel"
+    | "next"
+    | "make_template"
+    | "move"
+    | "copy"
+    | "paste";
   at?: EditPath;
   key?: string;
   text?: string;
@@ -467,6 +491,17 @@ export interface FileRenamed {
   after: string;
   /** The revision of the text before. */
   revision: string;
+}
+export interface LayoutAnswer {
+  boxes: BoxPositions;
+  /** Empty: the file cannot be read. */
+  revision: string;
+  /** Why the file is not understood; null: it is, or there is none. */
+  error: string | null;
+}
+/** The boxes that a user has moved, by path: the upper left corner, of a subsystem from that of its agent. */
+export interface BoxPositions {
+  [k: string]: [number, number];
 }
 /**
  * The controllers that drive devices now: those of this user in real time, on real devices or in a simulated
@@ -1029,6 +1064,7 @@ export interface WorldView {
 export interface Events {
   hello: Hello;
   spec: SpecEvent;
+  layout: LayoutEvent;
   verify: VerifyEvent;
   build: LineEvent;
   log: LineEvent;
@@ -1056,6 +1092,10 @@ export interface Hello {
 }
 /** The file changed on disk, or, with the same revision, a file that it includes. */
 export interface SpecEvent {
+  revision: string;
+}
+/** The file with the positions of boxes changed on disk. */
+export interface LayoutEvent {
   revision: string;
 }
 export interface VerifyStarted {
@@ -1183,7 +1223,7 @@ export interface Refusal {
   /** A proposed remedy; may be empty. */
   hint: string;
 }
-/** 409 of `PUT /api/spec` and `PUT /api/sources`: another program has changed the file. */
+/** 409 of `PUT /api/spec`, `PUT /api/sources` and `PUT /api/layout`: another program has changed the file. */
 export interface Conflict {
   /** The file on disk. */
   text: string;

@@ -10,6 +10,7 @@ export const panelNames = [
   "play",
   "run",
   "recordings",
+  "code",
   "timeline",
   "values",
   "plots",

@@ -5,6 +5,7 @@ import { sameBreakpoint, type NamedBreakpoint } from "../live/breakpoints";
 import { layerTitle, operationText } from "../model/net/labels";
 import type { Element, NetModel } from "../model/net/net";
 import { findThing, selectedPath, type Thing } from "../model/structure/structure";
+import { Term } from "../canvas/term";
 import { isBundlePath } from "../model/structure/bundles";
 import { BundlePanel } from "./bundle_panel";
 import { MemoryNow } from "./run/memory_now";
@@ -34,7 +35,10 @@ export function InspectPanel() {
   const line = thing?.of.line ?? element!.span.line;
   return (
     <div className="inspect">
-      <h2>{title(thing, selected)}</h2>
+      <div className="titled">
+        <h2>{title(thing, selected)}</h2>
+        <Term of={thing ? termOf(thing) : element!.kind} />
+      </div>
       <p className="path">{thing?.kind === "channel" ? "" : selectedPath(selected) || "system"}</p>
       {(thing ? (complaints.get(selected)?.messages ?? []) : []).map((text) => (
         <p key={text} className="problem-hint">
@@ -106,6 +110,11 @@ function BreakpointButton({ at, text }: { at: NamedBreakpoint; text: string }) {
       </button>
     </div>
   );
+}
+
+/** The kind of an element in the words of the glossary. */
+function termOf(thing: Thing): string {
+  return thing.kind === "subsystem" ? (thing.of.kind === "control" ? "control subsystem" : thing.of.kind) : thing.kind;
 }
 
 const kinds: Record<Thing["kind"], string> = {

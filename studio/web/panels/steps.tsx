@@ -18,7 +18,7 @@ export function Steps() {
           <span className="step-title">{one.title}</span>
           <button
             className={`quiet step-state${leadsOn.includes(one.leads) ? " leads-on" : ""}`}
-            data-testid={`${one.step}-state`}
+            data-testid={`step-${one.step}`}
             onClick={() => void act(studio, one.leads)}
           >
             <span className={`dot ${dots[one.tone]}`} />

@@ -69,6 +69,12 @@ export function Toolbar() {
         >
           <Icon name="theme" />
         </button>
+        <IconButton
+          name="question"
+          label="Help and shortcuts"
+          title="Help and shortcuts (?)"
+          onClick={() => studio.guide.open(true)}
+        />
       </div>
       <Steps />
     </header>

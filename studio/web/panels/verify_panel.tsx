@@ -5,6 +5,7 @@ import { causesOf } from "../model/causes";
 import { sentence } from "../model/net/labels";
 import { readStructure } from "../model/structure/structure";
 import { CauseCard } from "./cause_card";
+import { Term } from "../canvas/term";
 import { Icon } from "./icons";
 
 /** The question of each property in words. */
@@ -87,21 +88,24 @@ const marks = { holds: "check", violated: "cross", unknown: "question" } as cons
 function VerdictRow({ verdict }: { verdict: Verdict }) {
   const onlyWarns = verdict.verdict === "violated" && verdict.warning;
   return (
-    <details className="verdict" open={verdict.verdict === "unknown"}>
-      <summary>
-        <span className={`mark ${onlyWarns ? "unknown" : verdict.verdict}`} role="img" aria-label={verdict.verdict}>
-          <Icon name={marks[verdict.verdict]} />
-        </span>
-        <span className="name">{verdict.name.replaceAll("_", " ")}</span>
-        <span className="method">{onlyWarns ? "violated · a warning" : verdict.verdict}</span>
-      </summary>
-      <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
-      {verdict.why && <p>{sentence(verdict.why)}</p>}
-      <p title={methods[verdict.method] ?? "How the verdict was found."}>
-        By {verdict.method || "nothing yet"}
-        {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}.
-      </p>
-      {verdict.meaning && <p>{sentence(verdict.meaning)}</p>}
-    </details>
+    <div className="verdict-row">
+      <details className="verdict" open={verdict.verdict === "unknown"}>
+        <summary>
+          <span className={`mark ${onlyWarns ? "unknown" : verdict.verdict}`} role="img" aria-label={verdict.verdict}>
+            <Icon name={marks[verdict.verdict]} />
+          </span>
+          <span className="name">{verdict.name.replaceAll("_", " ")}</span>
+          <span className="method">{onlyWarns ? "violated · a warning" : verdict.verdict}</span>
+        </summary>
+        <p>{sentence(verdict.asks || asks[verdict.name] || "")}</p>
+        {verdict.why && <p>{sentence(verdict.why)}</p>}
+        <p title={methods[verdict.method] ?? "How the verdict was found."}>
+          By {verdict.method || "nothing yet"} <Term of={verdict.method} />
+          {verdict.states ? `, ${verdict.states.toLocaleString("en")} markings` : ""}.
+        </p>
+        {verdict.meaning && <p>{sentence(verdict.meaning)}</p>}
+      </details>
+      <Term of={verdict.name} />
+    </div>
   );
 }

@@ -3,6 +3,7 @@ import type { Events } from "../../model/protocol";
 const listened: Record<keyof Events, true> = {
   hello: true,
   spec: true,
+  layout: true,
   verify: true,
   build: true,
   log: true,

@@ -93,12 +93,15 @@ export class Sheets {
     const found: Placed[] = [];
     const visit = (at: Placed) => {
       found.push(at);
-      const inside = this.net.page(at.page).nodes.flatMap((node, index) => {
-        if (node.page === null || this.folded(node.page)) return [];
-        const box = boxWithin(at, at.sheet.nodes[index]!);
-        if (!intersects(box, window) || box.width * window.zoom < 60) return [];
+      const inside: { placed: Placed; filling: boolean }[] = [];
+      const own = windowOn(at, window);
+      this.net.page(at.page).nodes.forEach((node, index) => {
+        // Most of a large net is outside of the window or too small, so that is asked first.
+        const on = at.sheet.nodes[index]!;
+        if (on.width * own.zoom < 60 || !intersects(on, own) || node.page === null || this.folded(node.page)) return;
         const sheet = this.get(node.page);
-        return sheet ? [{ placed: this.within(at, node.page, index, sheet), filling: fills(box, window) }] : [];
+        const filling = fills(boxWithin(at, on), window);
+        if (sheet) inside.push({ placed: this.within(at, node.page, index, sheet), filling });
       });
       // If one sheet is legible, neighbours that are nearly legible are shown, too.
       const enough = inside.some(({ placed }) => placed.scale * window.zoom >= legible) ? 0.8 * legible : legible;
@@ -121,6 +124,15 @@ export class Sheets {
     return box && boxWithin(on, box);
   }
 }
+
+/** The window in the units of a sheet. */
+export const windowOn = (at: Placed, window: Window): Window => ({
+  x: (window.x - at.x) / at.scale,
+  y: (window.y - at.y) / at.scale,
+  width: window.width / at.scale,
+  height: window.height / at.scale,
+  zoom: window.zoom * at.scale,
+});
 
 export const boxWithin = (at: Placed, box: Box): Box => ({
   x: at.x + box.x * at.scale,

@@ -2,6 +2,7 @@
 
 import type { Marking } from "../net/game";
 import type { NetModel } from "../net/net";
+import { sentenceOf, Teller } from "./words";
 
 export interface Film {
   title: string;
@@ -16,8 +17,31 @@ export interface Film {
   /** The effect of each transition on them. */
   effects: Record<number, [place: number, change: number][]>;
   names: Record<number, string>;
+  /** Sentences, and for each firing the one that tells it. */
+  sentences: string[];
+  told: number[];
+  /** The numbers of firings after which a subsystem executes another behaviour, or something has failed. */
+  turns: number[];
+  /** Seconds from the first moment to the last; null: to the last firing. */
+  length: number | null;
+  world: FilmedWorld | null;
+  plots: FilmedPlots | null;
   /** The behaviour that each subsystem of the drawing runs after so many firings. */
   running: [firings: number, page: number, behaviour: string][];
+}
+
+/** What a film shows of the simulated world. Times are in seconds from its first moment. */
+export type FilmedWorld =
+  | { kind: "pictures"; times: number[]; pictures: string[] }
+  /** A robot from above: x, y and heading at each time; and the picture of its floor with its size in metres. */
+  | { kind: "path"; times: number[]; poses: number[]; floor: { picture: string; width: number; height: number } | null };
+
+/** Curves of watched values, over the whole time of the film. */
+export interface FilmedPlots {
+  svg: string;
+  /** Where the time begins and ends, as parts of the width of the drawing. */
+  left: number;
+  right: number;
 }
 
 /** The content of a drawing, by the numbers of the net. */
@@ -30,6 +54,13 @@ export interface Drawn {
 
 /** More firings make a file too large for browsers. */
 export const mostFirings = 50_000;
+
+/** The name of the file of a film: that of the run, with its times. */
+export function filmName(run: string, from?: number, to?: number): string {
+  const seconds = (time: number) => `${Number((time / 1e9).toFixed(3))}s`;
+  const span = from === undefined || to === undefined ? "" : `_${seconds(from)}-${seconds(to)}`;
+  return `${run.replace(/\.[a-z]+$/, "").replace(/[^\w.-]+/g, "_")}${span}`;
+}
 
 export function drawnIn(svg: string): Drawn {
   const numbers = (attribute: string) =>
@@ -53,7 +84,23 @@ export interface Scenes {
   begin: number;
 }
 
-export function filmOf({ title, from, firings, times, begin }: Scenes, net: NetModel, drawn: Drawn): Film {
+export function filmOf(
+  { title, from, firings, times, begin }: Scenes,
+  net: NetModel,
+  drawn: Drawn,
+  beside: { length?: number; world?: FilmedWorld | null; plots?: FilmedPlots | null } = {},
+): Film {
+  const teller = new Teller(net);
+  const numbers = new Map<string, number>();
+  const turns: number[] = [];
+  const told = firings.map((_, at) => {
+    const words = teller.at(firings, at);
+    if (words.kind !== "step") turns.push(at + 1);
+    const sentence = sentenceOf(words);
+    const number = numbers.get(sentence) ?? numbers.size;
+    numbers.set(sentence, number);
+    return number;
+  });
   const effects: Film["effects"] = {};
   const names: Film["names"] = {};
   const running = runningOn(net, drawn, from);
@@ -70,6 +117,12 @@ export function filmOf({ title, from, firings, times, begin }: Scenes, net: NetM
     start: [...tokensIn(net, drawn, from.entries())],
     effects,
     names,
+    sentences: [...numbers.keys()],
+    told,
+    turns,
+    length: beside.length ?? null,
+    world: beside.world ?? null,
+    plots: beside.plots ?? null,
     running: running.changes,
   };
 }

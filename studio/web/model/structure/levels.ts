@@ -63,6 +63,16 @@ function filled(
   return { ...text, notes: shown };
 }
 
+/** The size of a name with its notes, in units of the drawing. */
+export function sizeOfFilled({ lines, size, notes }: FilledBox, font: "agent" | "subsystem", zoom: number, measure: Measure) {
+  const wide = [
+    ...lines.map((line) => (measure(line, font) * size) / fontSize[font]),
+    ...notes.map((note) => (measure(note, "text") * (leastPixels + 1)) / fontSize.text),
+  ];
+  const high = lines.length * size + notes.length * (leastPixels + 1);
+  return { width: Math.max(...wide) / zoom, height: (high * 1.25) / zoom };
+}
+
 const counted = (count: number, one: string) => `${count} ${one}${count === 1 ? "" : "s"}`;
 
 /** The name of an agent that fills its box; undefined: there is no room. */

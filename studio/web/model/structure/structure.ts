@@ -110,8 +110,23 @@ export const channelPath = (index: number) => `channel:${index}`;
 
 export const bufferSelection = (direction: Direction, path: string) => `${direction}:${path}`;
 
-/** The path in the drawing of what is selected: that of a buffer without its direction. */
-export const selectedPath = (selection: string) => selection.replace(/^(input|output|real):/, "");
+/** An entry of `next` of a behaviour, which is an arrow in the drawing. */
+export const nextSelection = (behaviour: string, entry: number) => `next:${behaviour}#${entry}`;
+
+/** The number of the entry of `next` that is selected; undefined: another element is. */
+export const nextEntryOf = (selection: string): number | undefined => {
+  const [, entry] = /^next:.*#([0-9]+)$/.exec(selection) ?? [];
+  return entry === undefined ? undefined : Number(entry);
+};
+
+/**
+ * The path in the drawing of what is selected: that of a buffer without its direction, of an entry of `next` that of its
+ * behaviour.
+ */
+export const selectedPath = (selection: string) =>
+  nextEntryOf(selection) === undefined
+    ? selection.replace(/^(input|output|real):/, "")
+    : selection.replace(/^next:|#[0-9]+$/g, "");
 
 export function readStructure(text: string): Structure {
   const yaml = new YamlText(text);
@@ -344,7 +359,7 @@ export function channelOf(structure: Structure, name: string): Channel | undefin
  */
 export function findThing(structure: Structure, selection: string): Thing | undefined {
   const path = selectedPath(selection);
-  const direction = path === selection ? "" : selection.split(":")[0]!;
+  const direction = /^(input|output|real):/.exec(selection)?.[1] ?? "";
   if (path.startsWith("channel:")) {
     const of = structure.channels[Number(path.slice(8))];
     return of && { kind: "channel", of };
@@ -368,16 +383,16 @@ export function findThing(structure: Structure, selection: string): Thing | unde
 
 /** The text that selects an element after paths in the file have changed: `moved` gives the present one of a path. */
 export function selectionAfter(structure: Structure, selection: string, moved: (at: YamlPath) => YamlPath): string {
-  const direction = selection.slice(0, selection.length - selectedPath(selection).length);
+  const [direction = "", behind = ""] = selection.split(selectedPath(selection));
   const names = selectedPath(selection).split(".");
   const present = names.map((name, index) => {
     const part = names.slice(0, index + 1).join(".");
-    const thing = findThing(structure, index === names.length - 1 ? direction + part : part);
+    const thing = findThing(structure, index === names.length - 1 ? direction + part + behind : part);
     if (!thing || thing.kind === "channel") return name;
     const [own] = /^template:/.exec(name) ?? [""];
     return `${own}${String(moved(thing.of.yaml).at(-1))}${/\[.*$/.exec(name)?.[0] ?? ""}`;
   });
-  return direction + present.join(".");
+  return direction + present.join(".") + behind;
 }
 
 /** The innermost element on a line. */

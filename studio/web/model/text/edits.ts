@@ -91,6 +91,11 @@ export function moved({ at = [], key, ...edit }: Edit, now: (at: At) => At): Edi
   return { ...edit, at: [...now(at)], ...(present === undefined ? {} : { key: String(present) }) };
 }
 
+/** A copy of an element behind it, with its comments; with an agent, also the channels within it. */
+export const copyOf = (at: At, name: string): Edit => ({ do: "copy", at: path(at), key: name });
+/** Adds the one entry of a text to a map, with the comments above it, under a name. */
+export const paste = (map: At, name: string, text: string): Edit => ({ do: "paste", at: path(map), key: name, text });
+
 export const makeTemplate = (agent: Agent): Edit => ({ do: "make_template", at: path(agent.yaml) });
 
 const fresh = (rate: string) => ({ rate, behaviours: { run: "{}" } });

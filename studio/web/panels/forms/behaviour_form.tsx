@@ -1,3 +1,5 @@
+import { useEffect, useRef } from "react";
+import { useStore, useStudio } from "../../hooks/use";
 import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
 import { exampleOf, goalsOf, keptCells } from "../../model/structure/kept_cells";
@@ -5,13 +7,14 @@ import { groupTemplates, takenBy } from "../../model/structure/group_templates";
 import {
   leadsFailures,
   listAround,
+  nextEntryOf,
   targetsIn,
   withoutIndex,
   type Behaviour,
   type Structure,
   type Subsystem,
 } from "../../model/structure/structure";
-import { CodeForm } from "./code_form";
+import { CodeInForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
 
@@ -269,7 +272,7 @@ function OneForm(shown: Shown) {
         ]}
         onChange={(value) => set("transfer")(value === "parallel" ? value : "")}
       />
-      <CodeForm behaviour={behaviour} subsystem={subsystem} />
+      <CodeInForm behaviour={behaviour} subsystem={subsystem} />
       <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
       <Remove what="behaviour" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
     </>
@@ -278,6 +281,12 @@ function OneForm(shown: Shown) {
 
 function NextForm({ structure, behaviour, subsystem }: Shown) {
   const edit = useEdit();
+  // The entry whose arrow is selected.
+  const chosen = useStore(useStudio().view, ({ selected }) => nextEntryOf(selected ?? ""));
+  const own = useRef<HTMLFieldSetElement>(null);
+  useEffect(() => {
+    if (chosen !== undefined) own.current?.querySelector(".chosen")?.scrollIntoView({ block: "nearest" });
+  }, [chosen, behaviour.path]);
   const { next } = behaviour;
   const failures = leadsFailures(structure, subsystem, behaviour);
   const targets = [...targetsIn(subsystem, behaviour.group, "[i]"), "end"];
@@ -285,7 +294,7 @@ function NextForm({ structure, behaviour, subsystem }: Shown) {
   const kept = keptCells(structure, subsystem);
   const other = targets.find((name) => withoutIndex(name) !== behaviour.name) ?? "end";
   return (
-    <fieldset className="next">
+    <fieldset className="next" ref={own}>
       <legend>Then</legend>
       {failures && (
         <p className="faint">
@@ -294,7 +303,7 @@ function NextForm({ structure, behaviour, subsystem }: Shown) {
       )}
       {next.length === 0 && <p className="faint">{behaviour.group ? "the group is left" : "the subsystem ends"}</p>}
       {next.map((entry, at) => (
-        <div key={at} className="next-entry">
+        <div key={at} className={`next-entry${at === chosen ? " chosen" : ""}`} aria-current={at === chosen || undefined}>
           <Field
             label={`Then ${at + 1}: to`}
             value={entry.to}

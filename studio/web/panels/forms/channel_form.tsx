@@ -3,6 +3,7 @@ import { fieldsOf } from "../../model/text/schema_fields";
 import type { Channel, Structure } from "../../model/structure/structure";
 import type { YamlPath } from "../../model/text/yaml_text";
 import { Choice, Field } from "./field";
+import { Term } from "../../canvas/term";
 import { Remove, useEdit } from "./form_parts";
 import { ObjectFields } from "./object_fields";
 import { schema } from "./schema";
@@ -48,6 +49,9 @@ export function ChannelForm({ structure, channel }: { structure: Structure; chan
       )}
       {!channel.model && (
         <>
+          <p className="faint">
+            An end can wait <Term of="blocking" /> or not wait <Term of="non-blocking" />.
+          </p>
           <Choice label="The sender" value={channel.send} choices={modes.send} onChange={(send) => set({ send })} />
           <Choice label="The receiver" value={channel.receive} choices={modes.receive} onChange={(receive) => set({ receive })} />
         </>

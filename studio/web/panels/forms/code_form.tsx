@@ -1,12 +1,16 @@
-import { useEffect, useId, useRef, type ReactNode } from "react";
+import { lazy, Suspense, useEffect, useMemo, useState, type ReactNode } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { useStructure } from "../../hooks/use_structure";
 import { edited, functionIn } from "../../live/code_draft";
 import type { FunctionShown } from "../../model/protocol";
+import { cppMembers } from "../../model/text/cpp_members";
 import { buildMessages, functionAt, type BuildMessage, type FunctionText } from "../../model/text/cpp_function";
 import type { Behaviour, Subsystem } from "../../model/structure/structure";
 import { mergeLines, taking, type Side } from "../../model/text/merge";
 import { Clashes } from "../text/conflict_dialog";
+import type { CppEditorProps, Mark } from "../text/cpp_editor";
+
+const CppEditor = lazy(() => import("../text/cpp_editor"));
 
 /** The C++ function of a behaviour: read, edited, or begun if it is missing. */
 export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsystem: Subsystem }) {
@@ -37,7 +41,13 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
         <p className="faint">A macro or a template may define it in {known.file}. The linker will tell.</p>
       )}
       {known && file && found && (
-        <Edited key={`${file} ${owner}.${behaviour.function}`} known={known} source={source!} found={found} />
+        <Edited
+          key={`${file} ${owner}.${behaviour.function}`}
+          known={known}
+          subsystem={subsystem}
+          source={source!}
+          found={found}
+        />
       )}
       {known && file && source !== undefined && !found && (
         <p className="faint">
@@ -45,6 +55,22 @@ export function CodeForm({ behaviour, subsystem }: { behaviour: Behaviour; subsy
         </p>
       )}
     </section>
+  );
+}
+
+/** The same in the form of the behaviour, unless it is seen in its panel. */
+export function CodeInForm(shown: { behaviour: Behaviour; subsystem: Subsystem }) {
+  const studio = useStudio();
+  const elsewhere = useStore(studio.dock.store, ({ seen }) => seen.includes("code"));
+  return (
+    <>
+      {!elsewhere && <CodeForm {...shown} />}
+      <div className="links">
+        <button className="link" onClick={() => studio.dock.open("code")}>
+          {elsewhere ? `The function ${shown.behaviour.function} is in the panel C++` : "Open it in the panel C++"}
+        </button>
+      </div>
+    </>
   );
 }
 
@@ -82,16 +108,6 @@ const isWithin = (line: number, { firstLine, lastLine }: FunctionText) => line >
 /** The functions of behaviours in a source. */
 const functionsIn = (source: string, functions: readonly FunctionShown[], file: string) =>
   functions.flatMap((one) => (one.file === file && one.line ? (functionAt(source, one.line) ?? []) : []));
-
-/** Moves the cursor of a text to a line, from 0, and a column, from 1. */
-function goTo(area: HTMLTextAreaElement | null, line: number, column: number): void {
-  if (!area) return;
-  const lines = area.value.split("\n");
-  const start = lines.slice(0, line).reduce((sum, one) => sum + one.length + 1, 0);
-  const at = start + Math.min(Math.max(column - 1, 0), lines[line]?.length ?? 0);
-  area.focus();
-  area.setSelectionRange(at, at);
-}
 
 /** A message of the build: its position, its line with a caret, the mistake and the hint. */
 function Message({ of, source, children }: { of: BuildMessage; source: string; children: ReactNode }) {
@@ -131,9 +147,18 @@ function Conflict({
   );
 }
 
-function Edited({ known, source, found }: { known: FunctionShown; source: string; found: FunctionText }) {
+interface EditedProps {
+  known: FunctionShown;
+  subsystem: Subsystem;
+  source: string;
+  found: FunctionText;
+}
+
+const noMarks: readonly Mark[] = [];
+
+function Edited({ known, subsystem, source, found }: EditedProps) {
   const studio = useStudio();
-  const id = useId();
+  const structure = useStructure();
   const held = studio.sources.edited(known);
   // Drawn again with each change of it.
   useStore(studio.sources.store, () => studio.sources.edited(known)?.text);
@@ -143,42 +168,57 @@ function Edited({ known, source, found }: { known: FunctionShown; source: string
   const set = (text: string) => studio.sources.edit(known, { text, base: now ? found.text : held!.base });
   const build = useStore(studio.runner.store, (all) => all.build);
   const functions = useStore(studio.sources.store, (all) => all.functions);
-  const area = useRef<HTMLTextAreaElement>(null);
-  const messages = buildMessages(build, known.file);
-  const inside = messages.filter(({ line }) => line >= found.firstLine && line <= found.lastLine);
+  const [place, setPlace] = useState<CppEditorProps["place"]>(null);
+  const messages = useMemo(() => buildMessages(build, known.file), [build, known.file]);
+  const { firstLine, lastLine } = found;
+  const inside = useMemo(
+    () => messages.filter(({ line }) => line >= firstLine && line <= lastLine),
+    [messages, firstLine, lastLine],
+  );
   /** Errors that no form of another function shows: those of the rest of the file. */
   const outside = messages.filter(
     ({ line, severity }) =>
       severity === "error" && !functionsIn(source, functions, known.file).some((one) => isWithin(line, one)),
   );
+  const marks = useMemo(
+    () =>
+      inside.map(({ line, column, severity, code, text, hint }) => ({
+        line: line - firstLine + 1,
+        column,
+        severity,
+        text: [code && `${code}: `, text, hint && `\n${hint}`].join(""),
+      })),
+    [inside, firstLine],
+  );
   const save = () => void studio.sources.saveFunction(known);
   return (
     <>
-      <label htmlFor={id}>
-        {known.file}, line {found.firstLine}
-      </label>
-      <textarea
-        ref={area}
-        id={id}
-        className="mono"
-        value={text}
-        rows={Math.min(24, Math.max(5, text.split("\n").length + 1))}
-        spellCheck={false}
-        wrap="off"
-        onChange={(event) => set(event.target.value)}
-        onKeyDown={(event) => {
-          if (!(event.ctrlKey || event.metaKey) || event.key.toLowerCase() !== "s") return;
-          event.preventDefault();
-          event.stopPropagation();
-          if (dirty && now) save();
-        }}
-      />
+      <p className="path">
+        {known.file}, line {firstLine}
+      </p>
+      <Suspense fallback={<p className="faint">Loading the editor…</p>}>
+        <CppEditor
+          label={`${known.file}, line ${firstLine}`}
+          text={text}
+          firstLine={firstLine}
+          marks={marks.length > 0 ? marks : noMarks}
+          place={place}
+          members={(path) => cppMembers(structure, subsystem, path)}
+          onChange={(text) => text !== (edited(studio.sources.edited(known), found.text)?.text ?? null) && set(text)}
+          onSave={() => dirty && now && save()}
+        />
+      </Suspense>
       {inside.length + outside.length > 0 && (
         <ul className="build-messages" aria-label="What the build says">
           {inside.map((one) => (
             <Message key={`${one.line} ${one.column} ${one.text}`} of={one} source={source}>
-              <button className="link" onClick={() => goTo(area.current, one.line - found.firstLine, one.column)}>
-                Line {one.line - found.firstLine + 1} of the function
+              <button
+                className="link"
+                onClick={() =>
+                  setPlace({ line: one.line - firstLine + 1, column: one.column, request: (place?.request ?? 0) + 1 })
+                }
+              >
+                Line {one.line - firstLine + 1} of the function
               </button>
             </Message>
           ))}

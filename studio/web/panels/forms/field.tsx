@@ -1,6 +1,7 @@
 import { useEffect, useId, useRef, type KeyboardEvent } from "react";
 import { useStudio } from "../../hooks/use";
 import { useTyped } from "../../hooks/use_typed";
+import { Term } from "../../canvas/term";
 
 interface FieldProps {
   label: string;
@@ -114,10 +115,13 @@ function Hint({ id, hint, problem }: { id: string; hint: string | undefined; pro
 
 function Label({ id, label, of, tip }: { id: string; label: string; of: string | undefined; tip: string | undefined }) {
   return (
-    <label htmlFor={id} title={tip}>
-      {label}
-      {of && <span className="visually-hidden"> {of}</span>}
-    </label>
+    <div className="label-row">
+      <label htmlFor={id} title={tip}>
+        {label}
+        {of && <span className="visually-hidden"> {of}</span>}
+      </label>
+      <Term of={label} />
+    </div>
   );
 }
 

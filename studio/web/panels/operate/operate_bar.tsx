@@ -10,6 +10,7 @@ export function OperateBar() {
   useEffect(() => studio.operator.lookAtOthers(), [studio]);
   return (
     <header className="operate-bar">
+      <h1 className="visually-hidden">Operate</h1>
       <StopPlace />
       <div className="operate-state">
         <Operated />

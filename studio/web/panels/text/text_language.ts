@@ -10,6 +10,7 @@ import {
 } from "@codemirror/autocomplete";
 import type { EditorState, Extension, Text } from "@codemirror/state";
 import { EditorView, hoverTooltip, keymap, type Tooltip } from "@codemirror/view";
+import { shortcuts } from "../../model/shortcuts";
 import type { LanguageAnswer, LanguageQuestion, Proposal, TextPosition } from "../../model/protocol";
 
 /** Asks the server about the present text of the editor. */
@@ -114,8 +115,8 @@ export function language(ask: Ask): Extension {
     autocompletion({ override: [complete], maxRenderedOptions: 50, interactionDelay: 0, selectOnOpen: false }),
     hoverTooltip(hover),
     keymap.of([
-      { key: "Tab", run: accept },
-      { key: "F12", run: goToDefinition },
+      { key: shortcuts.text.accept.keys[0], run: accept },
+      { key: shortcuts.text.definition.keys[0], run: goToDefinition },
     ]),
   ];
 }

@@ -9,6 +9,7 @@ import { tags } from "@lezer/highlight";
 import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import type { Diagnostic } from "../../model/protocol";
+import { shortcuts } from "../../model/shortcuts";
 import { splice } from "../../model/text/merge";
 import { language } from "./text_language";
 
@@ -38,9 +39,16 @@ export default function TextPane() {
       if (update.docChanged) studio.draft.edit(update.state.doc.toString(), "typing");
     });
     const undo = keymap.of([
-      { key: "Mod-z", run: () => (void studio.editor.undo(), true), preventDefault: true },
-      { key: "Mod-Shift-z", run: () => (void studio.editor.redo(), true), preventDefault: true },
-      { key: "Mod-y", run: () => (void studio.editor.redo(), true), preventDefault: true },
+      ...shortcuts.everywhere.undo.keys.map((key) => ({
+        key,
+        run: () => (void studio.editor.undo(), true),
+        preventDefault: true,
+      })),
+      ...shortcuts.everywhere.redo.keys.map((key) => ({
+        key,
+        run: () => (void studio.editor.redo(), true),
+        preventDefault: true,
+      })),
     ]);
     const extensions = [
       lineNumbers(),

@@ -138,6 +138,25 @@ export class World3d {
     this.renderer.dispose();
   }
 
+  /** Looks from where another view does. */
+  lookAs(other: World3d): void {
+    this.camera.position.copy(other.camera.position);
+    this.turnTo(other.controls.target.clone());
+  }
+
+  /** The world in other poses, as the address of a JPEG picture of the size of the canvas. */
+  picture(poses: Poses): string {
+    const { clientWidth: width, clientHeight: height } = this.canvas;
+    this.poses = poses;
+    this.resize(1);
+    this.camera.aspect = width / height;
+    this.camera.updateProjectionMatrix();
+    this.scene.background = new Color(this.given.background());
+    this.show();
+    this.renderer.render(this.scene, this.camera);
+    return this.canvas.toDataURL("image/jpeg", 0.78);
+  }
+
   /** Moves with a body; -1: with none. */
   follow(body: number): void {
     this.followed = body;

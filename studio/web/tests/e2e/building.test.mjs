@@ -5,7 +5,7 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, draftText, drawn, example, judges, middleOf, near, noProblems, onPage, tab, until } from "./page.mjs";
+import { button, codeText, draftText, drawn, example, judges, middleOf, near, noProblems, onPage, tab, until } from "./page.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "studio-building-"));
 after(() => rmSync(parent, { recursive: true, force: true }));
@@ -73,7 +73,7 @@ test("an error of the build is shown beside its function, with its hint, and a f
       await chip("robot.control.follow");
       const area = page.getByLabel(/^src\/control\.cpp, line \d+$/);
       await area.waitFor();
-      await area.fill((await area.inputValue()).replace("in.line", "in.lin"));
+      await area.fill((await codeText(area)).replace("in.line", "in.lin"));
       await button(page, "Save the function").click();
       await tab(page, "Run").click();
       // The world of this example has a floor, and each of its tracks is offered once.
@@ -85,20 +85,27 @@ test("an error of the build is shown beside its function, with its hint, and a f
       const said = page.getByRole("list", { name: "What the build says" });
       await said.getByText(/error E501: .*no member named 'lin'/).waitFor();
       await said.getByText("Hint: did you mean 'line'?").waitFor();
+      // The mistake is underlined in the text, too.
+      const marked = page.locator(".code-editor .cm-lintRange-error");
+      await marked.waitFor();
+      assert.equal(await marked.innerText(), "lin");
       await said.getByRole("button", { name: "Line 2 of the function" }).click();
-      const [cursor, text] = await area.evaluate((one) => [one.selectionStart, one.value]);
-      assert.match(text.slice(cursor), /^lin,/);
+      const after = await area.evaluate((one) => {
+        const { doc, selection } = one.closest(".code-editor").editor.state;
+        return doc.sliceString(selection.main.head);
+      });
+      assert.match(after, /^lin,/);
       // The behaviour of another subsystem has no errors.
       await chip("robot.motor.drive");
       await page.getByLabel(/^src\/motor\.cpp, line \d+$/).waitFor();
       assert.equal(await said.count(), 0);
       await chip("robot.control.follow");
-      await area.fill((await area.inputValue()).replace("in.lin,", "in.line,"));
+      await area.fill((await codeText(area)).replace("in.lin,", "in.line,"));
       await button(page, "Save the function").click();
       await page.getByRole("textbox", { name: "Name", exact: true }).fill("pursue");
       await page.keyboard.press("Enter");
       await page.getByRole("dialog").getByRole("button", { name: "Rename everywhere" }).click();
-      await until(page, async () => /^void pursue\(/.test(await area.inputValue()), "the function with its new name");
+      await until(page, async () => /^void pursue\(/.test(await codeText(area)), "the function with its new name");
       assert.doesNotMatch(readFileSync(join(root, "src/control.cpp"), "utf8"), /void follow/);
     },
     { server: { copy: false } },
@@ -292,7 +299,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
         const area = page.getByLabel(/^src\/.*line \d+$/);
         await area.waitFor();
         if (!body) return;
-        const text = await area.inputValue();
+        const text = await codeText(area);
         await area.fill(`${text.slice(0, text.indexOf("{") + 1)}\n  ${body}\n}`);
         await button(page, "Save the function").click();
         await button(page, "Discard").waitFor({ state: "detached" });

@@ -3,7 +3,7 @@ import assert from "node:assert/strict";
 import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { test } from "node:test";
-import { button, checked, draftText, drawn, example, folder, onPage, serve, tab, until } from "./page.mjs";
+import { button, checked, codeText, draftText, drawn, example, folder, onPage, serve, tab, until } from "./page.mjs";
 
 const lineFollower = example("01_line_follower");
 const subsystem = '[data-path="robot.control"]';
@@ -19,7 +19,7 @@ async function setRate(page, rate) {
 async function codeOf(page) {
   await tab(page, "Structure").click();
   await page.locator('.chip[data-path="robot.control.follow"]').click();
-  const area = page.locator("section.code textarea");
+  const area = page.locator("section.code").getByRole("textbox");
   await area.waitFor();
   return area;
 }
@@ -105,16 +105,16 @@ test("undo in the C++ undoes the C++ and not the specification, and a reload los
   onPage(lineFollower, async (page) => {
     await setRate(page, "33 Hz");
     const area = await codeOf(page);
-    const before = await area.inputValue();
+    const before = await codeText(area);
     await typeAtBegin(page, area, "X");
     await page.keyboard.press("Control+z");
-    assert.equal(await area.inputValue(), before);
+    assert.equal(await codeText(area), before);
     assert.match(await draftText(page), /33 Hz/);
     await typeAtBegin(page, area, "/* mine */ ");
-    const text = await area.inputValue();
+    const text = await codeText(area);
     await page.reload();
     const again = await codeOf(page);
-    await until(page, async () => (await again.inputValue()) === text, "the C++ is there again");
+    await until(page, async () => (await codeText(again)) === text, "the C++ is there again");
     assert.match(await draftText(page), /33 Hz/);
   }));
 

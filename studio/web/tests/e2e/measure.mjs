@@ -24,7 +24,7 @@ async function bytesOf(page, server) {
   network.on("Network.loadingFinished", ({ encodedDataLength }) => (bytes += encodedDataLength));
   await page.goto(server.url);
   await tab(page, "Net").click();
-  await page.locator(".sheet .page").first().waitFor();
+  await page.locator(".sheet .page, .net-layer").first().waitFor();
   await page.close();
   return bytes;
 }
@@ -36,7 +36,8 @@ async function measureFleet(robots) {
     const loaded = await page.evaluate(
       () =>
         new Promise((done) => {
-          const look = () => (document.querySelector(".sheet .page") ? done(performance.now()) : requestAnimationFrame(look));
+          const look = () =>
+            document.querySelector(".sheet .page, .net-layer") ? done(performance.now()) : requestAnimationFrame(look);
           look();
         }),
     );

@@ -12,11 +12,14 @@ export { environment, serve };
 export const example = (name) => fileURLToPath(new URL(`../../../../examples/${name}`, import.meta.url));
 export const folder = (name) => fileURLToPath(new URL(`./projects/${name}`, import.meta.url));
 
-/** Runs a test on a page of a server for a copy of `project`; fails on errors of the page and on requests to elsewhere. */
+/**
+ * Runs a test on a page of a server for a copy of `project`; fails on errors of the page and on requests to elsewhere.
+ * `first`: this browser has never shown the page, so the tour is offered.
+ */
 export async function onPage(project, test, options = {}) {
   const server = await serve(project, options.server);
   try {
-    await inSharedBrowser((browser) => onServer(browser, server, test));
+    await inSharedBrowser((browser) => onServer(browser, server, test, options));
   } finally {
     await server.close();
   }
@@ -40,12 +43,13 @@ async function slowDown(context) {
     });
 }
 
-async function onServer(browser, server, test) {
+async function onServer(browser, server, test, { first = false }) {
   const context = await browser.newContext({
     viewport: { width: 1440, height: 900 },
     reducedMotion: "reduce",
   });
   await slowDown(context);
+  if (!first) await context.addInitScript(() => location.protocol === "http:" && localStorage.setItem("tessera.visited", "1"));
   const problems = [];
   const open = async (on = server) => {
     const page = await context.newPage();
@@ -188,3 +192,6 @@ export async function judges(page, found) {
     found.push(...violations.map((one) => `${where}: ${one.id} ${one.nodes[0].html.slice(0, 160)}`));
   };
 }
+
+/** The whole text of an editor of C++; empty while another editor takes its place. */
+export const codeText = (area) => area.evaluate((one) => one.closest(".code-editor")?.editor.state.doc.toString() ?? "");

@@ -4,6 +4,7 @@ import { cpSync, mkdtempSync, readFileSync, rmSync, writeFileSync } from "node:f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
+import { faultsOfTexts } from "./texts.mjs";
 import { button, drawn, element, example, folder, middleOf, onNet, onPage, tab } from "./page.mjs";
 
 /** The orchard with names as long as those of real systems. */
@@ -49,23 +50,6 @@ const tooSmall = (page) =>
     return found;
   });
 
-/** Texts of the structure that overlap each other, and lines that are drawn over texts. */
-const drawnOver = () => {
-  const found = [];
-  const seen = (one) => one.checkVisibility({ visibilityProperty: true });
-  const texts = [...document.querySelectorAll(".agent-name .cut, .subsystem-name, .port button, .chip, .channel-label")]
-    .filter(seen)
-    .map((element) => ({ box: element.getBoundingClientRect(), text: element.textContent }));
-  texts.forEach(({ box, text }, at) =>
-    texts.slice(at + 1).forEach((other) => {
-      const wide = Math.min(box.right, other.box.right) - Math.max(box.left, other.box.left);
-      const high = Math.min(box.bottom, other.box.bottom) - Math.max(box.top, other.box.top);
-      if (wide > 0.5 && high > 0.5) found.push(`${text} over ${other.text}`);
-    }),
-  );
-  return found;
-};
-
 for (const [name, project] of Object.entries({ line_follower: example("01_line_follower"), orchard: folder("orchard") }))
   test(`no letters under ten pixels: ${name}`, () =>
     onNet(project, async (page) => {
@@ -98,42 +82,85 @@ for (const [name, project] of Object.entries({ line_follower: example("01_line_f
       }
     }));
 
-for (const [name, project] of Object.entries({
+/** A fleet of a thousand. */
+const thousand = mkdtempSync(join(tmpdir(), "studio-thousand-"));
+after(() => rmSync(thousand, { recursive: true, force: true }));
+writeFileSync(
+  join(thousand, "spec.yaml"),
+  readFileSync(join(folder("fleet"), "spec.yaml"), "utf8").replace("count: 100", "count: 1000"),
+);
+
+const systems = {
   line_follower: example("01_line_follower"),
   orchard: folder("orchard"),
-  "long names": longNames,
-}))
-  test(`no letters under ten pixels in the structure, from the first sight to the nearest: ${name}`, () =>
+  depot: example("05_depot"),
+  "a fleet of a thousand": thousand,
+  "eight agents with long names": folder("long_names"),
+};
+for (const [name, project] of Object.entries(systems))
+  test(`every text of the structure is read whole, at three widths and five zooms: ${name}`, () =>
     onPage(project, async (page) => {
       await tab(page, "Structure").click();
       const first = page.locator(".react-flow__node").first();
-      const all = { size: () => tooSmall(page), faults: () => page.evaluate(drawnOver) };
-      for (const width of [640, 1024, 1440]) {
+      const details = new Set();
+      for (const width of [1440, 1024, 640]) {
         await page.setViewportSize({ width, height: 900 });
+        await button(page, "Overview").click();
         await middleOf(page, first);
-        for (const panel of ["Element", "Verify", "Play", "Run", "Recordings"]) {
-          await tab(page, panel).click();
-          await middleOf(page, first);
-          assert.deepEqual(await all.size(), [], `${panel} at ${width}`);
-        }
-        const names = await page.locator(".agent-name .cut").evaluateAll((them) => them.map((one) => one.checkVisibility()));
-        assert.ok(names.length > 0 && names.every(Boolean), `the names of all agents at ${width}`);
+        const titles = page.locator(".agent-title");
+        assert.ok((await titles.count()) > 0);
         const area = await page.locator(".canvas-area").boundingBox();
-        assert.ok(area.height > 300, `at ${width} the drawing is ${area.height} px high`);
+        assert.ok(area.height > 200, `at ${width} the drawing is ${area.height} px high`);
+        await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
+        // All of it, as far as possible, and then nearer and nearer.
+        for (const steps of [0, 8, -3, -3, -4]) {
+          for (let step = 0; step < Math.abs(steps); step += 1) await page.mouse.wheel(0, Math.sign(steps) * 240);
+          await drawn(page);
+          await middleOf(page, first);
+          const detail = await page.locator(".canvas-area").evaluate((one) => /detail-\w+/.exec(one.className)[0]);
+          details.add(detail);
+          const where = `${detail} at ${width}, after ${steps}`;
+          assert.deepEqual(await page.evaluate(faultsOfTexts), [], where);
+          // Something is left out before it becomes too small, but no box is without its name.
+          const unnamed = await page
+            .locator(".agent-box, .subsystem-box, .device-box")
+            .evaluateAll((all) =>
+              all
+                .filter((one) => one.checkVisibility({ visibilityProperty: true }) && !one.innerText.trim())
+                .map((one) => one.outerHTML.slice(0, 200)),
+            );
+          assert.deepEqual(unnamed, [], where);
+        }
       }
-      const area = await page.locator(".canvas-area").boundingBox();
-      await page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
-      for (let step = 0; step < 30; step += 1) {
-        await page.mouse.wheel(0, step < 10 ? 120 : -120);
-        await drawn(page);
-        assert.deepEqual(await all.size(), [], `step ${step} of the zoom`);
-        assert.deepEqual(await all.faults(), [], `step ${step} of the zoom`);
-      }
-      // Near enough, everything is visible.
-      assert.ok(await page.locator(".canvas-area.detail-all").count());
+      assert.deepEqual([...details].sort(), ["detail-agents", "detail-all", "detail-subsystems"]);
     }));
 
-test("an agent that is double-clicked comes near enough to read what is in it", () =>
+test("a text that is cut, covered, too small or outside of its card is noticed", () =>
+  onPage(example("01_line_follower"), async (page) => {
+    await middleOf(page, page.locator(".subsystem-name").first());
+    const broken = (style) =>
+      page.evaluate((text) => {
+        const name = [...document.querySelectorAll(".subsystem-name")].find((one) => one.textContent === "control");
+        name.style = text;
+      }, style);
+    for (const [style, fault] of [
+      ["font-size: 9px", /px: control$/],
+      ["display: inline-block; width: 20px; overflow: hidden", /^cut: control in subsystem-name/],
+      ["position: relative; top: 16px", /^control over control subsystem|^control subsystem over control/],
+      ["position: relative; left: 120px", /^outside of its subsystem-box/],
+    ]) {
+      await broken(style);
+      const found = await page.evaluate(faultsOfTexts);
+      assert.ok(
+        found.some((one) => fault.test(one)),
+        `${style}: ${found}`,
+      );
+    }
+    await broken("");
+    assert.deepEqual(await page.evaluate(faultsOfTexts), []);
+  }));
+
+test("an agent, and then its subsystem, that is double-clicked comes near enough to read what is in it", () =>
   onPage(folder("orchard"), async (page) => {
     await page.setViewportSize({ width: 1024, height: 900 });
     await tab(page, "Structure").click();
@@ -149,13 +176,16 @@ test("an agent that is double-clicked comes near enough to read what is in it", 
 
 test("a picture of the structure has the lines of a long name as the screen has them, and tips at both ends of a line", () =>
   onPage(longNames, async (page) => {
-    await page.setViewportSize({ width: 1024, height: 900 });
+    await page.setViewportSize({ width: 640, height: 900 });
     await tab(page, "Structure").click();
     await middleOf(page, page.locator(".react-flow__node").first());
+    const lines = await page
+      .locator('.agent-name[data-path="autonomous_fruit_picking_vehicle_north"] .line')
+      .evaluateAll((all) => all.map((one) => one.textContent));
+    assert.equal(lines.join("").startsWith("autonomous_fruit_picking_vehicle_north"), true);
     const [saved] = await Promise.all([page.waitForEvent("download"), button(page, "SVG").click()]);
     const picture = readFileSync(await saved.path(), "utf8");
-    assert.match(picture, />autonomous_fruit_</);
-    assert.doesNotMatch(picture, />autonomous_fruit_picking_vehicle_north</);
+    for (const line of lines) assert.ok(picture.includes(`>${line}<`), line);
     assert.match(picture, /marker-start="url\(&quot;#trunk-tip|marker-start="url\(#trunk-tip|marker-start='url\("#trunk-tip/);
   }));
 

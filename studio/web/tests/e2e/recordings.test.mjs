@@ -64,12 +64,43 @@ test("a recording is saved as a film that shows the same without the studio", ()
     await find(page, "robot.control");
     await until(page, async () => (await page.locator(".sheet [data-place]").count()) > 6, "the net of the subsystem");
     await drawn(page);
-    const saved = page.waitForEvent("download");
+    await page.getByRole("slider", { name: "Time" }).fill(String(0.25e9));
     await button(page, "Film").click();
+    const dialog = page.getByRole("dialog", { name: "Save a film" });
+    // It begins at the moment shown, and tells what cannot be.
+    const from = dialog.getByRole("textbox", { name: "From" });
+    assert.equal(await from.inputValue(), "0.25");
+    await from.fill("7");
+    await dialog.getByText("From and to are times between").waitFor();
+    assert.ok(await button(dialog, "Save film").isDisabled());
+    await from.fill("0.25");
+    const saved = page.waitForEvent("download");
+    await button(dialog, "Save film").click();
     const film = await open();
     const file = join(mkdtempSync(join(tmpdir(), "film-")), "film.html");
+    assert.match((await saved).suggestedFilename(), /_0\.25s-[\d.]+s\.html$/);
     await (await saved).saveAs(file);
+    // It plays by itself, and stands still for those who have asked for less motion.
     await film.goto(`file://${file}`);
+    await button(film, "Play").waitFor();
+    await film.emulateMedia({ reducedMotion: "no-preference" });
+    await film.reload();
+    await until(film, async () => parseFloat(await film.locator("#time").innerText()) > 0.4, "it plays by itself");
+    await film.keyboard.press("End");
+    await button(film, "Play").waitFor();
+    // The world is in it: its picture has more than one colour, and changes.
+    const seen = () =>
+      film.locator("#world").evaluate((canvas) => {
+        const { data } = canvas.getContext("2d").getImageData(0, 0, canvas.width, canvas.height);
+        return { colours: new Set(new Uint32Array(data.buffer)).size, picture: canvas.toDataURL() };
+      });
+    const atEnd = await until(
+      film,
+      async () => (({ colours, ...one }) => colours > 5 && one)(await seen()),
+      "a picture of the world",
+    );
+    await film.keyboard.press("Home");
+    await until(film, async () => (await seen()).picture !== atEnd.picture, "another picture of the world");
     const tokens = (on) =>
       on.evaluate(() =>
         [...document.querySelectorAll("[data-place]")]
@@ -78,7 +109,7 @@ test("a recording is saved as a film that shows the same without the studio", ()
           .sort()
           .join(),
       );
-    const first = Number(await slider.getAttribute("min"));
+    const first = 0.25e9;
     for (const seconds of [0.5, 3.21, 5.9, 1.7]) {
       await slider.fill(String(seconds * 1e9));
       await film.getByRole("slider", { name: "Position" }).fill(String(seconds - first / 1e9));

@@ -106,7 +106,9 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     // The crane goes on while its page is there, and stops with it.
     await page.bringToFront();
     await crane.getByRole("button", { name: "Operate" }).click();
-    await crane.getByRole("slider", { name: "value" }).fill("0.5");
+    const lever = await crane.getByRole("application").boundingBox();
+    await page.mouse.move(lever.x + lever.width / 2, lever.y + lever.height / 4);
+    await page.mouse.down();
     await is({ lever: 0.5 }, "the crane");
     await stick.focus();
     await page.keyboard.down("ArrowUp");
@@ -123,6 +125,197 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     );
     await button(second, "Stop").click();
     await second.locator(".run-state.ended").waitFor();
+  }));
+
+/** Fingers on the screen, by number; `change` moves, adds (a place) or lifts (null) some of them. */
+async function fingersOn(page) {
+  const session = await page.context().newCDPSession(page);
+  await session.send("Emulation.setTouchEmulationEnabled", { enabled: true, maxTouchPoints: 5 });
+  const down = new Map();
+  const send = (type, fingers = down) =>
+    session.send("Input.dispatchTouchEvent", { type, touchPoints: [...fingers].map(([id, [x, y]]) => ({ id, x, y })) });
+  return {
+    session,
+    async put(id, place) {
+      const type = down.has(id) ? "touchMove" : "touchStart";
+      down.set(id, place);
+      await send(type);
+    },
+    async lift(id) {
+      await send("touchEnd", [[id, down.get(id)]]);
+      down.delete(id);
+    },
+    async cancel() {
+      down.clear();
+      await send("touchCancel");
+    },
+  };
+}
+
+test("on the page for operators, fingers, keys and a gamepad move the robot, and whatever ends them brings it to rest", () =>
+  onBuilt(folder("teleoperation"), async (page, server, open) => {
+    const ask = async (path, body) => {
+      const headers = { Authorization: `Bearer ${server.token}` };
+      const sent = body ? { method: "POST", body: JSON.stringify(body) } : {};
+      return (await fetch(new URL(path, server.address), { headers, ...sent })).json();
+    };
+    const tablet = await open();
+    await page.close();
+    await tablet.setViewportSize({ width: 1024, height: 768 });
+    await tablet.addInitScript(() => {
+      window.pad = null;
+      Navigator.prototype.getGamepads = () => [window.pad];
+    });
+    const pad = (axes, ...pressed) =>
+      tablet.evaluate(
+        ([axes, pressed]) => {
+          const buttons = Array.from({ length: 17 }, (_, at) => ({ pressed: pressed.includes(at) }));
+          window.pad = axes && { id: "Pad of the test", mapping: "standard", axes, buttons };
+        },
+        [axes, pressed],
+      );
+    await tablet.goto(server.url.replace("/#", "/operate#"));
+    await tablet.getByText("Nothing runs.").waitFor();
+    const place = await tablet.getByRole("button", { name: "EMERGENCY STOP" }).boundingBox();
+    const { run } = await ask("/api/runs", { kind: "simulate", for: "1000s", speed: 1 });
+    await tablet.getByTestId("operated").getByText("Simulation").waitFor();
+    const stop = tablet.getByRole("button", { name: "STOP THE RUN" });
+    const { x, y, width, height } = await stop.boundingBox();
+    assert.deepEqual([x, y], [place.x, place.y], "the stop is where it always is");
+    assert.ok(height >= 44 && width >= 180);
+
+    const drive = tablet.getByRole("region", { name: "Panel robot.console.drive" });
+    const crane = tablet.getByRole("region", { name: "Panel crane.cabin.lever" });
+    for (const panel of [drive, crane]) {
+      await panel.getByRole("button", { name: "Operate" }).click();
+      await panel.getByRole("button", { name: "Stop operating" }).waitFor();
+    }
+    const is = (wanted, what) =>
+      eventually(async () => {
+        const now = await speeds(server);
+        return Object.entries(wanted).every(([name, value]) =>
+          typeof value === "number" ? Math.abs(now[name] - value) < 0.2 : now[name] === value,
+        );
+      }, what);
+    const at = async (panel, right, up) => {
+      const box = await panel.getByRole("application").boundingBox();
+      return [box.x + (box.width / 2) * (1 + right), box.y + (box.height / 2) * (1 - up)];
+    };
+    const full = 0.5 / 0.03;
+
+    // Two fingers, each on a stick of its own.
+    const fingers = await fingersOn(tablet);
+    await fingers.put(1, await at(drive, 0, 0.5));
+    await fingers.put(2, await at(crane, 0, 0.5));
+    await is({ left: full / 2, right: full / 2, lever: 0.5 }, "both sticks");
+    await fingers.put(1, await at(drive, 0, 1.5));
+    await is({ left: full, lever: 0.5 }, "beyond the edge");
+    await fingers.lift(2);
+    await is({ left: full, lever: 0 }, "one is lifted");
+    await fingers.cancel();
+    await is({ left: 0 }, "the other is taken away by the browser");
+
+    // A finger that was down when the window lost the focus counts again when it is lifted and put down.
+    await fingers.put(1, await at(drive, 0, 1));
+    await is({ left: full }, "ahead");
+    await tablet.evaluate(() => window.dispatchEvent(new Event("blur")));
+    await is({ left: 0 }, "the focus is lost");
+    await fingers.put(1, await at(drive, 0, 0.9));
+    assert.match(await drive.locator("output").innerText(), /forward 0 m\/s/);
+    await fingers.lift(1);
+    await fingers.put(1, await at(drive, 0, 1));
+    await is({ left: full }, "ahead again");
+
+    // A server that cannot be reached.
+    await tablet.route(/\/control$/, (route) => route.abort());
+    await drive.getByRole("alert").getByText("did not answer").waitFor();
+    await is({ left: 0 }, "the controller gives it up");
+    await fingers.lift(1);
+    await tablet.unroute(/\/control$/);
+    for (const panel of [drive, crane])
+      if (await panel.getByRole("button", { name: "Operate" }).count())
+        await panel.getByRole("button", { name: "Operate" }).click();
+
+    // Keys of the whole page, as each stick shows them.
+    await tablet.keyboard.down("w");
+    await tablet.keyboard.down("ArrowDown");
+    await is({ left: full, lever: -1 }, "letters and arrows");
+    await tablet.keyboard.down("Alt");
+    await is({ left: 0, lever: 0 }, "no key is relied on while Alt may hide its release");
+    for (const key of ["Alt", "w", "ArrowDown"]) await tablet.keyboard.up(key);
+
+    // A gamepad: its stick, its buttons, one that must be held, and its plug.
+    await pad([0, 0, 0, 0]);
+    await drive.getByText("Gamepad", { exact: true }).click();
+    await drive.getByText("Pad of the test").waitFor();
+    await pad([0, -1, 0, 0], 0);
+    await is({ left: full, horn: true }, "the left stick and the first button");
+    await pad(null);
+    await is({ left: 0, horn: false }, "it is unplugged");
+    await pad([0, -1, 0, 0]);
+    await drive.getByLabel("forward", { exact: true }).getByText("-1.00").waitFor({ state: "attached" });
+    assert.match(await drive.locator("output").innerText(), /forward 0 m\/s/, "plugged in with its stick pushed");
+    await pad([0, 0, 0, 0]);
+    await drive.getByLabel("Must be held to move anything").selectOption({ label: "left shoulder" });
+    await drive.getByLabel("horn", { exact: true }).selectOption({ label: "right shoulder" });
+    await drive.getByText("hold left shoulder").waitFor();
+    await pad([0, -1, 0, 0], 5);
+    await drive.getByLabel("forward", { exact: true }).getByText("-1.00").waitFor({ state: "attached" });
+    assert.match(await drive.locator("output").innerText(), /forward 0 m\/s/);
+    await pad([0, -1, 0, 0], 4, 5);
+    await is({ left: full, horn: true }, "the button is held");
+    await pad([0, -1, 0, 0], 5);
+    await is({ left: 0, horn: false }, "it is released");
+    await pad(null);
+
+    // Everything can be reached, upright and on its side, and by everybody.
+    const objections = [];
+    const judge = await judges(tablet, objections);
+    for (const [width, height] of [
+      [640, 360],
+      [390, 844],
+      [1440, 900],
+    ]) {
+      await tablet.setViewportSize({ width, height });
+      await judge(`light, ${width}`);
+      await button(tablet, "Dark colours").click();
+      await judge(`dark, ${width}`);
+      await button(tablet, "Dark colours").click();
+      const wrong = await tablet.evaluate(() => {
+        const small = [...document.querySelectorAll("button, select, summary, .stick")].filter((one) => {
+          const { width, height } = one.getBoundingClientRect();
+          const least = one.matches(".stick") ? 160 : 44;
+          return one.checkVisibility() && (width < least || height < least);
+        });
+        return [...small.map((one) => one.outerHTML), ...(document.documentElement.scrollWidth > innerWidth ? ["too wide"] : [])];
+      });
+      objections.push(...wrong.map((one) => `${width}: ${one}`));
+    }
+    assert.deepEqual(objections, []);
+    await tablet.setViewportSize({ width: 1024, height: 768 });
+
+    // Another page sees who operates; and when this one dies with a finger down, the controller rests by itself.
+    const other = await open();
+    await other.goto(server.url.replace("/#", "/operate#"));
+    await other
+      .getByRole("region", { name: "Panel robot.console.drive" })
+      .getByText(/Another page operates it/)
+      .waitFor();
+    await tablet.bringToFront();
+    await fingers.put(1, await at(drive, 0, 1));
+    await is({ left: full }, "ahead");
+    const crashed = tablet.waitForEvent("crash");
+    fingers.session.send("Page.crash").catch(() => undefined);
+    await crashed;
+    const died_ns = (await ask(`/api/runs/${run}`)).t;
+    await is({ left: 0 }, "nobody is there");
+    await other.getByRole("button", { name: "STOP THE RUN" }).click();
+    await other.getByTestId("operated").getByText("ended").waitFor();
+    const [{ name }] = await ask("/api/recordings");
+    const speedsThen = (await ask(`/api/recordings/${name}`)).values["robot.control.wheels.left"];
+    const [rested_ns] = speedsThen.find(([t, value]) => t > died_ns - 1e8 && Math.abs(value) < 1e-6);
+    // Inputs count for 0.5 s; then come two subsystems of 20 Hz, and the time was asked for a little late.
+    assert.ok(rested_ns - died_ns < 0.8e9, `it moved for ${(rested_ns - died_ns) / 1e9} s`);
   }));
 
 test("everything that drives devices is stopped from the page, also past a dialog, until it is reset", () =>

@@ -27,7 +27,13 @@ test("who is stuck is seen and named after one click, and a verified repair mend
       const box = await page.locator(`.lens [data-lens="${path}"]`).boundingBox();
       assert.ok(box.x >= area.x && box.x + box.width <= area.x + area.width && box.y >= area.y, path);
     }
-    assert.equal(await page.locator(".channel-label.stuck").count(), 2);
+    // Both channels between the two are one line, which is open while they are stuck.
+    const bundle = page.locator(".channel-label.bundle.stuck");
+    assert.match(await bundle.getAttribute("title"), /^2 channels between left and right\n/);
+    const wires = await page
+      .locator(".channel.inside.stuck")
+      .evaluateAll((all) => all.map((one) => one.parentElement.dataset.channels));
+    assert.deepEqual([...new Set(wires)].sort(), ["0", "1"]);
     await cause.getByText("How it comes to that").click();
     await cause.getByLabel("The run in words").getByText("waits for the acknowledgement").first().waitFor();
     await cause.getByRole("button", { name: "Find a repair" }).click();
@@ -64,7 +70,7 @@ test("among six agents one click finds the chain of waiting, names it in words, 
           one.textContent,
           one.getBoundingClientRect(),
         ]);
-        const covered = [...document.querySelectorAll(drawn === "Net" ? ".label.frame-name" : ".agent-name .cut")]
+        const covered = [...document.querySelectorAll(drawn === "Net" ? ".label.frame-name" : ".agent-title .line")]
           .filter((one) => one.checkVisibility({ opacityProperty: true, visibilityProperty: true }))
           .map((one) => [one.textContent, one.getBoundingClientRect()]);
         const over = (a, b) => a.left < b.right && b.left < a.right && a.top < b.bottom - 2 && b.top < a.bottom - 2;
@@ -95,7 +101,7 @@ const faults = () => {
   const inside = (box, point) =>
     point.x > box.left + 1 && point.x < box.right - 1 && point.y > box.top + 1 && point.y < box.bottom - 1;
   // Far away, some are left out.
-  const texts = [...document.querySelectorAll(".agent-name .cut, .subsystem-name, .port button, .chip, .channel-label")]
+  const texts = [...document.querySelectorAll(".agent-title, .subsystem-name, .port button, .chip, .channel-label")]
     .filter((element) => element.checkVisibility({ visibilityProperty: true }))
     .map((element) => ({ element, box: element.getBoundingClientRect(), text: element.textContent }));
   texts.forEach(({ box, text }, at) =>
@@ -124,7 +130,11 @@ const faults = () => {
 test("twelve subsystems with twenty-eight channels are drawn without overlap, at any width", () =>
   onPage(folder("orchard"), async (page) => {
     await tab(page, "Structure").click();
-    await page.locator(".channel-label").nth(27).waitFor({ state: "attached" });
+    // Six within agents, and one for each pair of agents.
+    await page
+      .locator(".channel-label")
+      .nth(6 + 13 - 1)
+      .waitFor({ state: "attached" });
     for (const width of [640, 1440]) {
       await page.setViewportSize({ width, height: 900 });
       assert.deepEqual(await page.evaluate(faults), []);

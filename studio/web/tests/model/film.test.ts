@@ -1,8 +1,9 @@
 import { describe, expect, it } from "vitest";
-import { filmPage } from "../../canvas/film_page";
-import { drawnIn, filmOf, type Drawn } from "../../model/run/film";
+import { filmPage } from "../../panels/film/film_page";
+import { drawnIn, filmName, filmOf, type Drawn } from "../../model/run/film";
 import { initialMarking, runningBehaviours, Walk } from "../../model/net/game";
 import { activeTransitions } from "../../model/net/game";
+import { sentenceOf, Teller } from "../../model/run/words";
 import { lineFollower } from "./line_follower";
 
 const net = lineFollower();
@@ -25,6 +26,17 @@ const everything: Drawn = {
   subsystems: [...indices(net.pages)],
 };
 const scenes = { title: "a run", from: initialMarking(net), firings, times: firings.map((_, at) => 5e9 + at * 1e7), begin: 5e9 };
+
+const colours = {
+  accent: "#123",
+  runs: "#456",
+  background: "#fff",
+  surface: "#fff",
+  text: "#000",
+  soft: "#555",
+  line: "#ddd",
+  isDark: false,
+};
 
 describe("a film", () => {
   it("shows the marking of every moment, the pages with tokens inside, and what runs", () => {
@@ -60,8 +72,21 @@ describe("a film", () => {
     const film = filmOf(scenes, net, drawn);
     for (const changes of Object.values(film.effects)) for (const [place] of changes) expect([3, -3]).toContain(place);
   });
+  it("tells each firing in the words of the studio, each sentence once", () => {
+    const { sentences, told, turns, fired } = filmOf(scenes, net, everything);
+    const teller = new Teller(net);
+    expect(told).toHaveLength(fired.length);
+    told.forEach((number, at) => expect(sentences[number]).toBe(sentenceOf(teller.at(fired, at))));
+    expect(turns).toEqual(fired.flatMap((_, at) => (teller.at(fired, at).kind === "step" ? [] : [at + 1])));
+    expect(turns.length).toBeGreaterThan(2);
+    expect(new Set(sentences).size).toBe(sentences.length);
+  });
+  it("is named after its run and its times", () => {
+    expect(filmName("run_2026-11-28_19.42.00.tessera", 1.25e9, 9e9)).toBe("run_2026-11-28_19.42.00_1.25s-9s");
+    expect(filmName("Deadlock of a/b: robot")).toBe("Deadlock_of_a_b_robot");
+  });
   it("is a page that no name can break", () => {
-    const page = filmPage(filmOf({ ...scenes, title: '</script><b>&"' }, net, everything), "<svg/>", "#123", "#456");
+    const page = filmPage(filmOf({ ...scenes, title: '</script><b>&"' }, net, everything), "<svg/>", colours);
     expect(page.match(/<\/script>/g)).toHaveLength(2);
     expect(page).toContain("<title>&#60;/script&#62;&#60;b&#62;&#38;&#34;</title>");
     expect(page).not.toMatch(/https?:/);

@@ -1,0 +1,1 @@
+export function writeDocuments(to: string): void;

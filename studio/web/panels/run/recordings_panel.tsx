@@ -17,7 +17,11 @@ export function RecordingsPanel() {
   const [noted, setNoted] = useState<string | null>(null);
   useEffect(() => void studio.recordings.refresh(), [studio, state]);
   const names = open.map((replay) => replay.name);
-  const show = (name: string, keep: number) => void studio.replay(name, keep);
+  const show = (name: string, keep: number) => {
+    // The net is the drawing that shows two runs.
+    if (keep > 0) studio.view.set({ view: "net" });
+    void studio.replay(name, keep);
+  };
   const titleOf = (name: string) => list.find((one) => one.name === name)?.notes?.title || name;
   const found = recordingsWith(list, words);
   return (

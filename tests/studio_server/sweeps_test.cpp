@@ -60,7 +60,7 @@ TEST_F(SweepOfTheStudio, RefusesWhatTheParameterCannotBe) {
   const server::Analysis analysis = server::analyse("spec.yaml", R"(tessera: 1
 system: one
 parameters: { v: { default: 0.2 m/s, min: 0, max: 1 }, n: 3, on: true }
-agents: { robot: { control: { behaviours: { a: {} } } } }
+agents: { robot: { control: { rate: 10 Hz, behaviours: { a: {} } } } }
 )");
   ASSERT_TRUE(analysis.model) << analysis.net_hash;
   const auto wrong = [&](const std::string& parameter, std::vector<std::string> values,

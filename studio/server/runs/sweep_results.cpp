@@ -53,7 +53,7 @@ SweepRow SweepRow::of_summary(const json& summary) {
   }
   const json checks = summary.value("checks", json::array());
   for (const json& check : checks) {
-    // Of a check that waits for something: when it came.
+    // A check that waits for something was decided when it came.
     const std::string name = "time of: " + check.value("name", "");
     row.numbers[name] = check.value("verdict", "") == "open" ? std::nullopt : number_of(check, "time_s");
     row.units[name] = "s";

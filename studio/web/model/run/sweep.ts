@@ -1,6 +1,6 @@
 import type { ParameterShown, SweepRow } from "../protocol";
 
-/** What the user has typed for a sweep. */
+/** The fields of a sweep as the user has typed them. */
 export interface SweepTyped {
   /** Path; empty: only the seeds differ. */
   parameter: string;
@@ -87,7 +87,7 @@ export interface SweptPoint {
   x: number;
   runs: number;
   failed: number;
-  /** Of the runs that took the measure; null: none did. */
+  /** Facts about the runs that took the measure; null: none did. */
   numbers: { min: number; mean: number; max: number; std: number; count: number } | null;
 }
 
@@ -118,7 +118,7 @@ function factsOf(numbers: readonly number[]): SweptPoint["numbers"] {
   for (const one of numbers) [min, max, sum] = [Math.min(min, one), Math.max(max, one), sum + one];
   const mean = sum / numbers.length;
   const squares = numbers.reduce((all, one) => all + (one - mean) ** 2, 0);
-  // Of a sample: the true mean is not known.
+  // It is that of a sample: the true mean is not known.
   const std = numbers.length > 1 ? Math.sqrt(squares / (numbers.length - 1)) : 0;
   return { min, mean, max, std, count: numbers.length };
 }

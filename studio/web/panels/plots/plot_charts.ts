@@ -9,7 +9,7 @@ export interface DrawnLine {
   name: string;
   unit: string;
   colour: string;
-  /** Of the run: drawn through, or dashed. */
+  /** The dashes of its run; none: a line without gaps. */
   dash: readonly number[];
   curve?: Curve;
   states?: { changes: States; shift: number; until: number };

@@ -14,7 +14,7 @@ const bytes = (text: string) => new TextEncoder().encode(text).length;
 export function RecordingNotes({ recording, replay }: { recording: RecordingInfo; replay: Replay | null }) {
   const studio = useStudio();
   const known = recording.notes ?? none;
-  // What is typed stays when the notes change elsewhere.
+  // The typed text stays when the notes change elsewhere.
   const [typed, setTyped] = useState<Partial<Pick<Notes, "title" | "text">>>({});
   const [mark, setMark] = useState("");
   const [problem, setProblem] = useState("");

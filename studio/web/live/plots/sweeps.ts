@@ -1,7 +1,7 @@
-import type { ParameterShown, SweepEvent, SweepRequest, SweepRow } from "../model/protocol";
-import { type Api, message } from "./api";
-import type { Connection } from "./stream/connection";
-import { Store } from "./store";
+import type { ParameterShown, SweepEvent, SweepRequest, SweepRow } from "../../model/protocol";
+import { type Api, message } from "../api";
+import type { Connection } from "../stream/connection";
+import { Store } from "../store";
 
 export interface SweepsState {
   parameters: readonly ParameterShown[];

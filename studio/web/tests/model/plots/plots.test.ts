@@ -1,12 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { plotsOf } from "../../live/plots";
-import { ageOf, ArrivalLog, rateOf } from "../../model/plots/arrivals";
-import { bandsOf, drawnCurves, type Curve } from "../../model/plots/drawn_curves";
-import { statesOf } from "../../model/plots/plotted_runs";
-import { chartsOf, signalOf, titleOf } from "../../model/plots/signals";
-import { statisticsOf, valueAt } from "../../model/plots/statistics";
-import { csvOf } from "../../model/run/csv";
-import { Series } from "../../model/run/series";
+import { plotsOf } from "../../../live/plots/plots";
+import { ageOf, ArrivalLog, rateOf } from "../../../model/plots/arrivals";
+import { bandsOf, drawnCurves, type Curve } from "../../../model/plots/drawn_curves";
+import { statesOf } from "../../../model/plots/plotted_runs";
+import { chartsOf, signalOf, titleOf } from "../../../model/plots/signals";
+import { statisticsOf, valueAt } from "../../../model/plots/statistics";
+import { csvOf } from "../../../model/run/csv";
+import { Series } from "../../../model/run/series";
 
 const s = 1e9;
 const curve = (times: number[], values: number[], more: Partial<Curve> = {}): Curve => ({

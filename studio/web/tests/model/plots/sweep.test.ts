@@ -1,8 +1,8 @@
 import { describe, expect, it } from "vitest";
-import type { ParameterShown, RecordingInfo, SweepRow } from "../../model/protocol";
-import { firstDifference, type ComparedRun } from "../../model/run/first_difference";
-import { recordingsWith } from "../../model/run/recording_search";
-import { Series } from "../../model/run/series";
+import type { ParameterShown, RecordingInfo, SweepRow } from "../../../model/protocol";
+import { firstDifference, type ComparedRun } from "../../../model/run/first_difference";
+import { recordingsWith } from "../../../model/run/recording_search";
+import { Series } from "../../../model/run/series";
 import {
   distributionOf,
   measuresOf,
@@ -11,7 +11,7 @@ import {
   sweptPoints,
   sweptValues,
   type SweepTyped,
-} from "../../model/run/sweep";
+} from "../../../model/run/sweep";
 
 const parameter = (path: string, more: Partial<ParameterShown> = {}): ParameterShown => ({
   path,

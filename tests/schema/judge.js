@@ -50,7 +50,7 @@ function judgeExchange({ method, target, status, body, answer }) {
   if (status === 503 && answer === '') return ''; // too busy for words
   if (status >= 400) {
     const isConflict = name?.startsWith('PUT ') && status === 409;
-    return wrongWith(parsed(answer), 'studio', '$defs', isConflict ? 'Conflict' : 'Refusal');
+    return wrongWith(parsed(answer), 'studio', '$defs', isConflict ? (name.endsWith('/notes') ? 'NotesConflict' : 'Conflict') : 'Refusal');
   }
   if (!name) return 'the schema does not know this request';
   const isText = 'contentMediaType' in schemas.studio.$defs.Requests.properties[name].properties.answer;

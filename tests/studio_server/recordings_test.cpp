@@ -127,6 +127,88 @@ TEST_F(RecordingOfTheStudio, OneInSegmentsIsOneAndBeginsWithTheMarkingOfTheFirst
   EXPECT_EQ(get("/api/recordings/alone.7.tsr").status, 404);
 }
 
+TEST_F(RecordingOfTheStudio, SaysWhenInputsGotNewValuesAndWhereADeviceGivesNone) {
+  const auto input = [](std::int64_t time_ns, std::uint32_t flags, std::int64_t written_ns, char left) {
+    std::string bytes(reinterpret_cast<const char*>(&written_ns), sizeof written_ns);
+    if ((flags & ValueFlags::same) == 0) bytes += left;
+    return event(time_ns, Event::Kind::value, static_cast<std::uint32_t>(bytes.size()), bytes,
+                 (flags | ValueFlags::stamped) << 24U);
+  };
+  constexpr std::uint32_t news = ValueFlags::valid | ValueFlags::fresh;
+  write(folder_ / "project/run.tsr",
+        header(0) + input(10, news, 4, 1) + input(20, ValueFlags::valid | ValueFlags::same, 4, 1) +
+            input(30, news | ValueFlags::same, 28, 1) + input(40, ValueFlags::same, 28, 1) +
+            event(50, Event::Kind::value, 0, "", ValueFlags::silent << 24U) + firing(60, 0) + end(false));
+  serve();
+  const json whole = get("/api/recordings/run.tsr").json();
+  EXPECT_EQ(whole.at("arrivals"),
+            json({{"robot.control.line", {{10, 4, true}, {30, 28, true}, {40, 28, false}}}}));
+  const json& left = whole.at("values").at("robot.control.line.left");
+  EXPECT_EQ(left.back(), json({50, nullptr})) << left;
+  EXPECT_EQ(get("/api/recordings/run.tsr?from=35&to=100").json().at("arrivals"),
+            json({{"robot.control.line", {{40, 28, false}}}}));
+}
+
+TEST_F(RecordingOfTheStudio, KeepsWhatTheUserSaysAboutIt) {
+  const fs::path folder = folder_ / "project/.tessera/runs/20261128-101010-simulate-1";
+  write(folder / "recording.tsr", header(0) + firing(10, 0) + end(false));
+  serve();
+  const std::string name = folder.filename().string(), path = "/api/recordings/" + name + "/notes";
+  EXPECT_TRUE(get("/api/recordings").json().at(0).at("notes").is_null());
+  const json notes{{"title", "slow \"start\""}, {"text", "two\nlines"}, {"revision", ""}};
+  json given = notes;
+  given["marks"] = {{{"t", 7}, {"text", "here"}}};
+  const Reply kept = put(path, given);
+  ASSERT_EQ(kept.status, 200) << kept.body;
+  const json listed = get("/api/recordings").json().at(0).at("notes");
+  EXPECT_EQ(listed, kept.json().at("notes"));
+  EXPECT_EQ(listed.at("title"), "slow \"start\"");
+  EXPECT_EQ(listed.at("marks"), json::array({{{"t", 7}, {"text", "here"}}}));
+  EXPECT_TRUE(fs::exists(folder / "recording.tsr.notes.json"));
+  // It is not removed when it is old.
+  EXPECT_TRUE(fs::exists(folder / "keep"));
+  // Another tab knows older notes.
+  const Reply late = put(path, given);
+  EXPECT_EQ(late.status, 409);
+  EXPECT_EQ(late.json().at("notes"), listed);
+  for (const auto& [member, wrong] :
+       {std::pair<std::string, json>{"title", std::string(201, 'x')},
+        {"title", "two\nlines"},
+        {"text", std::string(10'001, 'x')},
+        {"text", 7},
+        {"marks", json::array({7})},
+        {"marks", json::array({{{"t", "now"}, {"text", ""}}})},
+        {"marks", json::array({{{"t", 7}, {"text", std::string(501, 'x')}}})}}) {
+    json bad = given;
+    bad["revision"] = listed.at("revision");
+    bad[member] = wrong;
+    EXPECT_EQ(put(path, bad).status, 400) << member;
+  }
+  EXPECT_EQ(put("/api/recordings/nothing/notes", given).status, 404);
+  EXPECT_EQ(put("/api/recordings/..%2f..%2fspec.yaml/notes", given).status, 404);
+  EXPECT_EQ(
+      put(path, {{"title", ""}, {"text", ""}, {"revision", listed.at("revision")}, {"marks", json::array()}})
+          .status,
+      200);
+  EXPECT_FALSE(fs::exists(folder / "recording.tsr.notes.json"));
+  EXPECT_FALSE(fs::exists(folder / "keep"));
+}
+
+TEST_F(RecordingOfTheStudio, NotesOfOthersAndLinksAreNotReplaced) {
+  write(folder_ / "project/run.tsr", header(0) + firing(10, 0) + end(false));
+  write(folder_ / "project/run.tsr.notes.json", "by hand");
+  write(folder_ / "elsewhere.json", "{}");
+  serve();
+  const json given{{"title", "x"}, {"text", ""}, {"marks", json::array()}, {"revision", "?"}};
+  EXPECT_NE(get("/api/recordings").json().at(0).at("notes").at("problem"), "");
+  EXPECT_EQ(put("/api/recordings/run.tsr/notes", given).status, 409);
+  EXPECT_EQ(content_of(folder_ / "project/run.tsr.notes.json"), "by hand");
+  fs::remove(folder_ / "project/run.tsr.notes.json");
+  fs::create_symlink(folder_ / "elsewhere.json", folder_ / "project/run.tsr.notes.json");
+  EXPECT_EQ(put("/api/recordings/run.tsr/notes", given).status, 409);
+  EXPECT_EQ(content_of(folder_ / "elsewhere.json"), "{}");
+}
+
 TEST_F(RecordingOfTheStudio, FromAMomentOnHasTheMarkingAndTheValuesOfThatMoment) {
   const std::uint32_t first = transition("t_in"), second = transition("robot.t_in");
   write(folder_ / "project/run.tsr", header(0) + value("\1") + memory(5, 1) + firing(10, first) +

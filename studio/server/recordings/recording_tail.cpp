@@ -52,7 +52,8 @@ RecordingTail::Segment::Segment(std::shared_ptr<const Recording> its_recording, 
       transitions(names.transitions_of(*recording)),
       values(*recording),
       has_changed(recording->buffers.size()),
-      lost(recording->buffers.size()) {}
+      lost(recording->buffers.size()),
+      invalid(recording->buffers.size()) {}
 
 RecordingTail::RecordingTail(RecordingStream::Source source, const net::Net& net, Reached* reached)
     : names_(net), stream_(std::move(source)), tokens_(net), reached_(reached) {}
@@ -92,10 +93,12 @@ void RecordingTail::keep_value(Batch& batch, const Recording::Entry& entry) {
   if (!change) return;
   const ValueEvent& event = change->event;
   if (!event.has(ValueFlags::same)) arrays_.take(*change);
-  const bool is_news = event.has(ValueFlags::fresh) || !event.has(ValueFlags::valid);
-  if (event.has(ValueFlags::stamped) && is_news)
-    batch.arrivals.push_back(
-        {change->buffer.path, entry.event.time_ns, event.stamp_ns, event.has(ValueFlags::valid)});
+  const bool valid = event.has(ValueFlags::valid);
+  // Of the reads of an input that holds no valid value, only the first says something.
+  const bool begins_invalid = event.has(ValueFlags::stamped) && !valid && !segment_->invalid[change->number];
+  if (event.has(ValueFlags::stamped)) segment_->invalid[change->number] = !valid;
+  if (event.has(ValueFlags::stamped) && (event.has(ValueFlags::fresh) || begins_invalid))
+    batch.arrivals.push_back({change->buffer.path, entry.event.time_ns, event.stamp_ns, valid});
   const bool lost = event.has(ValueFlags::silent | ValueFlags::failed);
   const bool as_before = event.has(ValueFlags::same) && lost == segment_->lost[change->number];
   segment_->lost[change->number] = lost;

@@ -117,6 +117,7 @@ class RecordingTail {
     std::deque<std::uint32_t> changed;  // indices of buffers
     std::vector<bool> has_changed;      // per buffer
     std::vector<bool> lost;             // per buffer: the device gives no value
+    std::vector<bool> invalid;          // per buffer: an input that holds no valid value
   };
   void keep(Batch& batch, const Recording::Entry& entry);
   void keep_value(Batch& batch, const Recording::Entry& entry);

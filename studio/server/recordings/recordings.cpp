@@ -104,8 +104,12 @@ class ValueSeries {
 
   void arrived(const replay::ValueTrack::Change& change, std::int64_t time_ns) {
     const ValueEvent& event = change.event;
-    const bool is_news = event.has(ValueFlags::fresh) || !event.has(ValueFlags::valid);
-    if (!event.has(ValueFlags::stamped) || !is_news) return;
+    if (!event.has(ValueFlags::stamped)) return;
+    const bool valid = event.has(ValueFlags::valid);
+    // Of the reads of an input that holds no valid value, only the first says something.
+    const bool begins_invalid = !valid && invalid_.insert(change.number).second;
+    if (valid) invalid_.erase(change.number);
+    if (!event.has(ValueFlags::fresh) && !begins_invalid) return;
     if (++samples_ > Recordings::most_samples) return;
     arrivals_[change.buffer.path].push_back({time_ns, event.stamp_ns, event.has(ValueFlags::valid)});
   }
@@ -144,6 +148,7 @@ class ValueSeries {
   std::size_t samples_ = 0;
   json series_ = json::object(), arrivals_ = json::object();
   std::map<std::uint32_t, std::set<std::string>> paths_;  // of the curves of a buffer
+  std::set<std::uint32_t> invalid_;                       // inputs that hold no valid value
 };
 
 /// The part of a recording that is shown.

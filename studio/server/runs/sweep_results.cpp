@@ -43,21 +43,24 @@ SweepRow SweepRow::of_summary(const json& summary) {
   SweepRow row;
   row.failed = summary.value("failed", false);
   row.ended = summary.value("ended", "");
-  for (const auto& [name, measure] : summary.value("measures", json::object()).items()) {
+  const json measures = summary.value("measures", json::object());
+  for (const auto& [name, measure] : measures.items()) {
     for (const char* part : {"mean", "least", "greatest", "last"}) {
       const std::string whole = name + ", " + part;
       row.numbers[whole] = measure.is_object() ? number_of(measure, part) : std::nullopt;
       if (measure.is_object() && measure.contains("unit")) row.units[whole] = measure.value("unit", "");
     }
   }
-  for (const json& check : summary.value("checks", json::array())) {
-    // Of a check that waits for something: when it came.
+  const json checks = summary.value("checks", json::array());
+  for (const json& check : checks) {
+    // A check that waits for something was decided when it came.
     const std::string name = "time of: " + check.value("name", "");
     row.numbers[name] = check.value("verdict", "") == "open" ? std::nullopt : number_of(check, "time_s");
     row.units[name] = "s";
   }
   double overruns = 0, errors = 0;
-  for (const json& subsystem : summary.value("subsystems", json::array())) {
+  const json subsystems = summary.value("subsystems", json::array());
+  for (const json& subsystem : subsystems) {
     overruns += number_of(subsystem, "overruns").value_or(0);
     errors += number_of(subsystem, "errors").value_or(0);
   }

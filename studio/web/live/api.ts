@@ -1,5 +1,15 @@
 import type { Positions } from "../model/structure/moved_boxes";
-import type { BoxPositions, ControlRequest, Edit, LanguageQuestion, Operators, Requests, RunRequest } from "../model/protocol";
+import type {
+  BoxPositions,
+  ControlRequest,
+  Edit,
+  LanguageQuestion,
+  NotesRequest,
+  Operators,
+  Requests,
+  RunRequest,
+  SweepRequest,
+} from "../model/protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -167,6 +177,12 @@ export class Api {
   /** The scans and pictures of a recording between two times. */
   arrays = (name: string, from: number, to: number) =>
     this.ask("GET /api/recordings/NAME/arrays", { of: name, query: { from: String(from), to: String(to) } });
+  /** Replaces the name, the text and the marks of a recording. */
+  saveNotes = (name: string, notes: NotesRequest) => this.ask("PUT /api/recordings/NAME/notes", { of: name, body: notes });
+  sweeps = () => this.ask("GET /api/sweeps");
+  sweep = (sweep: string) => this.ask("GET /api/sweeps/JOB", { of: sweep });
+  startSweep = (request: SweepRequest) => this.ask("POST /api/sweeps", { body: request });
+  stopSweep = (sweep: string) => this.ask("DELETE /api/sweeps/JOB", { of: sweep });
   /** The devices of the simulated world that give scans and pictures. */
   views = () => this.ask("GET /api/views");
   /** The parts of the specification's net that a recording, or a run so far, has reached. */

@@ -1,8 +1,8 @@
 import type { NetModel } from "../model/net/net";
-import { type Api, message } from "./api";
+import { type Api, ApiError, message } from "./api";
 import { RecordedArrays } from "./arrays";
 import type { Draft } from "./draft";
-import type { Recording, RecordingInfo } from "../model/protocol";
+import type { Notes, NotesRequest, Recording, RecordingInfo } from "../model/protocol";
 import { Replay } from "./replay";
 import { Store } from "./store";
 import { RecordedWorld } from "./world";
@@ -28,6 +28,20 @@ export class Recordings {
       this.store.set({ list: await this.api.recordings(), problem: "" });
     } catch (error) {
       this.store.set({ problem: message(error) });
+    }
+  }
+
+  /** Keeps what the user says about a recording. Returns why it is not kept; empty: it is. */
+  async saveNotes(name: string, notes: NotesRequest): Promise<string> {
+    const put = (now: Notes | null) =>
+      this.store.set({ list: this.store.get().list.map((one) => (one.name === name ? { ...one, notes: now } : one)) });
+    try {
+      put((await this.api.saveNotes(name, notes)).notes);
+      return "";
+    } catch (error) {
+      // What somebody else has written is the base of the next try.
+      if (error instanceof ApiError && error.status === 409) put((error.body.notes ?? null) as Notes | null);
+      return message(error);
     }
   }
 

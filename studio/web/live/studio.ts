@@ -14,8 +14,8 @@ import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
 import { Operator } from "./operator";
 import { Play } from "./play";
-import { PlottedRecordings } from "./plotted";
-import { Plots } from "./plots";
+import { PlottedRecordings } from "./plots/plotted";
+import { Plots } from "./plots/plots";
 import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
@@ -31,6 +31,7 @@ import { Scene } from "./scene";
 import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
+import { Sweeps } from "./plots/sweeps";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
 
@@ -77,6 +78,7 @@ export class Studio {
   readonly deployment = new Deployment(this.runner, this.connection);
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
+  readonly sweeps = new Sweeps(this.api, this.connection);
   readonly plots = new Plots();
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);

@@ -87,11 +87,13 @@ export class Track {
     for (const [path, value] of Object.entries(values)) this.series.add(time, path, value);
   }
 
-  /** What came through channels. An input whose last value is not valid has a gap. dropped: some are not listed. */
+  /** New values came through channels. An input whose last value is not valid has a gap. dropped: some are not listed. */
   arrived(arrivals: Readonly<Record<string, readonly Arrival[]>>, dropped = 0): void {
     if (dropped > 0) this.arrivals.interrupt(this.now);
     for (const [path, rows] of Object.entries(arrivals))
       for (const [time, written, valid] of rows) {
+        // An input that nobody has sent to yet is read again and again.
+        if (!valid && this.arrivals.isInvalid(path)) continue;
         if (!valid) this.series.lose(time, path);
         else if (this.arrivals.isInvalid(path)) this.series.regain(time, path);
         this.arrivals.add(path, time, written, valid);

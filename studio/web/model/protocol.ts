@@ -1259,3 +1259,10 @@ export interface Conflict {
   error: string;
   hint: string;
 }
+/** 409 of `PUT /api/recordings/NAME/notes`: somebody else has changed the notes, or they cannot be read. */
+export interface NotesConflict {
+  error: string;
+  hint: string;
+  /** As they are on disk. */
+  notes: Notes | null;
+}

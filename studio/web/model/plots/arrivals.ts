@@ -93,7 +93,7 @@ export function rateOf({ times, written, valid }: Arrivals, end: number): Sample
     if (time >= begin + second) add(time, at - left + 1);
   });
   until(end, come.length);
-  // What left the second before the first whole one is no rate, either.
+  // Before the first whole second there is no rate, either.
   const first = count(rate.times, (time) => time < begin + second);
   return { times: rate.times.slice(first), values: rate.values.slice(first) };
 }

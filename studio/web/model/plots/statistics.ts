@@ -52,7 +52,8 @@ export function statisticsOf(samples: Samples, from: number, to: number, course:
   };
   let [time, value] = [from, valueAt(samples, from, course)];
   for (let at = first; at < last; at += 1) {
-    if (!Number.isNaN(values[at]!)) samplesInside += 1;
+    // An age that drops has two samples at one time.
+    if (!Number.isNaN(values[at]!) && times[at + 1] !== times[at]) samplesInside += 1;
     piece(time, times[at]!, value, values[at]!);
     if (!Number.isNaN(values[at]!)) take(values[at]!);
     [time, value] = [times[at]!, values[at]!];

@@ -22,10 +22,14 @@ export class Series {
   /** The number of samples so far, also of those that are not kept. */
   size = 0;
 
+  private sorted: readonly string[] = [];
+
   constructor(private readonly limit = most) {}
 
-  get paths(): string[] {
-    return [...this.all.keys()].sort();
+  get paths(): readonly string[] {
+    // A fleet has thousands, and no path ever goes.
+    if (this.sorted.length !== this.all.size) this.sorted = [...this.all.keys()].sort();
+    return this.sorted;
   }
 
   /** All values over time, texts too; undefined: there is no valid value. */

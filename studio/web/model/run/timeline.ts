@@ -12,6 +12,8 @@ export interface Lane {
   subsystem: number;
   segments: Segment[];
   firings: number[];
+  /** The times at which it called a transition function: the begin of each iteration. */
+  calls: number[];
   /** Its behaviours, in the order of the specification. */
   behaviours: string[];
   /** The time from which all segments are kept. */
@@ -37,6 +39,8 @@ export class Timeline {
   private readonly laneOf = new Map<number, number>();
   /** For transitions that have fired, the behaviour into which they put a token. */
   private readonly entered = new Map<number, string>();
+  /** The same: whether they begin an iteration. */
+  private readonly calling = new Map<number, boolean>();
 
   constructor(
     private readonly net: NetModel,
@@ -46,7 +50,7 @@ export class Timeline {
       const { path, subsystem } = net.page(page);
       if (subsystem !== null) this.laneOf.set(subsystem, lane);
       const behaviours = behaviourNames(net, page);
-      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], behaviours, since: -Infinity };
+      return { path, subsystem: subsystem ?? -1, segments: [], firings: [], calls: [], behaviours, since: -Infinity };
     });
   }
 
@@ -60,11 +64,22 @@ export class Timeline {
     return known;
   }
 
+  private calls(transition: number): boolean {
+    let known = this.calling.get(transition);
+    if (known === undefined) {
+      const { outputs } = this.net.transitions.at(transition)!;
+      known = outputs.some(({ place }) => this.net.places.at(place)!.operation?.kind === "transition_function");
+      this.calling.set(transition, known);
+    }
+    return known;
+  }
+
   add(time: number, transition: number): void {
     const subsystem = this.net.transitions.at(transition)?.subsystem;
     const lane = subsystem === null || subsystem === undefined ? undefined : this.lanes[this.laneOf.get(subsystem) ?? -1];
     if (!lane) return;
     bounded(lane.firings, this.limit).push(time);
+    if (this.calls(transition)) bounded(lane.calls, this.limit).push(time);
     this.enter(lane, time, this.enteredBy(transition));
   }
 

@@ -9,7 +9,7 @@ export interface DrawnLine {
   name: string;
   unit: string;
   colour: string;
-  /** Of the run: drawn through, or dashed. */
+  /** The dashes of its run; none: a line without gaps. */
   dash: readonly number[];
   curve?: Curve;
   states?: { changes: States; shift: number; until: number };
@@ -151,7 +151,12 @@ export class PlotCharts {
         width,
         height,
         legend: { show: false },
-        padding: [8, hasRight && right === null ? side + labelSize : 10, last ? 0 : 2, left === undefined ? side + labelSize : 0],
+        padding: [
+          8,
+          hasRight && right === null ? side + labelSize + 10 : 10,
+          last ? 0 : 2,
+          left === undefined ? side + labelSize : 0,
+        ],
         cursor: { sync: { key: this.sync.key }, y: false, drag: { x: false, y: false }, points: { show: curves.length > 0 } },
         select: { show: true, left: 0, top: 0, width: 0, height: 0 },
         scales: {
@@ -263,6 +268,12 @@ export class PlotCharts {
     context.restore();
   }
 
+  /** Two keys or turns of the wheel may come before the page draws again: the second begins where the first has led. */
+  private show(from: number, to: number): void {
+    this.drawing = { ...this.drawing!, from, to };
+    this.acts.onSpan(from, to);
+  }
+
   private timeAt(plot: uPlot, pixels: number): number {
     const { from, to } = this.drawing!;
     return from + (pixels / plot.over.clientWidth) * (to - from);
@@ -272,14 +283,14 @@ export class PlotCharts {
     const { from, to } = this.drawing!;
     const length = Math.max(shortest, (to - from) * factor);
     const begin = at - ((at - from) / (to - from)) * length;
-    this.acts.onSpan(begin, begin + length);
+    this.show(begin, begin + length);
   }
 
   /** Keys: arrows move, + and - zoom, Home shows all. Returns whether the key has a meaning. */
   key(key: string): boolean {
     if (!this.drawing) return false;
     const { from, to } = this.drawing;
-    const by = (part: number) => this.acts.onSpan(from + part * (to - from), to + part * (to - from));
+    const by = (part: number) => this.show(from + part * (to - from), to + part * (to - from));
     if (key === "ArrowLeft") by(-0.1);
     else if (key === "ArrowRight") by(0.1);
     else if (key === "PageUp") by(-0.9);
@@ -301,7 +312,7 @@ export class PlotCharts {
         const { from, to } = this.drawing!;
         if (event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY)) {
           const by = (((event.deltaX || event.deltaY) / 400) * (to - from)) / 2;
-          this.acts.onSpan(from + by, to + by);
+          this.show(from + by, to + by);
         } else this.zoom(this.timeAt(plot, here(event)), 1.0016 ** event.deltaY);
       },
       { passive: false },
@@ -322,7 +333,7 @@ export class PlotCharts {
           plot.setSelect({ left: Math.min(start, start + by), top: 0, width: Math.abs(by), height: over.clientHeight }, false);
         else {
           const shift = (-by / over.clientWidth) * (to - from);
-          this.acts.onSpan(from + shift, to + shift);
+          this.show(from + shift, to + shift);
         }
       };
       const up = (event: PointerEvent) => {
@@ -334,7 +345,7 @@ export class PlotCharts {
         if (!moved) this.acts.onCursor(event.shiftKey || event.altKey ? 1 : 0, this.timeAt(plot, end));
         else if (chosen) {
           plot.setSelect({ left: 0, top: 0, width: 0, height: 0 }, false);
-          this.acts.onSpan(this.timeAt(plot, Math.min(start, end)), this.timeAt(plot, Math.max(start, end)));
+          this.show(this.timeAt(plot, Math.min(start, end)), this.timeAt(plot, Math.max(start, end)));
         }
       };
       over.addEventListener("pointermove", move);

@@ -1,5 +1,5 @@
-import type { Source } from "../../live/plotted";
-import type { PlotKept } from "../../live/plots";
+import type { Source } from "../../live/plots/plotted";
+import type { PlotKept } from "../../live/plots/plots";
 import { curveOf, statesOf } from "../../model/plots/plotted_runs";
 import { keyOf, titleOf, unitOfSignal, type Signal } from "../../model/plots/signals";
 import { statisticsOf, valueAt, type Statistics } from "../../model/plots/statistics";
@@ -16,7 +16,7 @@ export interface PlotLine extends DrawnLine {
 
 const light = ["#1b6ca8", "#b4540a", "#1f7a44", "#7d3fb2", "#b3261e", "#0f7373", "#7a6200", "#4a5560"];
 const dark = ["#6cb6ee", "#e09a55", "#6ecb92", "#c79bec", "#ff8a80", "#5fd0cf", "#d8c64d", "#b9c3cd"];
-/** Of the first, second, … run. */
+/** The dashes of the first, second, … run. */
 const dashes: readonly (readonly number[])[] = [[], [6, 4], [2, 3], [8, 3, 2, 3], [12, 4]];
 
 /** All lines of a plot: each signal in each run that has it. */

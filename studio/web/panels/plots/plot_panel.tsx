@@ -1,7 +1,7 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { useStructure } from "../../hooks/use_structure";
-import type { Source } from "../../live/plotted";
+import type { Source } from "../../live/plots/plotted";
 import { signalOf } from "../../model/plots/signals";
 import { IconButton } from "../icons";
 import type { Drawing, Flag, PlotCharts } from "./plot_charts";
@@ -9,7 +9,7 @@ import { plotLines } from "./plot_lines";
 import { PlotTable } from "./plot_table";
 import { PlotTools } from "./plot_tools";
 
-/** What is visible: the last seconds, all of it, or a span that the user has chosen. */
+/** The visible time: the last seconds, all of it, or a span that the user has chosen. */
 export type Span = { last: number } | "all" | { from: number; to: number };
 
 /** Milliseconds between two pictures of a run that goes on. */
@@ -124,16 +124,18 @@ export function PlotPanel() {
         picture={() => charts?.picture()}
       />
       {(problem || loading.problem) && <p className="problem-hint pad">{problem || loading.problem}</p>}
-      <div
-        className="plot-charts"
-        ref={root}
-        tabIndex={0}
-        role="group"
-        aria-label="Plot. Arrows move it, plus and minus zoom, Home resets it."
-        aria-keyshortcuts="ArrowLeft ArrowRight + - Home"
-        onKeyDown={key}
-      />
-      <PlotTable lines={all} from={drawing.from} to={drawing.to} cursors={cursors} />
+      <div className="plot-body">
+        <div
+          className="plot-charts"
+          ref={root}
+          tabIndex={0}
+          role="group"
+          aria-label="Plot. Arrows move it, plus and minus zoom, Home resets it."
+          aria-keyshortcuts="ArrowLeft ArrowRight + - Home"
+          onKeyDown={key}
+        />
+        <PlotTable lines={all} from={drawing.from} to={drawing.to} cursors={cursors} />
+      </div>
       {sources.some(({ remark }) => remark) && (
         <p className="faint pad">
           {sources

@@ -1,6 +1,6 @@
 import { useStore, useStudio } from "../../hooks/use";
-import type { Source } from "../../live/plotted";
-import type { Alignment } from "../../live/plots";
+import type { Source } from "../../live/plots/plotted";
+import type { Alignment } from "../../live/plots/plots";
 import type { Drawing } from "./plot_charts";
 import type { PlotLine } from "./plot_lines";
 import type { Span } from "./plot_panel";

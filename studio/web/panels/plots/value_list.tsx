@@ -44,10 +44,11 @@ export function ValueList({ track, seconds, none }: ValueListProps) {
   const needle = wanted.trim().toLowerCase();
   const listed = all.filter((one) => titleOf(one).toLowerCase().includes(needle));
   const visible = listed.slice(0, most);
-  const numbers = listed.flatMap((one) => {
-    const curve = curveOf(track, one, 0);
-    return curve ? [{ path: titleOf(one), samples: curve.samples }] : [];
-  });
+  const numbers = () =>
+    listed.flatMap((one) => {
+      const curve = curveOf(track, one, 0);
+      return curve ? [{ path: titleOf(one), samples: curve.samples }] : [];
+    });
   const part = (kinds: readonly string[], title: string, hint: string) => {
     const rows = visible.filter(({ kind }) => kinds.includes(kind));
     if (rows.length === 0) return null;
@@ -85,7 +86,7 @@ export function ValueList({ track, seconds, none }: ValueListProps) {
         <button
           className="quiet"
           title="The listed numbers over time, as a table"
-          onClick={() => save("values.csv", new Blob([csvOf(numbers)], { type: "text/csv" }))}
+          onClick={() => save("values.csv", new Blob([csvOf(numbers())], { type: "text/csv" }))}
         >
           CSV
         </button>

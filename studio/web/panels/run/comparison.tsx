@@ -1,4 +1,8 @@
+import { useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
+import type { Replay } from "../../live/replay";
+import { firstDifference, type FirstDifference } from "../../model/run/first_difference";
+import { shown } from "../../model/run/series";
 import type { Difference } from "../../model/run/timeline";
 import { clock } from "../plots/clock";
 
@@ -29,6 +33,7 @@ export function ComparisonBar() {
       )}
       {comparison?.missing && <span className="faint">{missing[comparison.missing]}</span>}
       {comparison && !comparison.missing && <Differences all={comparison.differences} />}
+      <FirstValue />
     </div>
   );
 }
@@ -49,3 +54,51 @@ function Differences({ all }: { all: readonly Difference[] }) {
     </ul>
   );
 }
+
+/** Runs in real time never do the same at quite the same moment: so many nanoseconds are no difference. */
+const tolerance = 20e6;
+
+/** The first value that both runs do not share, on request: all values of both are compared. */
+function FirstValue() {
+  const studio = useStudio();
+  const { panes } = useStore(studio.scene.store, (all) => all);
+  const list = useStore(studio.recordings.store, (all) => all.list);
+  const [found, setFound] = useState<{ of: string; first: FirstDifference | null; part: string } | null>(null);
+  const [left, right] = panes;
+  if (!left?.track || !right?.track) return null;
+  const pair = `${left.track.id} ${right.track.id}`;
+  const isSimulated = ({ replay }: { replay: Replay | null }) =>
+    replay !== null && list.find(({ name }) => name === replay.name)?.clock === "simulated";
+  const compare = () => {
+    const exact = isSimulated(left) && isSimulated(right);
+    const first = firstDifference(left.track!, right.track!, exact ? 0 : tolerance);
+    const isPart = panes.some(({ replay }) => replay && !(replay.isHere(replay.first) && replay.isHere(replay.last)));
+    setFound({ of: pair, first, part: isPart || left.track!.dropped > 0 ? " (in the parts that are loaded)" : "" });
+  };
+  const go = ({ path, time }: FirstDifference) => {
+    for (const { replay } of panes) replay?.seek(time);
+    studio.plots.add({ kind: "value", path });
+    studio.dock.open("plots");
+  };
+  if (found?.of !== pair)
+    return (
+      <button className="quiet" title="Compares all recorded values of both, and names the first that differs" onClick={compare}>
+        First value that differs
+      </button>
+    );
+  const { first, part } = found;
+  if (!first) return <span className="faint first-value">all values are the same{part}</span>;
+  return (
+    <span className="first-value" role="status">
+      <span className="path">{first.path}</span> differs first at {clock(first.time)} s: {told(first.values[0])} /{" "}
+      {told(first.values[1])}
+      {first.iteration !== null && ` in iteration ${first.iteration} of ${first.subsystem}`}
+      {part}{" "}
+      <button className="quiet" title="Shows this moment, and the value in the plot" onClick={() => go(first)}>
+        Go there
+      </button>
+    </span>
+  );
+}
+
+const told = (value: unknown) => (value === undefined ? "no value" : shown(value));

@@ -7,7 +7,7 @@ const suites = {
   editing: ["editing", "boxes", "keeping"],
   building: ["building", "workshop"],
   running: ["run", "dock", "teleoperation", "beside", "deployment"],
-  recordings: ["recordings", "reports", "world"],
+  recordings: ["recordings", "plots", "reports", "world"],
 };
 
 const files = readdirSync(new URL(".", import.meta.url)).filter((name) => name.endsWith(".test.mjs"));

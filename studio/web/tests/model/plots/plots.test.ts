@@ -1,12 +1,12 @@
 import { describe, expect, it } from "vitest";
-import { plotsOf } from "../../live/plots";
-import { ageOf, ArrivalLog, rateOf } from "../../model/plots/arrivals";
-import { bandsOf, drawnCurves, type Curve } from "../../model/plots/drawn_curves";
-import { statesOf } from "../../model/plots/plotted_runs";
-import { chartsOf, signalOf, titleOf } from "../../model/plots/signals";
-import { statisticsOf, valueAt } from "../../model/plots/statistics";
-import { csvOf } from "../../model/run/csv";
-import { Series } from "../../model/run/series";
+import { plotsOf } from "../../../live/plots/plots";
+import { ageOf, ArrivalLog, rateOf } from "../../../model/plots/arrivals";
+import { bandsOf, drawnCurves, type Curve } from "../../../model/plots/drawn_curves";
+import { statesOf } from "../../../model/plots/plotted_runs";
+import { chartsOf, signalOf, titleOf } from "../../../model/plots/signals";
+import { statisticsOf, valueAt } from "../../../model/plots/statistics";
+import { csvOf } from "../../../model/run/csv";
+import { Series } from "../../../model/run/series";
 
 const s = 1e9;
 const curve = (times: number[], values: number[], more: Partial<Curve> = {}): Curve => ({
@@ -124,7 +124,9 @@ describe("ages and rates of an input", () => {
     expect(valueAt(age, 0.52 * s, "slope")).toBeCloseTo(0.02);
     expect(valueAt(age, 0.57 * s, "slope")).toBeCloseTo(0.07);
     expect(valueAt(age, 2.5 * s, "slope")).toBeCloseTo(0.6);
-    expect(statisticsOf(age, 1 * s, 1.9 * s, "slope")!.max).toBeCloseTo(0.12);
+    const facts = statisticsOf(age, 1 * s, 1.9 * s, "slope")!;
+    expect(facts.max).toBeCloseTo(0.12);
+    expect(facts.count).toBe(9);
   });
   it("counts new values in the last second", () => {
     const rate = rateOf(arrivals, 4 * s);

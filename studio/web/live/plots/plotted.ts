@@ -1,11 +1,11 @@
-import { beginOf, firstOf } from "../model/plots/plotted_runs";
-import { type Api, message } from "./api";
-import type { Draft } from "./draft";
+import { beginOf, firstOf } from "../../model/plots/plotted_runs";
+import { type Api, message } from "../api";
+import type { Draft } from "../draft";
 import type { Alignment, Plots } from "./plots";
-import { Replay } from "./replay";
-import type { Scene } from "./scene";
-import { Store } from "./store";
-import type { Track } from "./track";
+import { Replay } from "../replay";
+import type { Scene } from "../scene";
+import { Store } from "../store";
+import type { Track } from "../track";
 
 /** A run whose curves are in the plot. */
 export interface Source {
@@ -18,7 +18,7 @@ export interface Source {
   open: boolean;
   /** Added to its times, in nanoseconds. */
   shift: number;
-  /** What is not as the reader expects; empty: nothing. */
+  /** Something that the reader does not expect; empty: nothing. */
   remark: string;
 }
 

@@ -1,5 +1,5 @@
-import { isSame, signalOf, type Signal } from "../model/plots/signals";
-import { Store } from "./store";
+import { isSame, signalOf, type Signal } from "../../model/plots/signals";
+import { Store } from "../store";
 
 /** The time at which several runs lie above each other. */
 export type Alignment =
@@ -25,7 +25,7 @@ export interface PlotsState {
   plots: readonly PlotKept[];
   /** The one that is shown. */
   active: number;
-  /** What is not kept: the browser refuses to keep more. */
+  /** The browser refuses to keep more; empty: it keeps all. */
   problem: string;
 }
 
@@ -40,7 +40,7 @@ function alignmentOf(given: unknown): Alignment {
   return by === "begin" ? { by } : { by: "clock" };
 }
 
-/** What was kept, as far as it can be read. */
+/** The plots that were kept, as far as they can be read. */
 export function plotsOf(text: string | null): PlotsState {
   let given: unknown;
   try {

@@ -36,7 +36,7 @@ function OperatePage() {
   return (
     <div className="operate">
       <OperateBar />
-      <main className={left.length > 0 ? "both-hands" : ""}>
+      <main className={`hands-${Math.min(panels.length, 2)}`}>
         <div className="operate-seen">
           <WhatRuns />
           {chooser}

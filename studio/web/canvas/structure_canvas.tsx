@@ -35,8 +35,10 @@ import { leastPixels } from "../model/structure/text_size";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { ExportButtons } from "./export_button";
+import { LayoutProblem } from "./layout_problem";
 import { Legend } from "./legend";
 import { LensOverlay } from "./lens_overlay";
+import { useMoved } from "./moved_drawing";
 import { measured } from "./measured_text";
 import { useSteadyView } from "./steady_view";
 import { selectionAt, StructureHands } from "./structure_hands";
@@ -152,8 +154,9 @@ const Notice = ({ first, problem }: { first: boolean; problem: string }) => (
 function Map({ whole }: { whole: Box }) {
   const partly = useFlow(({ transform: [x, y, zoom], width, height }) => {
     const margin = 4;
-    const inside = x >= -margin && y >= -margin && x + whole.width * zoom <= width + margin;
-    return !(inside && y + whole.height * zoom <= height + margin) && width > 420;
+    const inside =
+      x + whole.x * zoom >= -margin && y + whole.y * zoom >= -margin && x + (whole.x + whole.width) * zoom <= width + margin;
+    return !(inside && y + (whole.y + whole.height) * zoom <= height + margin) && width > 420;
   });
   if (!partly) return null;
   const agents = (node: Node) => (node.type === "agent" ? "map-agent" : "map-part");
@@ -176,11 +179,16 @@ function Drawing() {
   const selected = useStore(studio.view, (view) => view.selected);
   const net = useStore(studio.draft.store, (draft) => draft.net);
   const lens = useLens(net);
-  const { drawn, busy, problem } = useDrawn(structure);
-  const { drawing, levels } = drawn;
+  const { drawn: laidOut, busy, problem } = useDrawn(structure);
+  const { drawing, move: moveBox, arrange } = useMoved(laidOut.drawing);
+  const drawn = useMemo((): Drawn => (drawing === laidOut.drawing ? laidOut : { ...laidOut, drawing }), [laidOut, drawing]);
+  const { levels } = drawn;
   const [over, setOver] = useState<string | null>(null);
   const nodes = useMemo(() => nodesOf(drawn, selected, complaints), [drawn, selected, complaints]);
-  const whole = useMemo(() => ({ x: 0, y: 0, width: drawing.width, height: drawing.height }), [drawing]);
+  const whole = useMemo(() => {
+    const { left = 0, top = 0, width, height } = drawing;
+    return { x: left, y: top, width, height };
+  }, [drawing]);
   useSteadyView(drawn === nothing ? undefined : whole);
   const moved = useRef(false);
   const comeNear = useComeNear(drawn, moved);
@@ -242,6 +250,7 @@ function Drawing() {
         </button>
         <ExportButtons name={structure.system} />
       </div>
+      <LayoutProblem />
       <ChannelTip />
       <div
         className={`canvas-area detail-${detail}${counts ? "" : " no-counts"}`}
@@ -293,8 +302,12 @@ function Drawing() {
               structure={structure}
               area={area}
               boxes={drawing.boxes}
-              move={() => false}
-              arrange={undefined}
+              move={(path, by, end) => {
+                // The view stays while boxes move in it.
+                moved.current = true;
+                return moveBox(withoutIndex(path), by, end);
+              }}
+              arrange={arrange}
               onDrag={drag}
             />
           </ReactFlow>

@@ -26,10 +26,10 @@ export function useWholeUntilMoved(drawn: Drawn, whole: Box, near: (path: string
   useEffect(() => {
     const [across, down] = size.split(" ").map(Number) as [number, number];
     if (across === 0 || drawn === nothing || moved.current) return;
-    const { width, height } = whole;
+    const { x, y, width, height } = whole;
     // A small system is not drawn larger than it is.
     const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
-    const box = { x: (width - least.width) / 2, y: (height - least.height) / 2, ...least };
+    const box = { x: x + (width - least.width) / 2, y: y + (height - least.height) / 2, ...least };
     const readable = Math.min(across / least.width, down / least.height) * 0.97 >= drawn.levels.all;
     const { selected } = studio.view.get();
     const isEdited = last.current !== null && last.current.whole !== whole && last.current.readable;

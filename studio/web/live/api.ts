@@ -1,4 +1,5 @@
-import type { ControlRequest, Edit, LanguageQuestion, Operators, Requests, RunRequest } from "../model/protocol";
+import type { Positions } from "../model/structure/moved_boxes";
+import type { BoxPositions, ControlRequest, Edit, LanguageQuestion, Operators, Requests, RunRequest } from "../model/protocol";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -127,6 +128,9 @@ export class Api {
   /** The names that drivers in the simulated world can use, by their kinds. */
   worldTargets = (text: string) => this.ask("POST /api/world", { body: { text } });
   source = (file: string) => this.ask("GET /api/sources", { query: { file } });
+  layout = () => this.ask("GET /api/layout");
+  saveLayout = (boxes: Positions, revision: string) =>
+    this.ask("PUT /api/layout", { body: { boxes: boxes as unknown as BoxPositions, revision } });
   saveSource = (file: string, text: string, revision: string) => this.ask("PUT /api/sources", { body: { file, text, revision } });
   /** The edits of the text, and what a rename changes in other files. Nothing is written. */
   edit = (text: string, edit: Edit | Edit[]) => this.ask("POST /api/edit", { body: { text, edit } });

@@ -1,5 +1,6 @@
 import { History, type FileStep } from "../model/history";
 import { lineEndOf, withEnds, withFeeds, type LineEnd } from "../model/text/line_ends";
+import type { BoxChange } from "../model/structure/box_changes";
 import { merge, mergeLines, taking, type Side } from "../model/text/merge";
 import { NetModel } from "../model/net/net";
 import { Api, ApiError, message } from "./api";
@@ -74,6 +75,8 @@ export class Draft {
   });
   /** Called with the names of files that this page has written. */
   wrote: (files: readonly string[]) => void = () => {};
+  /** Called with the boxes that undo or redo moves. */
+  takeBoxes: (change: BoxChange) => void = () => {};
   /** The edits that are not done yet, and all that has to wait for them. */
   readonly queue = new Queue((editing) => this.store.set({ editing }));
   /** These edits, so that a reload does not forget them. */
@@ -212,11 +215,26 @@ export class Draft {
   }
 
   step(way: "undo" | "redo"): void {
+    const boxes = this.history.ahead(way)?.boxes;
     this.show(this.history[way]());
+    if (boxes) this.takeBoxes(boxes);
+  }
+
+  /** Boxes of the drawing were moved: undo moves them back. */
+  boxesMoved(change: BoxChange, kind: string): void {
+    this.history.moved(change, kind, performance.now());
+    this.store.set({ canUndo: this.history.canUndo, canRedo: this.history.canRedo });
+  }
+
+  /** Boxes have other names with the last edit. */
+  boxesRenamed(change: BoxChange): void {
+    this.history.alsoMoved(change);
   }
 
   private show(text: string | undefined): void {
     if (text === undefined) return;
+    const { canUndo, canRedo } = this.history;
+    if (text === this.store.get().text) return this.store.set({ canUndo, canRedo });
     this.store.set({ text, canUndo: this.history.canUndo, canRedo: this.history.canRedo, checking: true });
     this.keep();
     clearTimeout(this.timer);

@@ -57,7 +57,8 @@ export class Gamepads {
     const setups = new Map(this.store.get().setups);
     if (setup) setups.set(panel.path, setup);
     else setups.delete(panel.path);
-    this.forget(panel.path);
+    // A button that is pressed while it is chosen switches nothing.
+    this.pressed.delete(panel.path);
     this.store.set({ setups });
     try {
       if (setup) this.storage?.setItem(kept(panel.path), JSON.stringify(setup));

@@ -14,6 +14,8 @@ export interface OperatorState {
   problems: ReadonlyMap<string, string>;
   /** By path: the other operators of the same server. */
   others: ReadonlyMap<string, string>;
+  /** The panels whose sliders spring back, too. */
+  springing: ReadonlySet<string>;
   /** Counts the moments at which everything that was held counts as released. */
   rests: number;
   /** The last answer of the server: when (ms of the page's clock), and the time that it took. */
@@ -52,6 +54,7 @@ export class Operator {
     padInputs: new Map(),
     problems: new Map(),
     others: new Map(),
+    springing: new Set(),
     rests: 0,
     heard: null,
   });
@@ -133,7 +136,15 @@ export class Operator {
   release(): void {
     this.store.set({ rests: this.store.get().rests + 1 });
     this.lookAtPad();
-    for (const [path, held] of this.store.get().inputs) this.move(path, released(this.panels.get(path)!.controls, held));
+    const { inputs, springing } = this.store.get();
+    for (const [path, held] of inputs) this.move(path, released(this.panels.get(path)!.controls, held, springing.has(path)));
+  }
+
+  /** Whether the sliders of a panel spring back when they are released, or stay where they are. */
+  letSpring(path: string, springs: boolean): void {
+    const springing = new Set(this.store.get().springing);
+    springing[springs ? "add" : "delete"](path);
+    this.store.set({ springing });
   }
 
   private put(path: string, inputs: Inputs | null, problem: string): void {

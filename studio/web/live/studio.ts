@@ -20,6 +20,7 @@ import { causesOf } from "../model/causes";
 import type { Places } from "../model/dock/ready_layouts";
 import { findThing, selectionAfter, structureOf, type Structure } from "../model/structure/structure";
 import { Guide } from "./guide";
+import { LayoutFile } from "./layout_file";
 import { Lens } from "./lens";
 import { Recordings } from "./recordings";
 import { Repairs } from "./repairs";
@@ -59,6 +60,7 @@ export class Studio {
   readonly draft = new Draft(this.api);
   readonly editor = new Editor(this.api, this.draft);
   readonly elements = new ElementEdits(this);
+  readonly layoutFile = new LayoutFile(this.api, this.draft);
   /** The stage for the net of the text, and for games on it. */
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
@@ -146,6 +148,7 @@ export class Studio {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");
     });
+    this.connection.on("layout", ({ revision }) => void this.layoutFile.changedOnDisk(revision));
     this.connection.on("spec", (event) => this.fileChanged(event.revision));
     this.connection.on("hello", (event) => void this.greeted(event.server_start, event.revision));
   }
@@ -185,7 +188,7 @@ export class Studio {
         (project) => this.beginDock(fileOf(project)),
         () => this.beginDock(""),
       );
-      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf))]);
+      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf)), this.layoutFile.load()]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
       this.plots.restore(fileOf(project));
@@ -232,6 +235,7 @@ export class Studio {
   private async greeted(start: string, revision: string): Promise<void> {
     const known = this.serverStart;
     this.serverStart = start;
+    if (known !== undefined) void this.layoutFile.load();
     if (!this.project.get().project) {
       const project = await this.api.project();
       this.project.set({ project, problem: "" });
@@ -320,6 +324,7 @@ export class Studio {
     const asked = this.view.get().selected;
     const renamed = typeof wish !== "function" && !Array.isArray(wish) && wish.do === "rename";
     return this.editor.change(wish, (before, moved) => {
+      if (renamed) this.layoutFile.renamed((path) => selectionAfter(structureOf(before), path, moved));
       const { selected } = this.view.get();
       const next = leadsTo(structureOf(this.draft.text));
       if (next.selected !== undefined && (selected === asked || selected === this.ledTo)) {

@@ -1,3 +1,5 @@
+import { both, reversed, type BoxChange } from "./structure/box_changes";
+
 /** The change of a file beside the text by an action. */
 export interface FileStep {
   file: string;
@@ -9,6 +11,8 @@ export interface FileStep {
 interface Step {
   text: string;
   files: readonly FileStep[];
+  /** The boxes of the drawing that it moves or renames. */
+  boxes?: BoxChange;
 }
 
 /** Undo and redo of a text. Changes of one kind that follow each other quickly are one step. */
@@ -45,6 +49,21 @@ export class History {
     this.lastTime = now;
   }
 
+  /** Moves boxes of the drawing: a step with the same text. Moves of one kind that follow each other quickly are one step. */
+  moved(boxes: BoxChange, kind: string, now: number): void {
+    const joins = this.lastKind === kind && now - this.lastTime < 600;
+    if (!joins) this.past.push(this.now);
+    this.future.length = 0;
+    this.now = { text: this.now.text, files: [], boxes: both(joins ? this.now.boxes : undefined, boxes) };
+    this.lastKind = kind;
+    this.lastTime = now;
+  }
+
+  /** The last change has also changed the names of boxes. */
+  alsoMoved(boxes: BoxChange): void {
+    this.now = { ...this.now, boxes: both(this.now.boxes, boxes) };
+  }
+
   /** The next change is a step of its own, whatever its kind is. */
   endTyping(): void {
     this.lastKind = "";
@@ -78,8 +97,13 @@ export class History {
   ahead(way: "undo" | "redo"): Step | undefined {
     if (way === "redo") return this.future.at(-1);
     const before = this.past.at(-1);
+    const { files, boxes } = this.now;
     return (
-      before && { text: before.text, files: this.now.files.map((one) => ({ ...one, before: one.after, after: one.before })) }
+      before && {
+        text: before.text,
+        files: files.map((one) => ({ ...one, before: one.after, after: one.before })),
+        ...(boxes ? { boxes: reversed(boxes) } : {}),
+      }
     );
   }
 

@@ -20,9 +20,10 @@ export function neutralInputs(controls: readonly PanelControl[]): Inputs {
   return Object.fromEntries(controls.map((one) => [one.field, neutralOf(one)]));
 }
 
-/** The same with all released controls at rest. */
-export function released(controls: readonly PanelControl[], inputs: Inputs): Inputs {
-  return { ...inputs, ...neutralInputs(controls.filter(springsBack)) };
+/** The same with all released controls at rest. sliders: they spring back, too. */
+export function released(controls: readonly PanelControl[], inputs: Inputs, sliders = false): Inputs {
+  const back = controls.filter((one) => springsBack(one) || (sliders && one.control === "slider"));
+  return { ...inputs, ...neutralInputs(back) };
 }
 
 /** A deflection from -1 to 1 in the range of the control, whose zero stays zero. */

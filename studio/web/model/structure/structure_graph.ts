@@ -24,6 +24,9 @@ export interface DrawnBundle extends Bundle {
   forth: boolean;
 }
 export interface StructureDrawing {
+  /** The upper left corner, if boxes were moved beyond the origin. */
+  left?: number;
+  top?: number;
   width: number;
   height: number;
   /** Boxes of agents, subsystems and devices ("a.motor#device"), by path. */

@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { Fragment, useEffect, useState } from "react";
 import { useStructure } from "../../hooks/use_structure";
 import { useStore, useStudio } from "../../hooks/use";
 import { shown } from "../../model/run/series";
@@ -17,6 +17,19 @@ function kept(folder: string): readonly string[] {
     return [];
   }
 }
+
+/** A path that is broken between its names, if it must be broken. */
+const breakable = (path: string) =>
+  path.split(".").map((name, at) => (
+    <Fragment key={at}>
+      {at > 0 && (
+        <>
+          .<wbr />
+        </>
+      )}
+      {name}
+    </Fragment>
+  ));
 
 /** The values that the operator has chosen, in large letters. The choice is kept for the project. */
 export function ChosenValues() {
@@ -52,7 +65,7 @@ export function ChosenValues() {
             const unit = unitOf(structure, path);
             return (
               <div key={path}>
-                <dt className="path">{path}</dt>
+                <dt className="path">{breakable(path)}</dt>
                 <dd>
                   {shown(track.series.at(path, track.now))} {unit}
                 </dd>

@@ -1,6 +1,6 @@
 import { useEffect, useId, useRef, type KeyboardEvent, type SyntheticEvent } from "react";
 import type { PanelControl } from "../../model/protocol";
-import { stepOfSlider, type Inputs } from "../../model/run/panel_inputs";
+import { neutralOf, stepOfSlider, type Inputs } from "../../model/run/panel_inputs";
 
 /** The controls of a panel that are no stick. */
 
@@ -10,6 +10,8 @@ export interface ControlProps {
   disabled: boolean;
   /** Counts the moments at which everything that is held counts as released. */
   rests: number;
+  /** A slider that is released goes to its neutral value. */
+  springs: boolean;
   onMove: (change: Inputs) => void;
 }
 
@@ -72,9 +74,10 @@ export function Switch({ control, value, disabled, onMove }: ControlProps) {
   );
 }
 
-/** It stays where it is. */
-export function Slider({ control, value, disabled, onMove }: ControlProps) {
+/** It stays where it is, unless it springs back. */
+export function Slider({ control, value, disabled, springs, onMove }: ControlProps) {
   const id = useId();
+  const release = () => springs && !disabled && onMove({ [control.field]: neutralOf(control) });
   return (
     <div className="operator-slider">
       <label htmlFor={id}>
@@ -89,6 +92,11 @@ export function Slider({ control, value, disabled, onMove }: ControlProps) {
         disabled={disabled}
         value={Number(value)}
         aria-valuetext={withUnit(value, control)}
+        onPointerUp={release}
+        onPointerCancel={release}
+        onLostPointerCapture={release}
+        onKeyUp={({ key }) => key !== "Tab" && release()}
+        onBlur={release}
         onChange={(event) => onMove({ [control.field]: Number(event.target.value) })}
       />
     </div>

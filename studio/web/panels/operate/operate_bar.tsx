@@ -46,6 +46,8 @@ function Operated() {
   const { kind, state, why } = useStore(studio.runner.store, (all) => all);
   const drives = useDriving();
   const simulatedWorld = useSimulatedWorld();
+  const controllers = useStore(studio.emergency.store, (all) => all.controllers);
+  const stopped = controllers.length > 0 && controllers.every(({ emergency }) => emergency !== null);
   if (state === "idle") return <p role="status">Nothing runs.</p>;
   const going = state === "running" || state === "paused";
   const isSimulation = kind === "simulate" || (kind === "attach" && !drives);
@@ -56,6 +58,7 @@ function Operated() {
       </strong>{" "}
       of <span className="path">{name}</span>: {stateTitles[state].toLowerCase()}
       {why && ` (${reason(why)})`}
+      {going && stopped && <strong className="real">, but the emergency stop holds: nothing moves before it is reset</strong>}
       {going && kind === "attach" && ". It was started elsewhere."}
     </p>
   );

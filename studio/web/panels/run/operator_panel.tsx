@@ -59,7 +59,7 @@ interface OperatorPanelProps {
 
 export function OperatorPanel({ panel, pageKeys = null }: OperatorPanelProps) {
   const { operator } = useStudio();
-  const { inputs: all, padInputs, problems, others, rests } = useStore(operator.store, (state) => state);
+  const { inputs: all, padInputs, problems, others, rests, springing } = useStore(operator.store, (state) => state);
   const inputs = all.get(panel.path);
   const problem = problems.get(panel.path);
   const operated = inputs !== undefined;
@@ -99,10 +99,21 @@ export function OperatorPanel({ panel, pageKeys = null }: OperatorPanelProps) {
             const Shown = shownAs[control.control];
             if (!Shown) return null;
             const value = held[control.field]!;
-            return <Shown key={control.field} control={control} value={value} disabled={!operated} rests={rests} onMove={move} />;
+            const props = { control, value, disabled: !operated, rests, springs: springing.has(panel.path), onMove: move };
+            return <Shown key={control.field} {...props} />;
           })}
         </div>
       </div>
+      {panel.controls.some(isOf("slider")) && (
+        <label className="operator-switch">
+          <input
+            type="checkbox"
+            checked={springing.has(panel.path)}
+            onChange={(event) => operator.letSpring(panel.path, event.target.checked)}
+          />
+          Sliders spring back when they are released
+        </label>
+      )}
       <GamepadSettings panel={panel} number={number} />
     </section>
   );

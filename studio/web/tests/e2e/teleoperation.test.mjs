@@ -70,6 +70,17 @@ test("a robot is driven by keys, by the pointer and by controls, and stops when 
     await drive.getByRole("slider", { name: "gear" }).focus();
     await page.keyboard.press("ArrowRight");
     await is({ gear: 2 }, "the second gear");
+    await drive.getByRole("checkbox", { name: "Sliders spring back" }).check();
+    const gear = drive.getByRole("slider", { name: "gear" });
+    await gear.focus();
+    await page.keyboard.down("ArrowRight");
+    await is({ gear: 3 }, "the third gear");
+    await page.keyboard.up("ArrowRight");
+    await is({ gear: 1 }, "it springs back");
+    await drive.getByRole("checkbox", { name: "Sliders spring back" }).uncheck();
+    await gear.focus();
+    await page.keyboard.press("ArrowRight");
+    await is({ gear: 2 }, "it stays");
     await drive.getByRole("button", { name: "horn" }).focus();
     await page.keyboard.down("Space");
     await is({ horn: true }, "the horn");

@@ -41,6 +41,7 @@ describe("panel inputs", () => {
   it("spring back where nobody holds them", () => {
     const held = { turn: 1, forward: 0.5, horn: true, light: true, gear: 4 };
     expect(released(controls, held)).toEqual({ turn: 0, forward: 0, horn: false, light: true, gear: 4 });
+    expect(released(controls, held, true)).toEqual({ turn: 0, forward: 0, horn: false, light: true, gear: 1 });
   });
 
   it("reach the ends of a range whose zero is not in the middle", () => {

@@ -1,7 +1,7 @@
 import { useEffect, useState } from "react";
-import { useStore } from "../../hooks/use";
-import { foldedPage, intersects, place, type Box } from "../../model/net/geometry";
-import { windowOn, type Placed, type Window } from "../../model/net/sheets";
+import { useStore } from "../../../hooks/use";
+import { foldedPage, intersects, place, type Box } from "../../../model/net/geometry";
+import { windowOn, type Placed, type Window } from "../../../model/net/sheets";
 import { crowd } from "../crowd";
 import { vectors } from "./vectors";
 

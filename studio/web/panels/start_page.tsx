@@ -33,7 +33,7 @@ export function StartPage() {
     }
   };
   return (
-    <main className="start-page">
+    <div className="start-page">
       <h2>Begin a specification</h2>
       <p>
         {project?.file ?? "The file"} in {project?.folder ?? "this folder"} is empty. Choose what to begin with; everything can be
@@ -57,6 +57,6 @@ export function StartPage() {
           </li>
         ))}
       </ul>
-    </main>
+    </div>
   );
 }

@@ -27,7 +27,7 @@ interface MapFormProps {
   without?: readonly string[];
   /** The fields of an entry; without them it is shown as text. */
   fields?: (name: string) => ReactNode;
-  /** Entries are opened one at a time. */
+  /** Entries are opened one at a time; the others are shown in a line. */
   folds?: boolean;
   /** Whether an entry is shown in one line in spite of `fields`. */
   line?: (name: string) => boolean;
@@ -155,7 +155,7 @@ function Entry({ of, name, taken, opened, open, renamed }: EntryProps) {
           <span className="mono">{name}</span> {more}
         </legend>
         {opening}
-        {unfolded && fields(name)}
+        {unfolded ? fields(name) : <p className="summary">{yaml.lineText(where)}</p>}
       </fieldset>
     );
   return (

@@ -42,6 +42,7 @@ export function SystemForm({ structure }: { structure: Structure }) {
         title="Types"
         one="type"
         fresh={{ name: "Value", value: "{ x: float64 }" }}
+        folds
         fields={(name) => <StructureFields structure={structure} at={["types", name]} />}
       />
       <MapForm
@@ -50,6 +51,7 @@ export function SystemForm({ structure }: { structure: Structure }) {
         title="Parameters"
         one="parameter"
         fresh={{ name: "speed", value: "1.0" }}
+        folds
         fields={(name) => <ParameterFields structure={structure} at={["parameters", name]} />}
       />
       <PropertiesForm structure={structure} />

@@ -5,7 +5,21 @@ import { cpSync, mkdirSync, mkdtempSync, readFileSync, rmSync, writeFileSync } f
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { after, test } from "node:test";
-import { button, codeText, draftText, drawn, example, judges, middleOf, near, noProblems, onPage, tab, until } from "./page.mjs";
+import {
+  button,
+  codeText,
+  draftText,
+  drawn,
+  example,
+  judges,
+  middleOf,
+  isInDrawing,
+  near,
+  noProblems,
+  onPage,
+  tab,
+  until,
+} from "./page.mjs";
 
 const parent = mkdtempSync(join(tmpdir(), "studio-building-"));
 after(() => rmSync(parent, { recursive: true, force: true }));
@@ -152,7 +166,7 @@ test("a patrol robot is built in the browser alone, and drives", () => {
       const select = (kind, path) => {
         const one = page.locator(`.${kind}[data-path="${path}"]`);
         const isSelected = async () => {
-          if (!(await one.isVisible())) await near(page, path);
+          if (!(await isInDrawing(page, one))) await near(page, path);
           await one.click();
           await drawn(page);
           return (await one.getAttribute("aria-pressed")) === "true";

@@ -110,7 +110,7 @@ test("a ? beside a term tells its meaning by a click or by the focus of the keyb
 
 test("the steps say what stands in the way, and a click on that does it", () =>
   onPage(folder("orchard"), async (page, server) => {
-    const state = (step) => page.getByTestId(`${step}-state`);
+    const state = (step) => page.getByTestId(`step-${step}`);
     await state("edit").getByText("no problems").waitFor();
     await state("run").getByText("21 functions are missing: write them").waitFor();
     for (const width of [640, 920, 1024, 1440]) {

@@ -97,6 +97,15 @@ export async function find(page, path) {
   await page.keyboard.press("Enter");
 }
 
+/** Whether an element can be clicked in the drawing: it is drawn, and not beyond its edges. */
+export async function isInDrawing(page, locator) {
+  if (!(await locator.isVisible())) return false;
+  const [one, area] = [await locator.boundingBox(), await page.locator(".canvas-area").first().boundingBox()];
+  if (!one || !area) return false;
+  const [x, y] = [one.x + one.width / 2 - area.x, one.y + one.height / 2 - area.y];
+  return x > 0 && y > 0 && x < area.width && y < area.height;
+}
+
 /** Comes near to an element of the structure by the search, and gives its text or button there. */
 export async function near(page, path) {
   await tab(page, "Structure").click();

@@ -74,7 +74,7 @@ export class Gamepads {
     this.pressed.delete(path);
   }
 
-  /** What the gamepad gives the panel now, and the switches that its buttons have just been pressed for. */
+  /** The inputs of the gamepad for the panel now, and the switches that its buttons have just been pressed for. */
   inputsOf(panel: PanelShown, number: number): { inputs: Inputs; switched: readonly string[] } {
     const pad = this.look();
     if (!pad) return { inputs: {}, switched: [] };

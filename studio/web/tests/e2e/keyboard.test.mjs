@@ -1,4 +1,4 @@
-// Whoever has no pointer reaches everything, and always sees where the keys go.
+// A person without a pointer reaches everything, and always sees where the keys go.
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { drawn, example, onPage, tab } from "./page.mjs";

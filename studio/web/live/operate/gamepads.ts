@@ -1,7 +1,7 @@
-import { isEnabled, padInputs, setupFrom, takesAxis, usualSetup, type Pad, type PadSetup } from "../model/run/gamepad";
-import type { Inputs } from "../model/run/panel_inputs";
-import type { PanelShown } from "../model/protocol";
-import { Store } from "./store";
+import { isEnabled, padInputs, setupFrom, takesAxis, usualSetup, type Pad, type PadSetup } from "../../model/run/gamepad";
+import type { Inputs } from "../../model/run/panel_inputs";
+import type { PanelShown } from "../../model/protocol";
+import { Store } from "../store";
 
 const kept = (path: string) => `tessera.gamepad.${path}`;
 

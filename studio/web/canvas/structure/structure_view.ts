@@ -22,7 +22,7 @@ export function useWholeUntilMoved(drawn: Drawn, whole: Box, near: (path: string
   const flow = useReactFlow();
   const studio = useStudio();
   const size = useFlow((state) => `${state.width} ${state.height}`);
-  const last = useRef<{ whole: Box; readable: boolean } | null>(null);
+  const last = useRef<Box | null>(null);
   useEffect(() => {
     const [across, down] = size.split(" ").map(Number) as [number, number];
     if (across === 0 || drawn === nothing || moved.current) return;
@@ -30,11 +30,12 @@ export function useWholeUntilMoved(drawn: Drawn, whole: Box, near: (path: string
     // A small system is not drawn larger than it is.
     const least = { width: Math.max(width, 620), height: Math.max(height, 520) };
     const box = { x: x + (width - least.width) / 2, y: y + (height - least.height) / 2, ...least };
-    const readable = Math.min(across / least.width, down / least.height) * 0.97 >= drawn.levels.all;
+    // The space around the drawing included.
+    const fits = Math.min(across / least.width, down / least.height) * 0.94;
     const { selected } = studio.view.get();
-    const isEdited = last.current !== null && last.current.whole !== whole && last.current.readable;
-    last.current = { whole, readable };
-    if (isEdited && !readable && selected?.includes(".")) near(selected);
+    const isEdited = last.current !== null && last.current !== whole && flow.getZoom() >= drawn.levels.all;
+    last.current = whole;
+    if (isEdited && fits < drawn.levels.all && selected?.includes(".")) near(selected);
     else void flow.fitBounds(box, { duration: 0, padding: 0.03 });
   }, [size, whole, drawn, flow, near, moved, studio]);
 }

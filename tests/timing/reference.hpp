@@ -1,16 +1,9 @@
 // The reference of the bounds, which another hand wrote: its random systems, its bounds, and its simulation.
 #pragma once
+#pragma GCC system_header  // its warnings are its own
 
 #define TIMING_NO_MAIN
-// Its warnings are its own.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wconversion"
-#pragma GCC diagnostic ignored "-Wsign-conversion"
-#pragma GCC diagnostic ignored "-Wshadow"
-#pragma GCC diagnostic ignored "-Wunused-function"
-#pragma GCC diagnostic ignored "-Wformat"
 #include TESSERA_TIMING_REFERENCE
-#pragma GCC diagnostic pop
 
 #include "timing/bounds.hpp"
 

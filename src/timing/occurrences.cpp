@@ -138,7 +138,6 @@ void Occurrences::judge(Component& component) {
   measure_work(component);
   const bool dead = find_first(component);  // some events never occur: nothing bounds the others
   if (!dead) Rows(*this, component).find();
-  for (const EventId x : component.events) gap_[x] = std::min(gap_[x], span(x, x));
   for (const EventId x : component.events) {
     const EventId release = events_.start(events_[x].subsystem);
     since_start_[x] = std::min(since_start_[x], x == release ? 0 : span(release, x));

@@ -14,15 +14,20 @@ constexpr std::size_t most_events = 1500;
 void Rows::find() {
   const std::vector<EventId>& events = component_.events;
   const bool small = events.size() <= most_events;
+  const auto lower_gap = [&](EventId x) { bounds_.gap_[x] = std::min(bounds_.gap_[x], bounds_.span(x, x)); };
   if (!small || !counts_are_fixed()) {
     component_.everything = std::min(component_.everything, all_work());
     for (std::vector<Time>& row : component_.rows)
       for (Time& span : row) span = std::min(span, component_.everything);
+    std::ranges::for_each(events, lower_gap);
     return;
   }
   if (component_.rows.empty())
     component_.rows.assign(events.size(), std::vector<Time>(events.size(), component_.everything));
-  for (std::size_t place = 0; place < events.size(); ++place) find_row(events[place], component_.rows[place]);
+  for (std::size_t place = 0; place < events.size(); ++place) {
+    find_row(events[place], component_.rows[place]);
+    lower_gap(events[place]);  // the next rows use it
+  }
 }
 
 /// Fewest tokens on the paths from each event of the component to x.

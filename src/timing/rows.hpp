@@ -11,10 +11,10 @@ namespace tessera::timing {
 /// Longest paths in a component of the event graph, for one pass of its bounds.
 class Rows {
  public:
-  Rows(const Occurrences& bounds, Occurrences::Component& component)
+  Rows(Occurrences& bounds, Occurrences::Component& component)
       : bounds_(bounds), component_(component) {}
 
-  /// Lowers the rows of the component.
+  /// Lowers the rows of the component, and the gaps of its events.
   void find();
 
  private:
@@ -34,7 +34,7 @@ class Rows {
   [[nodiscard]] std::uint32_t tokens(EventId y) const { return tokens_[bounds_.place_in_[y]]; }
   [[nodiscard]] bool is_mine(EventId y) const { return bounds_.same_component(y, component_.events.front()); }
 
-  const Occurrences& bounds_;
+  Occurrences& bounds_;
   Occurrences::Component& component_;
   std::vector<std::uint32_t> tokens_;  ///< by place: fewest on a path to the present x
   std::vector<Latest> latest_;         ///< by place

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <nlohmann/json.hpp>
 
+#include "cli/commands/chain_verdicts.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
 #include "diagnostics/source.hpp"
@@ -56,6 +57,7 @@ struct Judged {
   std::optional<Nets> nets;  ///< from a specification
   std::optional<net::Net> drawn;
   std::vector<net::Invariant> invariants;
+  ChainVerdicts chains{};  ///< of a specification
 
   [[nodiscard]] const net::Net& net() const { return drawn ? *drawn : nets->flat; }
   [[nodiscard]] verify::Subject subject() const {
@@ -86,6 +88,7 @@ std::optional<Judged> load(const std::string& given) {
   if (!judged.nets) return std::nullopt;
   judged.file = specification->file.string();
   judged.invariants = layers::invariants(specification->model, judged.nets->pages, judged.nets->flat);
+  judged.chains = chain_verdicts(specification->model);
   return judged;
 }
 
@@ -214,6 +217,7 @@ int verify_command(const VerifyOptions& options) {
   if (!options.json.empty()) {
     json result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
     if (options.states) result["state_space"] = space;
+    if (!judged->chains.json.empty()) result["chains"] = judged->chains.json;
     write_output(options.json, result.dump(2) + "\n");
   }
   if (!options.trace.empty())
@@ -229,6 +233,7 @@ int verify_command(const VerifyOptions& options) {
     fmt::print("states: {} markings, {} edges{}\n", space["markings"].get<std::uint64_t>(),
                space["edges"].get<std::uint64_t>(), space["complete"].get<bool>() ? "" : " and more");
   }
+  if (options.properties.empty()) fmt::print("{}", printable(judged->chains.text));
   return exit_code_of(report);
 }
 

@@ -145,10 +145,13 @@ std::string table(const spec::Subsystem& subsystem, std::string_view head, Rows 
 
 std::string behaviours_table(const spec::Subsystem& subsystem) {
   std::vector<Row> rows;
-  for (const spec::Behaviour& behaviour : subsystem.behaviours)
-    rows.push_back(
-        {{},
-         {string_literal(behaviour.name), behaviour.takes.count() == 0 ? "" : duration(behaviour.takes)}});
+  for (const spec::Behaviour& behaviour : subsystem.behaviours) {
+    const auto& [shortest, longest] = behaviour.takes;
+    std::string takes;
+    if (longest.count() > 0) takes = duration(shortest);
+    if (longest > shortest) takes += ", " + duration(longest);
+    rows.push_back({{}, {string_literal(behaviour.name), takes}});
+  }
   const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
   std::string short_form;
   for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);

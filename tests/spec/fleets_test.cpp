@@ -86,7 +86,7 @@ TEST_F(Convoy, NextKnowsWhichConditionItAsksFor) {
   EXPECT_EQ(follow.next[3].when.text.text, "parameters.slack > 0.1");
   EXPECT_EQ(follow.next[4].when.kind, When::Kind::always);
   EXPECT_EQ(follow.transfer, Transfer::parallel);
-  EXPECT_EQ(follow.takes, std::chrono::milliseconds(3));
+  EXPECT_EQ(follow.takes, (Takes{std::chrono::milliseconds(1), std::chrono::milliseconds(3)}));
   EXPECT_EQ(follow.receive, (std::vector<BufferId>{{0}, {1}}));
   EXPECT_EQ(follower().start.value, 1U);
 }

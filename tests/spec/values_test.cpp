@@ -102,7 +102,7 @@ TEST_P(Durations, AreReadWithTheirUnit) {
       "tessera: 1\nsystem: demo\nagents: { robot: { control: { behaviours: { run: { takes: " +
       GetParam().written + " } } } } }\n");
   ASSERT_TRUE(reading.model) << reading.report();
-  EXPECT_EQ(reading.model->subsystem({0}).behaviours[0].takes, GetParam().meant);
+  EXPECT_EQ(reading.model->subsystem({0}).behaviours[0].takes, (Takes{GetParam().meant, GetParam().meant}));
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -111,6 +111,30 @@ INSTANTIATE_TEST_SUITE_P(
                     Time{"50 us", std::chrono::microseconds(50)}, Time{"1 min", std::chrono::minutes(1)},
                     Time{"0.5 h", std::chrono::minutes(30)}, Time{"7 ns", std::chrono::nanoseconds(7)},
                     Time{"1.5 \u00b5s", std::chrono::nanoseconds(1500)}));
+
+struct Range {
+  std::string written;
+  std::chrono::nanoseconds shortest, longest;
+};
+
+class TimeRanges : public testing::TestWithParam<Range> {};
+
+TEST_P(TimeRanges, HaveOneUnitOrTwo) {
+  const Reading reading(
+      "tessera: 1\nsystem: demo\nagents: { robot: { control: { rate: 1 Hz, behaviours: { run: { takes: " +
+      GetParam().written + " } } } } }\n");
+  ASSERT_TRUE(reading.model) << reading.report();
+  EXPECT_EQ(reading.model->subsystem({0}).behaviours[0].takes,
+            (Takes{GetParam().shortest, GetParam().longest}));
+}
+
+INSTANTIATE_TEST_SUITE_P(
+    Forms, TimeRanges,
+    testing::Values(Range{"1..3 ms", std::chrono::milliseconds(1), std::chrono::milliseconds(3)},
+                    Range{"0.5..1.5ms", std::chrono::microseconds(500), std::chrono::microseconds(1500)},
+                    Range{"500 us .. 2 ms", std::chrono::microseconds(500), std::chrono::milliseconds(2)},
+                    Range{"0..7 ns", std::chrono::nanoseconds(0), std::chrono::nanoseconds(7)},
+                    Range{"2..2 s", std::chrono::seconds(2), std::chrono::seconds(2)}));
 
 }  // namespace
 }  // namespace tessera::spec

@@ -16,7 +16,7 @@
 /// the hash of the net.
 namespace tessera {
 
-inline constexpr int tables_version = 5;
+inline constexpr int tables_version = 6;
 
 class DriverSetup;
 class RealEffector;
@@ -151,7 +151,8 @@ struct Port {
 
 struct Behaviour {
   std::string_view name;
-  Duration takes{0};  ///< simulated time of its transition function
+  Duration takes{0};    ///< least simulated time of its transition function
+  Duration at_most{0};  ///< most; less than `takes`: that is the time of each call
 };
 
 /// The part of the net that one subsystem executes.

@@ -82,6 +82,7 @@ class Assembler {
     parts.path = path_of(instance);
     parts.instance = &instance;
     parts.index = index;
+    parts.times = CallTimes(assembly_.options.seed, parts.path);
     parts.subsystem = instance.make();
     if (Substitutes* const of_test = assembly_.options.substitutes; of_test != nullptr)
       parts.subsystem = of_test->subsystem(index, std::move(parts.subsystem), parts.scripted);

@@ -90,8 +90,9 @@ class Operations final : public ContextServices {
   [[nodiscard]] std::string driver_being_read() const;
 
   [[nodiscard]] const SubsystemParts& parts() const { return parts_; }
-  [[nodiscard]] Duration takes(std::uint16_t behaviour) const {
-    const Duration declared = parts_.instance->net->behaviours[behaviour].takes;
+  /// The simulated time of the next call.
+  [[nodiscard]] Duration draw_time(std::uint16_t behaviour) {
+    const Duration declared = parts_.times.draw(parts_.instance->net->behaviours[behaviour]);
     return parts_.faulty == nullptr ? declared : declared + parts_.faulty->take_delay();
   }
   [[nodiscard]] bool has_inputs() const {

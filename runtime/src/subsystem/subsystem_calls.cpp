@@ -39,7 +39,7 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     time_is_known_ = false;
     token.phase = Phase::running;
     token.due = Time::min();
-    if (simulated_) token.due = begin + operations_.takes(behaviour);
+    if (simulated_) token.due = begin + operations_.draw_time(behaviour);
     if (watchdog > Duration::zero() && token.due > begin + watchdog)
       returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
     if (token.due > begin) return true;

@@ -12,6 +12,7 @@
 #include "nets/shared_channel.hpp"
 #include "parameters/parameter_changes.hpp"
 #include "recorder/value_recorder.hpp"
+#include "subsystem/call_times.hpp"
 #include "subsystem/injection.hpp"
 #include "tessera/device.hpp"
 #include "tessera/ids.hpp"
@@ -36,6 +37,7 @@ struct SubsystemParts {
   std::string path;
   std::uint32_t index = 0;  ///< into System::instances
   const Instance* instance = nullptr;
+  CallTimes times{};  ///< in simulated time
   std::unique_ptr<Subsystem> subsystem;
   Bindings bindings;
   std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs

@@ -173,9 +173,8 @@ class BehaviourReader {
     behaviour.receive = read_list(section.find("receive"), {scope_.inputs, scope_.outputs, "input", member},
                                   defaults_.receive);
     behaviour.transfer = read_transfer(section.find("transfer"));
-    if (const Entry* takes = section.find("takes")) {
-      behaviour.takes = read_duration(*takes->value, takes->span, "takes", *out_).value_or(Duration{1});
-    }
+    if (const Entry* takes = section.find("takes"))
+      behaviour.takes = read_takes(*takes->value, takes->span, *out_).value_or(Takes{Duration{1}, Duration{1}});
   }
 
   void read_group(const Section& section, const ConditionScope& scope, const Written& written,

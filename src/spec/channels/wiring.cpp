@@ -109,7 +109,7 @@ class WiringCheck {
       return model_.sender_waits(channel) && is_listed(behaviour.send, channel.from.buffer) &&
              behaviour.skips(channel.from.buffer) == nullptr;
     };
-    return behaviour.takes > Duration{0} ||
+    return behaviour.takes.shortest > Duration{0} ||
            std::any_of(in_[instance].begin(), in_[instance].end(), receives) ||
            std::any_of(out_of_[instance].begin(), out_of_[instance].end(), sends);
   }

@@ -112,6 +112,14 @@ struct Next {
 
 enum class Transfer : std::uint8_t { sequential, parallel };
 
+/// How long a transition function takes, its devices included. Both 0: the specification does not say it.
+struct Takes {
+  Duration shortest{0}, longest{0};
+
+  [[nodiscard]] bool is_declared() const { return longest > Duration{0}; }
+  bool operator==(const Takes&) const = default;
+};
+
 /// The parts of a group of behaviours, which has them instead of a transition function and communication.
 struct Group {
   BehaviourId start{};              ///< a behaviour or group in it
@@ -143,7 +151,7 @@ struct Behaviour {
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
-  Duration takes{0};               ///< simulated time of the transition function
+  Takes takes{};                   ///< in simulated time
   std::vector<Change> sets{};      ///< to memory when it begins; of a group, with those of its start
   std::optional<Order> orders{};   ///< the goal that it orders when it begins; `sets` contains its change
   std::optional<Member> member{};  ///< of a behaviour `for: each robot`

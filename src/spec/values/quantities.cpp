@@ -83,6 +83,34 @@ std::optional<Duration> read_duration(const Node& node, Span at, std::string_vie
   return value ? std::optional(nanoseconds(*value)) : std::nullopt;
 }
 
+std::optional<Takes> read_takes(const Node& node, Span at, Diagnostics& out) {
+  constexpr std::string_view what = "takes", between = "..";
+  const std::size_t dots = node.is_scalar() ? node.text.find(between) : std::string::npos;
+  if (dots == std::string::npos) {
+    const std::optional<Duration> both = read_duration(node, at, what, out);
+    return both ? std::optional(Takes{*both, *both}) : std::nullopt;
+  }
+  Node longest = node, shortest = node;
+  longest.text = node.text.substr(dots + between.size());
+  shortest.text = node.text.substr(0, dots);
+  const auto last = split_quantity(longest.text), first = split_quantity(shortest.text);
+  if (!last || !first) {
+    out.error("E205", node.span, "takes must be a time or a range of times, not " + in_quotes(node.text),
+              "for example 1..3 ms");
+    return std::nullopt;
+  }
+  // "1..3 ms": the unit belongs to both.
+  if (first->unit.empty()) shortest.text += last->unit;
+  const std::optional<Duration> most = read_duration(longest, at, what, out);
+  const std::optional<Duration> least = most ? read_moment(shortest, at, what, out) : std::nullopt;
+  if (!least) return std::nullopt;
+  if (*least <= *most) return Takes{*least, *most};
+  out.error("E206", node.span,
+            "the shortest time stands before the longest one, but " + in_quotes(node.text) +
+                " begins with the longer one");
+  return std::nullopt;
+}
+
 std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out) {
   auto value = read(node, at, "a rate", rate_units, "Hz", "20 Hz", out);
   if (!value) return std::nullopt;

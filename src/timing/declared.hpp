@@ -1,4 +1,4 @@
-// What a specification declares about time, as the bounds need it.
+// The times that a specification declares, as the bounds need them.
 #pragma once
 
 #include <string>

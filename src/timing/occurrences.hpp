@@ -77,7 +77,7 @@ class Occurrences {
   [[nodiscard]] Time twice(EventId x, EventId y) const;
   /// When a value is received for the last time at the latest, if it was written, and replaced, then at the latest.
   [[nodiscard]] Time last_read(std::uint32_t channel, Time written, Time replaced) const;
-  /// Of the first iteration, if it has no release to count from.
+  /// When the first iteration begins, if it has no release to count from.
   [[nodiscard]] Time begin(std::uint32_t subsystem) const {
     return system_.subsystems[subsystem].period > 0 ? 0 : late_[subsystem];
   }
@@ -113,7 +113,7 @@ class Occurrences {
   [[nodiscard]] bool holds_on(EventId z) const;
   /// A wait that ends with the first occurrence of the partner's event after our last one.
   [[nodiscard]] bool is_entry(EventId y) const;
-  /// What y adds to the events before it, waits for others left out.
+  /// The time that y adds to the events before it, waits for others left out.
   [[nodiscard]] Time weight(EventId y) const;
   /// Least time from an event of one iteration to one of the next.
   [[nodiscard]] Time least_between(EventId y, EventId x) const;

@@ -1,4 +1,4 @@
-// What follows from the bounds of single events for the way of a value.
+// The way of a value, from the bounds of single events.
 #include <algorithm>
 
 #include "timing/occurrences.hpp"
@@ -67,7 +67,7 @@ Time Occurrences::twice(EventId x, EventId y) const {
 Time Occurrences::last_read(std::uint32_t channel, Time written, Time replaced) const {
   const EventId write = events_.write(channel);
   Time last = keeps_values(channel) ? std::min(replaced, plus(written, gap_[write])) : unbounded;
-  // What is new was not there at the last receive.
+  // A new value was not there at the last receive.
   if (!reads_new(channel)) return last;
   const EventId read = events_.read(channel);
   return std::min(last, plus(written, std::max({arrival(read), wake_up(read),

@@ -1,4 +1,4 @@
-// What the bounds are computed from: subsystems that repeat one iteration, and the channels between them.
+// The base of the bounds: subsystems that repeat one iteration, and the channels between them.
 #pragma once
 
 #include <cstdint>

@@ -80,8 +80,7 @@ class Assembler {
   void bind(SubsystemParts& parts, std::uint32_t index) {
     const Instance& instance = system_.instances[index];
     parts.path = path_of(instance);
-    parts.instance = &instance;
-    parts.index = index;
+    parts.instance = &instance, parts.index = index;
     parts.times = CallTimes(assembly_.options.seed, parts.path);
     parts.subsystem = instance.make();
     if (Substitutes* const of_test = assembly_.options.substitutes; of_test != nullptr)

@@ -45,8 +45,8 @@ bool make_template(TextEditor& editor, const Path& agent);
 /// Returns why it cannot be done; nullopt: it is moved.
 std::optional<std::string> move_to_group(TextEditor& editor, const Path& behaviour, const std::string& group);
 
-/// Copies what is `at`, with its comments, to the lines behind it, under a new name. Where the copy names itself (a
-/// behaviour in its own `next`), it has the new name. Anchors in it get new names. With an agent, the channels between
+/// Copies what is `at`, with its comments, to the lines behind it, under a new name. A copy that names itself (a
+/// behaviour in its own `next`) has the new name there. Anchors in it get new names. With an agent, the channels between
 /// its own subsystems are copied; those to other agents, drivers and placed models are not.
 ///
 /// Returns why it cannot be done; nullopt: it is copied.

@@ -10,7 +10,7 @@
 
 namespace tessera::server {
 
-/// Where a user has put the box of an agent or subsystem in the drawing of the structure: its upper left corner, for a
+/// The place where a user has put the box of an agent or subsystem in the drawing of the structure: its upper left corner, for a
 /// subsystem from that of its agent.
 struct BoxPosition {
   int x = 0;

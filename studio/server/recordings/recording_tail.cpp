@@ -94,7 +94,7 @@ void RecordingTail::keep_value(Batch& batch, const Recording::Entry& entry) {
   const ValueEvent& event = change->event;
   if (!event.has(ValueFlags::same)) arrays_.take(*change);
   const bool valid = event.has(ValueFlags::valid);
-  // Of the reads of an input that holds no valid value, only the first says something.
+  // Only the first read of an input that holds no valid value says something.
   const bool begins_invalid = event.has(ValueFlags::stamped) && !valid && !segment_->invalid[change->number];
   if (event.has(ValueFlags::stamped)) segment_->invalid[change->number] = !valid;
   if (event.has(ValueFlags::stamped) && (event.has(ValueFlags::fresh) || begins_invalid))

@@ -106,7 +106,7 @@ class ValueSeries {
     const ValueEvent& event = change.event;
     if (!event.has(ValueFlags::stamped)) return;
     const bool valid = event.has(ValueFlags::valid);
-    // Of the reads of an input that holds no valid value, only the first says something.
+    // Only the first read of an input that holds no valid value says something.
     const bool begins_invalid = !valid && invalid_.insert(change.number).second;
     if (valid) invalid_.erase(change.number);
     if (!event.has(ValueFlags::fresh) && !begins_invalid) return;

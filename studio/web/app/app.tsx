@@ -9,7 +9,7 @@ import { Toolbar } from "../panels/toolbar";
 import { RemovalDialog } from "../panels/forms/removal_dialog";
 import { RenameDialog } from "../panels/forms/rename_dialog";
 import { TrustDialog } from "../panels/trust_dialog";
-import { Boundary } from "./boundary";
+import { Boundary } from "../panels/boundary";
 import { Dock } from "./dock";
 import { useStore, useStudio } from "../hooks/use";
 import { shortcutOf, type ShortcutOf } from "../model/shortcuts";

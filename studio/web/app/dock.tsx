@@ -3,7 +3,7 @@ import { Actions, Layout, Model, type Action, type IJsonModel, type IJsonTabSetN
 import { Suspense, useEffect, useMemo, useRef } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { tabSets, type Cell, type Row } from "../model/dock/dock_tree";
-import { Boundary } from "./boundary";
+import { Boundary } from "../panels/boundary";
 import { panelTable, type Panel } from "./panel_table";
 import { useDockKeys } from "./dock_keys";
 

@@ -9,7 +9,7 @@ import { WhatRuns } from "../panels/operate/what_runs";
 import { OperatorPanel, useShownPanels } from "../panels/run/operator_panel";
 import type { StickKeys } from "../model/run/panel_inputs";
 import type { PanelShown } from "../model/protocol";
-import { Boundary } from "./boundary";
+import { Boundary } from "../panels/boundary";
 import "./operate.css";
 
 // The page for operators: panels, values, world and the stop, for a tablet.

@@ -1,6 +1,6 @@
 import type { Connection } from "./stream/connection";
 import type { DeploymentSeen, LinkSeen, ProcessSeen } from "../model/protocol";
-import type { Runner } from "./runner";
+import type { Runner } from "./run/runner";
 import { Store } from "./store";
 
 /** The state of all processes of a deployed system that are watched together. */

@@ -3,7 +3,7 @@ import { type Api, ApiError, message } from "./api";
 import { RecordedArrays } from "./arrays";
 import type { Draft } from "./draft";
 import type { Notes, NotesRequest, Recording, RecordingInfo } from "../model/protocol";
-import { Replay } from "./replay";
+import { Replay } from "./run/replay";
 import { Store } from "./store";
 import { RecordedWorld } from "./world";
 
@@ -39,7 +39,7 @@ export class Recordings {
       put((await this.api.saveNotes(name, notes)).notes);
       return "";
     } catch (error) {
-      // What somebody else has written is the base of the next try.
+      // The text that somebody else has written is the base of the next try.
       if (error instanceof ApiError && error.status === 409) put((error.body.notes ?? null) as Notes | null);
       return message(error);
     }

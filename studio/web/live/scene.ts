@@ -1,10 +1,10 @@
 import { differences, type Difference } from "../model/run/timeline";
 import type { Recordings } from "./recordings";
-import type { Replay } from "./replay";
-import type { Runner } from "./runner";
+import type { Replay } from "./run/replay";
+import type { Runner } from "./run/runner";
 import type { Stage } from "./stage";
 import { Store } from "./store";
-import type { Track } from "./track";
+import type { Track } from "./run/track";
 
 /** One drawing of a net: of the text, of a run, or of a recording. */
 export interface Pane {

@@ -1,7 +1,7 @@
 import { anglesOf, numbersOf, type Rays } from "../model/net/views";
 import type { Api } from "./api";
 import type { WorldView } from "../model/protocol";
-import type { Track } from "./track";
+import type { Track } from "./run/track";
 
 /** Requests the devices that give scans and pictures; none if the world does not answer. */
 export async function viewsOf(api: Api): Promise<readonly WorldView[]> {

@@ -28,7 +28,7 @@ export interface Step {
   primary: { label: string; name: string; act: Act; enabled: boolean };
 }
 
-/** What the steps depend on. */
+/** The state that the steps depend on. */
 export interface Situation {
   /** The specification is empty: a project begins with a choice. */
   blank: boolean;

@@ -1,7 +1,7 @@
 import { lazy, Suspense } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { useComplaints, useStructure } from "../hooks/use_structure";
-import { sameBreakpoint, type NamedBreakpoint } from "../live/breakpoints";
+import { sameBreakpoint, type NamedBreakpoint } from "../live/run/breakpoints";
 import { layerTitle, operationText } from "../model/net/labels";
 import type { Element, NetModel } from "../model/net/net";
 import { findThing, selectedPath, type Thing } from "../model/structure/structure";

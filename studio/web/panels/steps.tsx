@@ -1,7 +1,7 @@
 import { useEffect } from "react";
 import { useStore, useStudio } from "../hooks/use";
 import { isUnsaved } from "../live/draft";
-import { startRequest } from "../live/start_request";
+import { startRequest } from "../live/run/start_request";
 import type { Studio } from "../live/studio";
 import { stepsOf, type Act, type Situation, type Step } from "../model/steps";
 import { tracksOf } from "./run/start_form";

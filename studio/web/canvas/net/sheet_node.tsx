@@ -1,7 +1,7 @@
 import type { NodeProps, Node } from "@xyflow/react";
 import { memo, useEffect, useRef, type CSSProperties } from "react";
 import { useStudio } from "../../hooks/use";
-import { numbered } from "../../live/breakpoints";
+import { numbered } from "../../live/run/breakpoints";
 import type { Stage } from "../../live/stage";
 import type { NetModel } from "../../model/net/net";
 import type { Placed } from "../../model/net/sheets";

@@ -56,7 +56,7 @@ const isEditable = (element: Element | null) =>
 
 const transformOf = ({ transform, width, height }: ReactFlowState) => [...transform, width, height].join();
 
-/** What a user does with elements of the structure by hand: menu, keys, clipboard, drags. It is a child of the drawing. */
+/** Work by hand on elements of the structure: menu, keys, clipboard, drags. It is a child of the drawing. */
 export function StructureHands({ structure, area, boxes, move, arrange, onDrag }: Hands) {
   const studio = useStudio();
   const flow = useReactFlow();

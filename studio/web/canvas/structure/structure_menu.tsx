@@ -5,7 +5,7 @@ import type { Studio } from "../../live/studio";
 import { kindName } from "../../model/structure/copied";
 import { findThing, nextEntryOf, selectedPath, withoutIndex, type Structure, type Thing } from "../../model/structure/structure";
 
-/** What can be done with an element: the menu of a right click, of Shift F10, and of the button at the element. */
+/** The commands for an element: the menu of a right click, of Shift F10, and of the button at the element. */
 
 export interface Item {
   title: string;

@@ -1,7 +1,7 @@
 import { type Api, ApiError, message } from "../api";
 import { Gamepads } from "./gamepads";
 import type { Operators, PanelShown } from "../../model/protocol";
-import type { Runner } from "../runner";
+import type { Runner } from "../run/runner";
 import { Store } from "../store";
 import { neutralInputs, released, type Inputs } from "../../model/run/panel_inputs";
 

@@ -2,10 +2,10 @@ import { beginOf, firstOf } from "../../model/plots/plotted_runs";
 import { type Api, message } from "../api";
 import type { Draft } from "../draft";
 import type { Alignment, Plots } from "./plots";
-import { Replay } from "../replay";
+import { Replay } from "../run/replay";
 import type { Scene } from "../scene";
 import { Store } from "../store";
-import type { Track } from "../track";
+import type { Track } from "../run/track";
 
 /** A run whose curves are in the plot. */
 export interface Source {

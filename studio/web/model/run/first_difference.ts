@@ -38,7 +38,7 @@ function changesOf(samples: Samples<unknown> | undefined): { times: number[]; va
 
 /**
  * The first change of a value that the other run does not have. Both are compared change by change; a change that is the
- * same, but more than `tolerance` nanoseconds earlier or later, is a difference, too. What one of them has not reached
+ * same, but more than `tolerance` nanoseconds earlier or later, is a difference, too. A part that one of them has not reached
  * yet is none. null: there is no difference.
  */
 export function firstDifference(one: ComparedRun, other: ComparedRun, tolerance = 0): FirstDifference | null {

@@ -25,7 +25,7 @@ export function withChange(boxes: Positions, { after }: BoxChange): Positions {
 
 const same = (a: Position | undefined, b: Position | undefined) => a?.[0] === b?.[0] && a?.[1] === b?.[1];
 
-/** The boxes that two sides have moved since `base`. Of a box that both have moved, the place of `mine` counts. */
+/** The boxes that two sides have moved since `base`. The place of `mine` counts for a box that both have moved. */
 export function joined(base: Positions, mine: Positions, theirs: Positions): Positions {
   const all = new Set([...Object.keys(base), ...Object.keys(mine), ...Object.keys(theirs)]);
   const now: Record<string, Position> = {};

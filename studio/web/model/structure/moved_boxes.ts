@@ -62,7 +62,7 @@ function withDevice(boxes: ReadonlyMap<string, Box>, path: string): Box {
   return { x, y: box.y, width: right - x, height: device.y + device.height - box.y };
 }
 
-/** Where the boxes stand. */
+/** The places of the boxes. */
 function movedBoxes({ boxes }: StructureDrawing, moved: Positions, first: string | undefined): Map<string, Box> {
   const agents = [...boxes.keys()].filter((path) => !path.includes("."));
   const insides = new Map<string, Map<string, Box>>();

@@ -14,7 +14,7 @@ export interface Rim extends Point {
 /** Distances from boxes at which lines run. */
 const lanes = [14, 23, 32];
 const bendCost = 60;
-/** Of a unit on which another line runs. */
+/** The cost of a unit on which another line runs. */
 const sharedCost = 6;
 
 type Piece = readonly [Point, Point];

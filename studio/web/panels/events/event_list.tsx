@@ -1,7 +1,7 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useEffect, useRef, useState, type KeyboardEvent } from "react";
 import { useStore } from "../../hooks/use";
-import type { Replay } from "../../live/replay";
+import type { Replay } from "../../live/run/replay";
 import { Store } from "../../live/store";
 import { breakable } from "../../model/net/labels";
 import { eventKinds, type EventLog, type LogEvent, type LogRow } from "../../model/run/event_log";

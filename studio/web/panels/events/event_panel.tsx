@@ -1,7 +1,7 @@
 import { useDeferredValue, useEffect, useMemo, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import type { Pane } from "../../live/scene";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { showPlace } from "../../live/show_place";
 import { eventKinds, filtered, type EventKind, type LogFilter, type LogRow } from "../../model/run/event_log";
 import { clock } from "../plots/clock";

@@ -2,7 +2,7 @@ import { useEffect, useRef, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { useStructure } from "../../hooks/use_structure";
 import { message } from "../../live/api";
-import type { Replay } from "../../live/replay";
+import type { Replay } from "../../live/run/replay";
 import type { Studio } from "../../live/studio";
 import { drawnIn, filmName, filmOf, mostFirings, type FilmedPlots } from "../../model/run/film";
 import { initialMarking } from "../../model/net/game";

@@ -1,6 +1,6 @@
 import type { Api } from "../../live/api";
 import type { Floor } from "../../live/api";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import type { Poses, World } from "../../live/world";
 import type { FilmedWorld } from "../../model/run/film";
 import type { World3d } from "../world/world_3d";

@@ -1,8 +1,8 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { showPlace } from "../../live/show_place";
-import type { Replay } from "../../live/replay";
-import type { Track } from "../../live/track";
+import type { Replay } from "../../live/run/replay";
+import type { Track } from "../../live/run/track";
 import { breakable } from "../../model/net/labels";
 import { sentenceOf, Teller, type Words } from "../../model/run/words";
 import { clock } from "../plots/clock";

@@ -1,6 +1,6 @@
-import { Boundary } from "../../app/boundary";
+import { Boundary } from "../boundary";
 import { useStore, useStudio } from "../../hooks/use";
-import { goesOn } from "../../live/runner_state";
+import { goesOn } from "../../live/run/runner_state";
 import { EmergencyBar, useDriving } from "../emergency_bar";
 import { RecordingPlayer, StepPlayer } from "../run/player";
 import { LastOfPlay, LastOfRecording } from "./last_firing";

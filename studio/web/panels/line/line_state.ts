@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { RunnerState } from "../../live/runner_state";
+import type { RunnerState } from "../../live/run/runner_state";
 import { activeTransitions } from "../../model/net/game";
 import { stuckText } from "../../model/run/event_log";
 import { reason } from "../pane_title";

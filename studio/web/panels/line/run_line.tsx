@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import { goesOn } from "../../live/runner_state";
+import { goesOn } from "../../live/run/runner_state";
 import { Icon, IconButton } from "../icons";
 import { clock } from "../plots/clock";
 import { LastOfRun } from "./last_firing";

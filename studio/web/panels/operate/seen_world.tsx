@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { WorldPane } from "../world/world_pane";
 
 /** The simulated world, or the path of the robot. Without both it takes no room. */

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import { goesOn } from "../../live/runner_state";
+import { goesOn } from "../../live/run/runner_state";
 import type { RunListed } from "../../model/protocol";
 
 const kindTitles: Record<RunListed["kind"], string> = {

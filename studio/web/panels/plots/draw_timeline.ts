@@ -1,4 +1,4 @@
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { Timeline } from "../../model/run/timeline";
 import type { Colours, Size } from "../world/painted";
 

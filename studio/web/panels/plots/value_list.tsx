@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { curveOf } from "../../model/plots/plotted_runs";
 import { isSame, keyOf, titleOf, type Signal } from "../../model/plots/signals";
 import { valueAt } from "../../model/plots/statistics";

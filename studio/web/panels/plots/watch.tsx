@@ -1,6 +1,6 @@
 import { useLayoutEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { drawTimeline, timeAt } from "./draw_timeline";
 import { Painted } from "../world/painted";
 import { usePaneTitle } from "../pane_title";

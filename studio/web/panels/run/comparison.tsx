@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Replay } from "../../live/replay";
+import type { Replay } from "../../live/run/replay";
 import { firstDifference, type FirstDifference } from "../../model/run/first_difference";
 import { shown } from "../../model/run/series";
 import type { Difference } from "../../model/run/timeline";

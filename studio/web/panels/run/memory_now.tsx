@@ -1,7 +1,7 @@
 import { useEffect, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { useStructure } from "../../hooks/use_structure";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { memoryOf } from "../../model/run/memory";
 import { shown } from "../../model/run/series";
 import { findThing } from "../../model/structure/structure";

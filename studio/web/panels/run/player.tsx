@@ -1,5 +1,5 @@
 import { useStore, useStudio } from "../../hooks/use";
-import type { Replay } from "../../live/replay";
+import type { Replay } from "../../live/run/replay";
 import type { Pane } from "../../live/scene";
 import { clock } from "../plots/clock";
 import { IconButton } from "../icons";

@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
-import type { Replay } from "../../live/replay";
+import type { Replay } from "../../live/run/replay";
 import type { Notes, RecordingInfo } from "../../model/protocol";
 import { clock } from "../plots/clock";
 

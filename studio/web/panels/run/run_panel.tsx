@@ -1,7 +1,7 @@
 import { useRunning } from "../../hooks/use_stage";
 import { useStore, useStudio } from "../../hooks/use";
-import { titleOf } from "../../live/breakpoints";
-import { goesOn } from "../../live/runner_state";
+import { titleOf } from "../../live/run/breakpoints";
+import { goesOn } from "../../live/run/runner_state";
 import { sentence } from "../../model/net/labels";
 import { Again } from "./again";
 import { IconButton } from "../icons";

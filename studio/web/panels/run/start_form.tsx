@@ -1,7 +1,7 @@
 import { useCallback, useEffect, useState } from "react";
 import { useHasWorld, useStore, useStudio, useUnsaved } from "../../hooks/use";
 import { message } from "../../live/api";
-import { numberIn, startRequest } from "../../live/start_request";
+import { numberIn, startRequest } from "../../live/run/start_request";
 import type { Project } from "../../model/protocol";
 import { Choice, Field } from "../forms/field";
 

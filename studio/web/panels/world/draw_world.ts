@@ -1,4 +1,4 @@
-import type { Pose, Track } from "../../live/track";
+import type { Pose, Track } from "../../live/run/track";
 import { niceStep } from "../plots/draw_timeline";
 import type { Colours, Size } from "./painted";
 

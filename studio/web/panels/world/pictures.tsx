@@ -1,6 +1,6 @@
 import { useEffect, useRef } from "react";
 import type { WorldView } from "../../model/protocol";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { numbersOf, pixelsOf } from "../../model/net/views";
 import { cut } from "../fleet/draw_fleet";
 

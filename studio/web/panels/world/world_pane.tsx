@@ -1,7 +1,7 @@
 import { useEffect, useMemo, useRef, useState } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { message } from "../../live/api";
-import type { Track } from "../../live/track";
+import type { Track } from "../../live/run/track";
 import { Scans, viewsOf } from "../../live/views";
 import type { WorldView } from "../../model/protocol";
 import type { World } from "../../live/world";

@@ -1,4 +1,4 @@
-// What a user does with elements of the structure by hand: keys, menu, clipboard, arrows, moved boxes.
+// Work by hand on elements of the structure: keys, menu, clipboard, arrows, moved boxes.
 import assert from "node:assert/strict";
 import { existsSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
@@ -76,7 +76,7 @@ test("the keyboard alone reaches, copies, links and removes elements, and the me
     await selects(page, "next:robot.control.follow#0");
     assert.match(await now(), /follow:\n +next: \[\{ to: init, when: in\.line\.left \}\]/);
 
-    // What others use is listed first, and stays if the user says so.
+    // Elements that others use are listed first, and stays if the user says so.
     await page.keyboard.press("Control+z");
     await until(page, async () => (await now()) === before, "the entry is undone");
     await at(page, "robot.control.follow").click();

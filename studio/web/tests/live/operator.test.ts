@@ -5,8 +5,8 @@ import { Operator } from "../../live/operate/operator";
 import type { Pad } from "../../model/run/gamepad";
 import type { ControlRequest, Operators, PanelShown } from "../../model/protocol";
 import { Store } from "../../live/store";
-import type { Runner } from "../../live/runner";
-import type { RunnerState } from "../../live/runner_state";
+import type { Runner } from "../../live/run/runner";
+import type { RunnerState } from "../../live/run/runner_state";
 
 const panel: PanelShown = {
   path: "robot.console.drive",

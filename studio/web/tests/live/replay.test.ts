@@ -1,5 +1,5 @@
 import { afterAll, beforeAll, describe, expect, it, vi } from "vitest";
-import { Replay } from "../../live/replay";
+import { Replay } from "../../live/run/replay";
 import { lineFollower } from "../model/line_follower";
 import { recordingOf } from "./recording";
 

@@ -3,7 +3,7 @@ import type { Api } from "../../live/api";
 import type { Connection } from "../../live/stream/connection";
 import type { Draft } from "../../live/draft";
 import type { ControlRequest, RunInfo } from "../../model/protocol";
-import { Runner } from "../../live/runner";
+import { Runner } from "../../live/run/runner";
 import { NetModel } from "../../model/net/net";
 import { lineFollower } from "../model/line_follower";
 

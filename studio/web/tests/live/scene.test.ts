@@ -1,13 +1,13 @@
 import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import type { FiringRow } from "../../model/protocol";
 import type { Recordings, RecordingsState } from "../../live/recordings";
-import { Replay } from "../../live/replay";
-import type { Runner } from "../../live/runner";
-import type { RunnerState } from "../../live/runner_state";
+import { Replay } from "../../live/run/replay";
+import type { Runner } from "../../live/run/runner";
+import type { RunnerState } from "../../live/run/runner_state";
 import { Scene } from "../../live/scene";
 import { Stage } from "../../live/stage";
 import { Store } from "../../live/store";
-import { Track } from "../../live/track";
+import { Track } from "../../live/run/track";
 import { lineFollower } from "../model/line_follower";
 import { recordingOf } from "./recording";
 

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { noteNotices } from "../../live/run_log";
+import { noteNotices } from "../../live/run/run_log";
 import { NetModel, type FoldedNet } from "../../model/net/net";
 import { eventKinds, EventLog, filtered, type EventKind, type LogFilter } from "../../model/run/event_log";
 import json from "./words.json";

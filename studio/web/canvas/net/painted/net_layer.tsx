@@ -1,6 +1,6 @@
 import { useEffect, useLayoutEffect, useMemo, useRef } from "react";
 import { useStudio } from "../../../hooks/use";
-import { numbered } from "../../../live/breakpoints";
+import { numbered } from "../../../live/run/breakpoints";
 import type { Stage } from "../../../live/stage";
 import type { Window } from "../../../model/net/sheets";
 import { Marks } from "../marks";

@@ -1,5 +1,5 @@
 import type { NamedBreakpoint } from "./breakpoints";
-import type { Outcome, PanelShown, ParameterShown, RunKind, RunListed, RunState, StartRequest } from "../model/protocol";
+import type { Outcome, PanelShown, ParameterShown, RunKind, RunListed, RunState, StartRequest } from "../../model/protocol";
 
 /** The settings of the form for the next run. */
 export interface Wishes {

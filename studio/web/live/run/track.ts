@@ -1,13 +1,13 @@
-import type { NetModel } from "../model/net/net";
-import { EventLog } from "../model/run/event_log";
-import { Series } from "../model/run/series";
-import { bounded, count } from "../model/sorted";
-import { Timeline } from "../model/run/timeline";
-import type { Floor } from "./api";
-import { ArrivalLog } from "../model/plots/arrivals";
-import type { Arrival, FiringRow, PathRow } from "../model/protocol";
-import { LiveArrays, type Arrays } from "./arrays";
-import type { World } from "./world";
+import type { NetModel } from "../../model/net/net";
+import { EventLog } from "../../model/run/event_log";
+import { Series } from "../../model/run/series";
+import { bounded, count } from "../../model/sorted";
+import { Timeline } from "../../model/run/timeline";
+import type { Floor } from "../api";
+import { ArrivalLog } from "../../model/plots/arrivals";
+import type { Arrival, FiringRow, PathRow } from "../../model/protocol";
+import { LiveArrays, type Arrays } from "../arrays";
+import type { World } from "../world";
 
 export interface Pose {
   t: number;

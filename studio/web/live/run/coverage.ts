@@ -1,8 +1,8 @@
-import { type Api, message } from "./api";
-import type { Coverage } from "../model/protocol";
-import type { Pane, Scene } from "./scene";
+import { type Api, message } from "../api";
+import type { Coverage } from "../../model/protocol";
+import type { Pane, Scene } from "../scene";
 import type { Runner } from "./runner";
-import { Store } from "./store";
+import { Store } from "../store";
 
 /** Milliseconds between two requests for a running run. */
 const pause = 2000;

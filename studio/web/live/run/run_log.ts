@@ -1,8 +1,8 @@
-import type { ControlRequest, Notice, Notices } from "../model/protocol";
-import type { EventKind, EventLog, LogEvent } from "../model/run/event_log";
-import type { Emergency } from "./emergency";
+import type { ControlRequest, Notice, Notices } from "../../model/protocol";
+import type { EventKind, EventLog, LogEvent } from "../../model/run/event_log";
+import type { Emergency } from "../emergency";
 import type { Runner } from "./runner";
-import type { Connection } from "./stream/connection";
+import type { Connection } from "../stream/connection";
 import type { Track } from "./track";
 
 /** The operator's command in words; null: it is not worth an entry, such as a step. */

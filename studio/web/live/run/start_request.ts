@@ -1,4 +1,4 @@
-import type { StartRequest } from "../model/protocol";
+import type { StartRequest } from "../../model/protocol";
 import type { Wishes } from "./runner_state";
 
 /** The number in a field; NaN: it holds none. */

@@ -1,5 +1,5 @@
-import type { NetModel } from "../model/net/net";
-import type { Breakpoint } from "../model/protocol";
+import type { NetModel } from "../../model/net/net";
+import type { Breakpoint } from "../../model/protocol";
 
 /** A point at which a run pauses. It has a name, because the numbers of a net change with every edit. */
 export interface NamedBreakpoint {

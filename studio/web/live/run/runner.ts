@@ -1,11 +1,11 @@
-import { LiveArrays } from "./arrays";
+import { LiveArrays } from "../arrays";
 import { numbered, sameBreakpoint, titleOf, type NamedBreakpoint } from "./breakpoints";
-import { runningBehaviours } from "../model/net/game";
-import type { NetModel } from "../model/net/net";
-import { bounded } from "../model/sorted";
-import { type Api, message } from "./api";
-import type { Connection } from "./stream/connection";
-import type { Draft } from "./draft";
+import { runningBehaviours } from "../../model/net/game";
+import type { NetModel } from "../../model/net/net";
+import { bounded } from "../../model/sorted";
+import { type Api, message } from "../api";
+import type { Connection } from "../stream/connection";
+import type { Draft } from "../draft";
 import type {
   ControlRequest,
   Events,
@@ -20,13 +20,13 @@ import type {
   StartRequest,
   SubsystemsEvent,
   ValuesEvent,
-} from "../model/protocol";
+} from "../../model/protocol";
 import { noteCommand } from "./run_log";
 import { goesOn, idle, type RunnerState, type Wishes } from "./runner_state";
-import { Stage } from "./stage";
-import { Store } from "./store";
+import { Stage } from "../stage";
+import { Store } from "../store";
 import { Track } from "./track";
-import { LiveWorld } from "./world";
+import { LiveWorld } from "../world";
 
 /** The events of a run that this class handles. */
 type RunEventName =

@@ -1,11 +1,11 @@
-import { fire, markingBefore, runningBehaviours } from "../model/net/game";
-import type { Scenes } from "../model/run/film";
-import type { NetModel } from "../model/net/net";
-import { count } from "../model/sorted";
-import type { FiringRow, PathRow, Recording } from "../model/protocol";
+import { fire, markingBefore, runningBehaviours } from "../../model/net/game";
+import type { Scenes } from "../../model/run/film";
+import type { NetModel } from "../../model/net/net";
+import { count } from "../../model/sorted";
+import type { FiringRow, PathRow, Recording } from "../../model/protocol";
 import { noteNotices } from "./run_log";
-import { Stage } from "./stage";
-import { Store } from "./store";
+import { Stage } from "../stage";
+import { Store } from "../store";
 import { Track } from "./track";
 
 export interface ReplayState {

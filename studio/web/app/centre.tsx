@@ -1,4 +1,4 @@
-import { NetCanvas, type DrawnPane } from "../canvas/net_canvas";
+import { NetCanvas, type DrawnPane } from "../canvas/net/net_canvas";
 import { StructureCanvas } from "../canvas/structure_canvas";
 import { ComparisonBar } from "../panels/run/comparison";
 import { CoverageLegend } from "../panels/run/coverage";

@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { useStudio } from "../hooks/use";
 import { message } from "../live/api";
-import { withVectors } from "./painted/vectors";
+import { withVectors } from "./net/painted/vectors";
 import { asPng, download, takePicture } from "./picture";
 
 /** Buttons that save the visible part as a file. */

@@ -12,7 +12,7 @@ import { Editor, type Wish } from "./editor";
 import type { Project, RunRequest, Verdict } from "../model/protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
-import { Operator } from "./operator";
+import { Operator } from "./operate/operator";
 import { Play } from "./play";
 import { PlottedRecordings } from "./plots/plotted";
 import { Plots } from "./plots/plots";

@@ -30,7 +30,7 @@ export interface Film {
   running: [firings: number, page: number, behaviour: string][];
 }
 
-/** What a film shows of the simulated world. Times are in seconds from its first moment. */
+/** The simulated world in a film. Times are in seconds from its first moment. */
 export type FilmedWorld =
   | { kind: "pictures"; times: number[]; pictures: string[] }
   /** A robot from above: x, y and heading at each time; and the picture of its floor with its size in metres. */
@@ -39,7 +39,7 @@ export type FilmedWorld =
 /** Curves of watched values, over the whole time of the film. */
 export interface FilmedPlots {
   svg: string;
-  /** Where the time begins and ends, as parts of the width of the drawing. */
+  /** The parts of the drawing's width at which the time begins and ends. */
   left: number;
   right: number;
 }

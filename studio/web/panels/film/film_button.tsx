@@ -8,7 +8,7 @@ import { drawnIn, filmName, filmOf, mostFirings, type FilmedPlots } from "../../
 import { initialMarking } from "../../model/net/game";
 import type { Structure } from "../../model/structure/structure";
 import { download, takeFirstPicture } from "../../canvas/picture";
-import { withVectors } from "../../canvas/painted/vectors";
+import { withVectors } from "../../canvas/net/painted/vectors";
 import { plotLines } from "../plots/plot_lines";
 import { plotSides, svgOf } from "../plots/plot_svg";
 import { filmPage, type FilmColours } from "./film_page";
@@ -79,14 +79,16 @@ function FilmDialog({ replay, pane, close }: { replay: Replay | null; pane: numb
       setBusy("The drawing…");
       const picture = await withVectors([area], () => takeFirstPicture(area));
       const plots = replay ? filmedPlots(studio, structure, begin, last) : null;
-      const title = replay ? `${scenes.title}, ${seconds(begin)} s to ${seconds(last)} s` : scenes.title;
+      const system = studio.project.get().project?.name;
+      const run = system ? `${system}, ${scenes.title}` : scenes.title;
+      const title = replay ? `${run}, ${seconds(begin)} s to ${seconds(last)} s` : run;
       const film = filmOf({ ...scenes, title }, net, drawnIn(picture.text), {
         ...(replay ? { length: (last - begin) / 1e9 } : {}),
         world,
         plots,
       });
       const page = new Blob([filmPage(film, picture.text, coloursOf(area))], { type: "text/html" });
-      download(page, `${replay ? filmName(scenes.title, begin, last) : filmName(scenes.title)}.html`);
+      download(page, `${replay ? filmName(run, begin, last) : filmName(run)}.html`);
       ref.current?.close();
     } catch (error) {
       setProblem(message(error));

@@ -8,7 +8,7 @@ const escaped = (text: string) => text.replace(/[&<>"]/g, (one) => `&#${one.char
 /** The colours of the studio when the film was saved; the drawing has them, too. */
 export interface FilmColours {
   accent: string;
-  /** Of pages in which a token is. */
+  /** The colour of pages in which a token is. */
   runs: string;
   background: string;
   surface: string;

@@ -16,7 +16,7 @@ const patience = 5000;
 
 const pause = (time: number) => new Promise((done) => setTimeout(done, time));
 
-/** What a film shows of the world of a run between two times; null: there is nothing to see. tell: 0 to 1. */
+/** The world of a run between two times, for a film; null: there is nothing to see. tell: receives the part that is done. */
 export async function filmedWorld(
   api: Api,
   track: Track,
@@ -59,7 +59,7 @@ async function picturesOf(
   });
   try {
     await view.load(glb, world.scene.bodies.length);
-    // From where the user looks at it.
+    // The user's own view of it.
     const shown = (document.querySelector("canvas.space") as (HTMLCanvasElement & { view?: World3d }) | null)?.view;
     if (shown) view.lookAs(shown);
     const number = Math.max(2, Math.min(mostPictures, Math.ceil(((to - from) / 1e9) * eachSecond)));

@@ -10,7 +10,7 @@ const kindTitles: Record<RunListed["kind"], string> = {
   deployment: "all processes",
 };
 
-/** What can be operated, while nothing is. A run that begins meanwhile is followed; nothing is operated by that. */
+/** The runs and controllers that can be operated, while nothing is. A run that begins meanwhile is followed; nothing is operated by that. */
 export function WhatRuns() {
   const studio = useStudio();
   const { state, panels, others, problem, kind } = useStore(studio.runner.store, (all) => all);

@@ -8,7 +8,7 @@ const width = 900;
 const each = 220;
 const row = 20;
 const [left, right] = [70, 70];
-/** The begin and the end of the time, as parts of the width of the drawing. */
+/** The parts of the drawing's width at which the time begins and ends. */
 export const plotSides = { left: left / width, right: 1 - right / width };
 
 const escaped = (text: string) => text.replace(/[<>&"]/g, (one) => `&#${one.charCodeAt(0)};`);

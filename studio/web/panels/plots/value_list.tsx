@@ -55,9 +55,9 @@ export function ValueList({ track, seconds, none }: ValueListProps) {
     return (
       <>
         {title && (
-          <h3 className="value-part" title={hint}>
+          <h2 className="value-part" title={hint}>
             {title}
-          </h3>
+          </h2>
         )}
         <ul>
           {rows.map((one) => (

@@ -12,9 +12,10 @@ const few = 6;
 /** The panels of the running controller that are shown, and the field that chooses them among many. */
 export function useShownPanels() {
   const studio = useStudio();
-  const { panels, kind } = useStore(studio.runner.store, (all) => all);
+  const { panels, kind, state } = useStore(studio.runner.store, (all) => all);
   const [filter, setFilter] = useState("");
-  const all = kind === "deployment" ? [] : panels;
+  const going = state === "running" || state === "paused";
+  const all = kind === "deployment" || !going ? [] : panels;
   const found = all.filter(({ path }) => path.includes(filter));
   const chooser = all.length > few && (
     <div className="field">

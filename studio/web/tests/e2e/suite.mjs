@@ -3,7 +3,7 @@
 import { readdirSync } from "node:fs";
 
 const suites = {
-  reading: ["studio", "readable", "guide", "tour", "fleet", "appearance"],
+  reading: ["studio", "readable", "keyboard", "guide", "tour", "fleet", "appearance"],
   editing: ["editing", "keeping"],
   building: ["building", "workshop"],
   running: ["run", "teleoperation", "beside", "deployment"],

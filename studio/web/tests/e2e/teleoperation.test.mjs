@@ -322,6 +322,7 @@ test("on the page for operators, fingers, keys and a gamepad move the robot, and
     await is({ left: 0 }, "nobody is there");
     await other.getByRole("button", { name: "STOP THE RUN" }).click();
     await other.getByTestId("operated").getByText("ended").waitFor();
+    assert.equal(await other.getByRole("button", { name: "Operate" }).count(), 0, "there is nothing to operate");
     const [{ name }] = await ask("/api/recordings");
     const speedsThen = (await ask(`/api/recordings/${name}`)).values["robot.control.wheels.left"];
     const [rested_ns] = speedsThen.find(([t, value]) => t > died_ns - 1e8 && Math.abs(value) < 1e-6);

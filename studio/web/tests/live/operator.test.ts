@@ -1,7 +1,7 @@
 import { afterAll, beforeEach, describe, expect, it, vi } from "vitest";
 import { ApiError } from "../../live/api";
-import { Gamepads } from "../../live/gamepads";
-import { Operator } from "../../live/operator";
+import { Gamepads } from "../../live/operate/gamepads";
+import { Operator } from "../../live/operate/operator";
 import type { Pad } from "../../model/run/gamepad";
 import type { ControlRequest, Operators, PanelShown } from "../../model/protocol";
 import { Store } from "../../live/store";

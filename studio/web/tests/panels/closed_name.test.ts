@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { closedName, cutTo } from "../../canvas/closed_name";
+import { closedName, cutTo } from "../../canvas/net/closed_name";
 
 describe("a cut name", () => {
   it("keeps the number of a member of a fleet while there is room for it", () => {

@@ -1,6 +1,6 @@
-import type { Box, Sheet } from "../../model/net/geometry";
-import type { NetModel } from "../../model/net/net";
-import { strokesOf, tipOf, type ArcKind, type Strokes } from "../../model/net/strokes";
+import type { Box, Sheet } from "../../../model/net/geometry";
+import type { NetModel } from "../../../model/net/net";
+import { strokesOf, tipOf, type ArcKind, type Strokes } from "../../../model/net/strokes";
 import type { Ink, ShapeInk } from "./ink";
 
 /** More arcs than this, so far away that they have no tips, would only be a grey area. */

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
-import type { PanelControl } from "../../model/protocol";
-import { axisName, beyond, buttonName, padInputs, setupFrom, usualSetup, type Pad } from "../../model/run/gamepad";
+import type { PanelControl } from "../../../model/protocol";
+import { axisName, beyond, buttonName, padInputs, setupFrom, usualSetup, type Pad } from "../../../model/run/gamepad";
 
 const control = (field: string, kind: PanelControl["control"], minimum: number | null, maximum: number | null): PanelControl => ({
   field,

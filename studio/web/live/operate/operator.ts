@@ -1,9 +1,9 @@
-import { type Api, ApiError, message } from "./api";
+import { type Api, ApiError, message } from "../api";
 import { Gamepads } from "./gamepads";
-import type { Operators, PanelShown } from "../model/protocol";
-import type { Runner } from "./runner";
-import { Store } from "./store";
-import { neutralInputs, released, type Inputs } from "../model/run/panel_inputs";
+import type { Operators, PanelShown } from "../../model/protocol";
+import type { Runner } from "../runner";
+import { Store } from "../store";
+import { neutralInputs, released, type Inputs } from "../../model/run/panel_inputs";
 
 export interface OperatorState {
   /** By path: the panels that this page operates, and the values that its pointers and keys give the controls. */

@@ -1,7 +1,7 @@
 import { useEffect, useState } from "react";
-import { intersects } from "../../model/net/geometry";
-import { spoken } from "../../model/net/labels";
-import { boxWithin, type Window } from "../../model/net/sheets";
+import { intersects } from "../../../model/net/geometry";
+import { spoken } from "../../../model/net/labels";
+import { boxWithin, type Window } from "../../../model/net/sheets";
 import type { Scene } from "./painter";
 
 /** The list does not have more entries than this; the largest parts come first. */

@@ -1,8 +1,8 @@
 import { useEffect, useLayoutEffect, useMemo, useRef } from "react";
-import { useStudio } from "../../hooks/use";
-import { numbered } from "../../live/breakpoints";
-import type { Stage } from "../../live/stage";
-import type { Window } from "../../model/net/sheets";
+import { useStudio } from "../../../hooks/use";
+import { numbered } from "../../../live/breakpoints";
+import type { Stage } from "../../../live/stage";
+import type { Window } from "../../../model/net/sheets";
 import { Marks } from "../marks";
 import { Ink } from "./ink";
 import { InView } from "./in_view";

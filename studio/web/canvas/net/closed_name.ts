@@ -1,5 +1,5 @@
-import type { Box } from "../model/net/geometry";
-import { nameLines } from "../model/net/labels";
+import type { Box } from "../../model/net/geometry";
+import { nameLines } from "../../model/net/labels";
 
 /** Widths in pixels of boxes with a cut name, and the space beside it. */
 const cutWidths = [40, 56, 76, 100, 130, 170, 220];

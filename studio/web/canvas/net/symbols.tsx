@@ -1,8 +1,8 @@
 import { memo, type CSSProperties } from "react";
-import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../model/net/geometry";
-import { conditionText, operationText, pageName, spoken } from "../model/net/labels";
-import type { NetModel, Page } from "../model/net/net";
-import { tipOf, type ArcKind, type Strokes } from "../model/net/strokes";
+import { foldedPage, header, intersects, roundedPath, type Box, type Point, type Sheet } from "../../model/net/geometry";
+import { conditionText, operationText, pageName, spoken } from "../../model/net/labels";
+import type { NetModel, Page } from "../../model/net/net";
+import { tipOf, type ArcKind, type Strokes } from "../../model/net/strokes";
 import { mostFarArcs, strokes } from "./painted/arcs";
 import { closedName, layerSize, runningSize } from "./closed_name";
 

@@ -1,10 +1,10 @@
 import { useMemo, useRef } from "react";
-import type { Stage } from "../live/stage";
-import type { NetModel } from "../model/net/net";
-import type { Box } from "../model/net/geometry";
-import type { Placed, Sheets, Window } from "../model/net/sheets";
+import type { Stage } from "../../live/stage";
+import type { NetModel } from "../../model/net/net";
+import type { Box } from "../../model/net/geometry";
+import type { Placed, Sheets, Window } from "../../model/net/sheets";
 import { crowd, isBare } from "./crowd";
-import { nearness } from "./detail";
+import { nearness } from "../detail";
 import type { SheetNode } from "./sheet_node";
 
 /**

@@ -1,8 +1,8 @@
 import { useMemo, useRef, useState } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import type { NetModel } from "../model/net/net";
-import { Sheets } from "../model/net/sheets";
-import { elk } from "./elk";
+import { useStore, useStudio } from "../../hooks/use";
+import type { NetModel } from "../../model/net/net";
+import { Sheets } from "../../model/net/sheets";
+import { elk } from "../elk";
 
 /** Pages with more children than this are folded at first. */
 const many = 24;

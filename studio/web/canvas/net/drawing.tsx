@@ -18,29 +18,29 @@ import {
   type PointerEvent,
   type ReactNode,
 } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import { useLens } from "../hooks/use_lens";
-import type { Pane } from "../live/scene";
-import { stuck } from "../live/verifier";
-import { flagsOf } from "../model/flags";
-import { header, textWidth, type Box } from "../model/net/geometry";
-import { help } from "../model/help";
-import { elementAt } from "../model/net/hit";
-import type { NetModel } from "../model/net/net";
-import type { Placed, Sheets } from "../model/net/sheets";
+import { useStore, useStudio } from "../../hooks/use";
+import { useLens } from "../../hooks/use_lens";
+import type { Pane } from "../../live/scene";
+import { stuck } from "../../live/verifier";
+import { flagsOf } from "../../model/flags";
+import { header, textWidth, type Box } from "../../model/net/geometry";
+import { help } from "../../model/help";
+import { elementAt } from "../../model/net/hit";
+import type { NetModel } from "../../model/net/net";
+import type { Placed, Sheets } from "../../model/net/sheets";
 import { canvasKey } from "./canvas_keys";
 import { currentPage } from "./current_page";
-import { steps } from "./detail";
-import { Legend } from "./legend";
-import { LensOverlay } from "./lens_overlay";
-import { useFlight } from "./flight";
+import { steps } from "../detail";
+import { Legend } from "../legend";
+import { LensOverlay } from "../lens_overlay";
+import { useFlight } from "../flight";
 import { NetLayer } from "./painted/net_layer";
 import { elementsIn, usePainted } from "./painted/use_painted";
 import { painted as paintedMark } from "./painted/vectors";
 import { SheetNodeView, type SheetNode } from "./sheet_node";
 import { useNodes } from "./sheet_nodes";
-import { useSharedView } from "./shared_view";
-import { useSteadyView } from "./steady_view";
+import { useSharedView } from "../shared_view";
+import { useSteadyView } from "../steady_view";
 
 const nodeTypes = { sheet: SheetNodeView };
 const noEdges: never[] = [];

@@ -1,10 +1,10 @@
 import type { NodeProps, Node } from "@xyflow/react";
 import { memo, useEffect, useRef, type CSSProperties } from "react";
-import { useStudio } from "../hooks/use";
-import { numbered } from "../live/breakpoints";
-import type { Stage } from "../live/stage";
-import type { NetModel } from "../model/net/net";
-import type { Placed } from "../model/net/sheets";
+import { useStudio } from "../../hooks/use";
+import { numbered } from "../../live/breakpoints";
+import type { Stage } from "../../live/stage";
+import type { NetModel } from "../../model/net/net";
+import type { Placed } from "../../model/net/sheets";
 import { Marks } from "./marks";
 import { paint } from "./paint";
 import { Arcs, BarSymbol, PageSymbol, PlaceSymbol, within } from "./symbols";

@@ -1,11 +1,11 @@
-import { foldedPage, header, intersects, type Box } from "../../model/net/geometry";
-import { conditionText, operationText, pageName } from "../../model/net/labels";
-import type { Folded } from "../../model/net/layout";
-import type { NetModel } from "../../model/net/net";
-import type { Placed, Window } from "../../model/net/sheets";
+import { foldedPage, header, intersects, type Box } from "../../../model/net/geometry";
+import { conditionText, operationText, pageName } from "../../../model/net/labels";
+import type { Folded } from "../../../model/net/layout";
+import type { NetModel } from "../../../model/net/net";
+import type { Placed, Window } from "../../../model/net/sheets";
 import { closedName, layerSize, runningSize, type ClosedName } from "../closed_name";
 import { isBare } from "../crowd";
-import { nearness, steps } from "../detail";
+import { nearness, steps } from "../../detail";
 import type { Marks } from "../marks";
 import { paintArcs } from "./arcs";
 import { Batches } from "./batches";

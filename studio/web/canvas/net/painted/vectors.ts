@@ -1,4 +1,4 @@
-import { Store } from "../../live/store";
+import { Store } from "../../../live/store";
 
 /** Whether a picture is taken that needs every drawing in elements of SVG. */
 export const vectors = new Store<{ wanted: number }>({ wanted: 0 });

@@ -1,7 +1,7 @@
-import { isEnabled, padInputs, setupFrom, takesAxis, usualSetup, type Pad, type PadSetup } from "../model/run/gamepad";
-import type { Inputs } from "../model/run/panel_inputs";
-import type { PanelShown } from "../model/protocol";
-import { Store } from "./store";
+import { isEnabled, padInputs, setupFrom, takesAxis, usualSetup, type Pad, type PadSetup } from "../../model/run/gamepad";
+import type { Inputs } from "../../model/run/panel_inputs";
+import type { PanelShown } from "../../model/protocol";
+import { Store } from "../store";
 
 const kept = (path: string) => `tessera.gamepad.${path}`;
 
@@ -74,7 +74,7 @@ export class Gamepads {
     this.pressed.delete(path);
   }
 
-  /** What the gamepad gives the panel now, and the switches that its buttons have just been pressed for. */
+  /** The inputs of the gamepad for the panel now, and the switches that its buttons have just been pressed for. */
   inputsOf(panel: PanelShown, number: number): { inputs: Inputs; switched: readonly string[] } {
     const pad = this.look();
     if (!pad) return { inputs: {}, switched: [] };

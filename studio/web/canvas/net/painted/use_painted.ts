@@ -1,7 +1,7 @@
 import { useEffect, useState } from "react";
-import { useStore } from "../../hooks/use";
-import { foldedPage, intersects, place, type Box } from "../../model/net/geometry";
-import { windowOn, type Placed, type Window } from "../../model/net/sheets";
+import { useStore } from "../../../hooks/use";
+import { foldedPage, intersects, place, type Box } from "../../../model/net/geometry";
+import { windowOn, type Placed, type Window } from "../../../model/net/sheets";
 import { crowd } from "../crowd";
 import { vectors } from "./vectors";
 
@@ -13,12 +13,15 @@ const rest = 180;
 /** The elements of SVG that symbols.tsx makes of a place, a folded page, an open one, a bar. */
 const parts = { place: 7, folded: 6, open: 14, bar: 5 };
 
+/** Elements are made for the space around the window, too (sheet_nodes.ts). */
+const withSpace = ({ x, y, width, height }: Box): Box => ({ x: x - width, y: y - height, width: 3 * width, height: 3 * height });
+
 /** About as many elements of SVG as the visible sheets need. */
 export function elementsIn(visible: readonly Placed[], window: Window): number {
   let found = 0;
   for (const placed of visible) {
     const { nodes, transitions, routes } = placed.sheet;
-    const own = windowOn(placed, window);
+    const own = withSpace(windowOn(placed, window));
     const isDrawn = nodes.length > crowd ? (box: Box) => intersects(box, own) : () => true;
     for (const box of nodes)
       if (isDrawn(box)) found += box.width === place ? parts.place : box.width === foldedPage ? parts.folded : parts.open;

@@ -1,4 +1,4 @@
-import type { Sheet } from "../model/net/geometry";
+import type { Sheet } from "../../model/net/geometry";
 import { leastCut } from "./closed_name";
 
 /** If a sheet has more nodes than this, only those in and around the window are drawn, unless they are bare. */

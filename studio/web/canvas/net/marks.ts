@@ -1,7 +1,7 @@
-import type { Stage } from "../live/stage";
-import { isActive } from "../model/net/game";
-import type { NetModel } from "../model/net/net";
-import type { Breakpoint } from "../model/protocol";
+import type { Stage } from "../../live/stage";
+import { isActive } from "../../model/net/game";
+import type { NetModel } from "../../model/net/net";
+import type { Breakpoint } from "../../model/protocol";
 
 /** The classes that the state of a stage gives to the drawn elements. */
 export const marksOf = {

@@ -1,10 +1,10 @@
 import { ReactFlowProvider } from "@xyflow/react";
 import { useState, type ReactNode } from "react";
-import { useStore, useStudio } from "../hooks/use";
-import type { Pane } from "../live/scene";
-import { spoken } from "../model/net/labels";
-import type { NetModel } from "../model/net/net";
-import { Breadcrumbs } from "./breadcrumbs";
+import { useStore, useStudio } from "../../hooks/use";
+import type { Pane } from "../../live/scene";
+import { spoken } from "../../model/net/labels";
+import type { NetModel } from "../../model/net/net";
+import { Breadcrumbs } from "../breadcrumbs";
 import { Drawing } from "./drawing";
 import { useSheets } from "./sheets";
 import { ArrowTips } from "./symbols";

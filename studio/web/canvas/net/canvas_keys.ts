@@ -1,11 +1,11 @@
 import type { useReactFlow } from "@xyflow/react";
 import type { KeyboardEvent } from "react";
-import type { Stage } from "../live/stage";
-import type { Studio } from "../live/studio";
-import { neighbour, type Direction } from "../model/structure/neighbour";
-import type { NetModel } from "../model/net/net";
-import type { Sheets } from "../model/net/sheets";
-import { shortcutOf } from "../model/shortcuts";
+import type { Stage } from "../../live/stage";
+import type { Studio } from "../../live/studio";
+import { neighbour, type Direction } from "../../model/structure/neighbour";
+import type { NetModel } from "../../model/net/net";
+import type { Sheets } from "../../model/net/sheets";
+import { shortcutOf } from "../../model/shortcuts";
 
 interface KeyContext {
   net: NetModel;

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import type { PanelControl } from "../../model/protocol";
+import type { PanelControl } from "../../../model/protocol";
 import {
   deflected,
   deflectionOf,
@@ -8,7 +8,7 @@ import {
   pushOf,
   released,
   stepOfSlider,
-} from "../../model/run/panel_inputs";
+} from "../../../model/run/panel_inputs";
 
 const control = (
   field: string,

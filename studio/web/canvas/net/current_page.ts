@@ -1,5 +1,5 @@
-import type { Box } from "../model/net/geometry";
-import type { Placed } from "../model/net/sheets";
+import type { Box } from "../../model/net/geometry";
+import type { Placed } from "../../model/net/sheets";
 
 /**
  * The current page: the outermost one in the middle of the window that is completely visible, or

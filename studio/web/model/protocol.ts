@@ -976,14 +976,14 @@ export interface NotesRequest {
   text: string;
   /** Up to 500, each of up to 500 bytes. */
   marks: Mark[];
-  /** Of the notes that are replaced; empty: there are none. */
+  /** That of the notes that are replaced; empty: there are none. */
   revision: string;
 }
 /** Many simulated runs: each value of a parameter with each seed. */
 export interface SweepRequest {
   /** Its path; `robot[*].control.v` is that of all members of a fleet. Absent: only the seeds differ. */
   parameter?: string;
-  /** Of the parameter, with their units: "0.3 m/s". */
+  /** Values of the parameter, with their units: "0.3 m/s". */
   values?: string[];
   /** For each value, with the next seeds; 1 if it is absent. */
   runs?: number;
@@ -1043,7 +1043,7 @@ export interface SweepEvent {
 }
 /** The result of one run. */
 export interface SweepRow {
-  /** Of the parameter; empty: there is none. */
+  /** Value of the parameter; empty: there is none. */
   value: string;
   seed: number;
   failed: boolean;
@@ -1051,7 +1051,7 @@ export interface SweepRow {
   ended: string;
   /** By measure; null: it was never taken. */
   numbers: { [k: string]: number | null };
-  /** Of the measures that have one. */
+  /** Units of the measures that have one. */
   units: { [k: string]: string };
 }
 export interface Views {

@@ -11,8 +11,7 @@ namespace tessera::timing {
 /// Longest paths in a component of the event graph, for one pass of its bounds.
 class Rows {
  public:
-  Rows(Occurrences& bounds, Occurrences::Component& component)
-      : bounds_(bounds), component_(component) {}
+  Rows(Occurrences& bounds, Occurrences::Component& component) : bounds_(bounds), component_(component) {}
 
   /// Lowers the rows of the component, and the gaps of its events.
   void find();

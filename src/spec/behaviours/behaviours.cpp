@@ -174,7 +174,8 @@ class BehaviourReader {
                                   defaults_.receive);
     behaviour.transfer = read_transfer(section.find("transfer"));
     if (const Entry* takes = section.find("takes"))
-      behaviour.takes = read_takes(*takes->value, takes->span, *out_).value_or(Takes{Duration{1}, Duration{1}});
+      behaviour.takes =
+          read_takes(*takes->value, takes->span, *out_).value_or(Takes{Duration{1}, Duration{1}});
   }
 
   void read_group(const Section& section, const ConditionScope& scope, const Written& written,

@@ -23,7 +23,7 @@ export function SweepPanel() {
   return (
     <details className="sweep" open={open || going} onToggle={({ currentTarget }) => setOpen(currentTarget.open)}>
       <summary>
-        <h3>Many runs: vary a parameter or the seed</h3>
+        <h2>Many runs: vary a parameter or the seed</h2>
       </summary>
       {(open || going) && (
         <>

@@ -22,6 +22,8 @@ export const faultsOfTexts = (least = 9.95) => {
     const words = walk.currentNode.textContent.trim();
     const owner = walk.currentNode.parentElement;
     if (!words || owner.closest("script, style, title, select, .cm-measure, .visually-hidden")) continue;
+    // The name of a button that shows only its icon.
+    if (getComputedStyle(owner).clipPath === "inset(50%)") continue;
     if (!owner.checkVisibility({ opacityProperty: true, visibilityProperty: true })) continue;
     range.selectNodeContents(walk.currentNode);
     const lines = [...range.getClientRects()].filter(({ width, height }) => width > 0.5 && height > 0.5);

@@ -141,6 +141,8 @@ test("a behaviour is added in the drawing, verified, given its function, run and
     await page.locator(".value-list").getByText("robot.control.motion.angular").click();
     await moving(page);
     await runningNow(page, "turn").waitFor();
+    // The plot has come before the timeline.
+    await tab(page, "Timeline").click();
     await until(page, async () => (await seconds(page)) > 6, "six seconds of the run");
     await picture(page, "run");
     await button(page, "Pause").click();

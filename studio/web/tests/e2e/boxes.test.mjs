@@ -124,6 +124,7 @@ test("an arrow is dragged from behaviour to behaviour, selected by a click, and 
 
 test("an element is pasted in the page of another project, and in the same tab without the clipboard", () =>
   onPage(lineFollower, async (page) => {
+    await page.setViewportSize({ width: 1920, height: 1000 }); // all of it stays in the drawing
     await at(page, "robot.sensor").click();
     await page.keyboard.press("Control+c");
     await page.getByText("Copied: virtual receptor sensor").waitFor();

@@ -186,6 +186,7 @@ test("a behaviour and an output of one name have forms and names of their own", 
 test("a channel is dragged from an output to an input, and its modes are chosen", () =>
   onPage(lineFollower, async (page, server) => {
     const before = server.text();
+    await page.setViewportSize({ width: 1920, height: 1000 }); // both ends are in the drawing
     await tab(page, "Structure").click();
     await page.locator('[data-path="robot.motor"]').click();
     await button(page, "Add input").click();
@@ -224,7 +225,7 @@ test("the text completes names, says what they mean, and leads to their definiti
   }));
 
 test("a broken file says where, keeps its drawing, and is repaired", () =>
-  onPage(lineFollower, async (page) => {
+  onNet(lineFollower, async (page) => {
     const editor = page.getByTestId("editor").locator(".cm-content");
     await editor.getByText("start: [1.2").count();
     await find(page, "robot.control.init");
@@ -304,8 +305,10 @@ test("without a mouse: a behaviour is added, the text verified, undone and saved
     await page.keyboard.type("wait");
     await press("Enter");
     await page.locator('.chip[data-path="robot.control.wait"]').waitFor();
-    await tabTo("tab", "Verify");
-    await press("Enter");
+    // One stop for all tabs; the arrow keys lead from tab to tab.
+    await tabTo("tab", "Element");
+    await press("ArrowRight", "Enter");
+    await tab(page, "Verify").and(page.locator('[aria-selected="true"]')).waitFor();
     await tabTo("button", "Verify");
     await press("Enter");
     await page.locator(".verdict").first().waitFor();

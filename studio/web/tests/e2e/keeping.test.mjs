@@ -255,6 +255,7 @@ test("parts of one value that are changed while edits are on their way are all c
     const { hold, letIn } = await holdEdits(page);
     await tab(page, "Structure").click();
     await tab(page, "Element").click();
+    await button(page, "Change v").click();
     await page.getByLabel("Value of v", { exact: true }).fill("0.5");
     await page.getByLabel("Unit of v", { exact: true }).fill("cm/s");
     const start = page.getByRole("group", { name: "Start", exact: true });

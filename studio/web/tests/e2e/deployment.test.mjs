@@ -57,7 +57,8 @@ test("all processes of a deployment are watched on one page, which shows who is 
 
       // The other views show all processes, too.
       await page.getByRole("tab", { name: "Structure" }).click();
-      await page.locator(".chip.running", { hasText: "measure" }).first().waitFor();
+      // From afar, the behaviours are not drawn.
+      await page.locator(".chip.running", { hasText: "measure" }).first().waitFor({ state: "attached" });
       await page.reload();
       await page.getByRole("tab", { name: "Fleet" }).click();
       await page.getByText("2 of 3 processes run on this machine").waitFor();

@@ -78,11 +78,11 @@ test("a newcomer gets from an empty folder to two carriers that run, mends a dea
         await user.type(words);
       };
       const verdict = page.getByTestId("step-verify");
-      const run = async () => {
+      const state = (word) => page.getByTestId("run-state").getByText(word).waitFor();
+      const run = async (speed) => {
         await user.click(button(page, "Build and run"));
-        await page.getByTestId("run-state").getByText("Running").waitFor();
-        await user.choose(page.locator(".line-bar").getByLabel("Speed", { exact: true }), "fastest");
-        await page.getByTestId("run-state").getByText("Ended").waitFor();
+        await state("Running");
+        await user.choose(page.locator(".line-bar").getByLabel("Speed", { exact: true }), speed);
       };
 
       await user.click(page.getByRole("radio", { name: /^Several robots/ }));
@@ -97,10 +97,11 @@ test("a newcomer gets from an empty folder to two carriers that run, mends a dea
       await page.locator('.agent-name[data-path="carrier"]').getByText("× 2").waitFor();
       await user.click(button(page, "Verify the system"));
       await verdict.getByText(/^verified$/).waitFor();
-      await run();
-      user.done("Two carriers and a dock, verified and run");
+      await run("fastest");
+      await state("Ended");
       const charged = page.getByRole("row", { name: /^the first charges/ });
       await charged.getByText("held").waitFor();
+      user.done("Two carriers and a dock, verified and run");
 
       // The carrier is to wait until the dock confirms that it is free, and the dock is to wait for requests instead of
       // asking every 50 ms. Nobody has thought of a message that confirms it.
@@ -127,7 +128,7 @@ test("a newcomer gets from an empty folder to two carriers that run, mends a dea
       user.done("Its repair");
 
       // The switch of the office reaches the carriers late. The plot shows that its values come seldom.
-      await run();
+      await run("10 ×");
       await user.fill(field("Values whose path contains"), "rate of carrier[0].control");
       const [wish, place] = ["wish", "place"].map((input) => `rate of carrier[0].control.${input}`);
       for (const rate of [wish, place]) await user.click(page.locator(".value-list button", { hasText: rate }));
@@ -138,13 +139,15 @@ test("a newcomer gets from an empty folder to two carriers that run, mends a dea
       await page.locator(".plot-table .legend", { hasText: place }).waitFor();
       await until(page, async () => (await most(place)) >= 19, "the place comes at the rate of the control");
       assert.ok((await most(wish)) <= 6, `${await most(wish)} wishes in a second`);
+      await user.click(button(page, "Stop the run"));
+      await state("Ended");
       user.done("A slow input in a plot");
       // They come from the control of the office at 5 Hz, which gets them from its console at 10 Hz.
       for (const subsystem of ["control", "console"]) {
         await goTo(`office ${subsystem}`);
         await user.fill(field("Rate"), "20 Hz");
       }
-      await run();
+      await run("10 ×");
       await until(page, async () => (await most(wish)) >= 12, "the wishes come faster");
       user.done("Its rates changed, seen in the plot");
     },

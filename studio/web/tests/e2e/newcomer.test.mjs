@@ -1,5 +1,5 @@
-// What somebody does who knows robots and no Petri nets: from an empty folder to a depot of two carriers that runs, a
-// deadlock found and mended, a slow sensor found in a plot. It prints how many clicks and keys each step takes.
+// The way of a newcomer who knows robots and no Petri nets: from an empty folder to a depot of two carriers that runs. A
+// deadlock is found and mended there, and a slow sensor is found in a plot. Clicks and keys of each step are printed.
 import assert from "node:assert/strict";
 import { mkdtempSync, rmSync } from "node:fs";
 import { tmpdir } from "node:os";

@@ -10,6 +10,7 @@ describe("nameList", () => {
   });
   it("keeps what is a list already, an alias, and what it does not understand", () => {
     expect(nameList('["grant[i]", a]')).toBe('["grant[i]", a]');
-    for (const text of ["", "[]", "*names", "&names [a]", "{ first: [a] }", "a b", "a,", "+'a[i]'"]) expect(nameList(text)).toBe(text);
+    for (const text of ["", "[]", "*names", "&names [a]", "{ first: [a] }", "a b", "a,", "+'a[i]'"])
+      expect(nameList(text)).toBe(text);
   });
 });

@@ -70,7 +70,16 @@ export function titleOf(atEnd: readonly SubsystemAtEnd[]): string {
 }
 
 const most = 4;
-const listed = (names: readonly string[]) =>
+/** The behaviours in which subsystems stand still, by subsystem; as a run names those that are present. */
+export const behavioursAt = (atEnd: readonly SubsystemAtEnd[]): ReadonlyMap<string, string> =>
+  new Map(
+    atEnd.flatMap(({ path, behaviour }) =>
+      behaviour ? [[path, behaviour.startsWith(`${path}.`) ? behaviour.slice(path.length + 1) : behaviour] as const] : [],
+    ),
+  );
+
+/** Names in one phrase: "a, b and c"; of many, the first ones. */
+export const listed = (names: readonly string[]) =>
   names.length > most
     ? `${names.slice(0, most).join(", ")} and ${names.length - most} more`
     : names.length > 1
@@ -145,7 +154,8 @@ export function causesOf(verdicts: readonly Judged[], channels: readonly Ends[] 
     return { title: titleOf(atEnd) || deadTitle(dead) || telling[0]!.why, verdicts: telling, atEnd, dead, warning };
   });
   // Stuck subsystems come before those that they block.
-  return withDead([...told.filter(({ atEnd }) => atEnd.length > 0), ...told.filter(({ atEnd }) => atEnd.length === 0)], channels);
+  const ordered = [...told.filter(({ atEnd }) => atEnd.length > 0), ...told.filter(({ atEnd }) => atEnd.length === 0)];
+  return withDead(ordered, channels).sort((a, b) => Number(a.warning) - Number(b.warning));
 }
 
 /** Shorter runs are easier to follow; a missing run is the worst. */

@@ -2,7 +2,7 @@ import { useStore, useStudio } from "../hooks/use";
 import { stepsOf } from "../live/verifier";
 import type { Repair } from "../live/repairs";
 import { changedBlocks } from "../model/text/changed_lines";
-import type { Cause } from "../model/causes";
+import { listed, type Cause } from "../model/causes";
 import { WordLines } from "./text/word_lines";
 import { sentence } from "../model/net/labels";
 import type { NetModel } from "../model/net/net";
@@ -135,7 +135,10 @@ function RepairsOf({ cause, text }: { cause: Cause; text: string }) {
               />
             ))}
           </pre>
-          <p className="faint">Verified: {repair.mends.map(words).join(", ")} hold with it, and nothing else is lost.</p>
+          <p className="faint">
+            Verified: with it, {listed(repair.mends.map((one) => `“${words(one)}”`))} {repair.mends.length > 1 ? "hold" : "holds"}
+            , and nothing else is lost.
+          </p>
           <button disabled={draft !== text} onClick={() => apply(repair)}>
             Apply
           </button>

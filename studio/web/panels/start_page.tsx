@@ -29,8 +29,9 @@ export function StartPage() {
     const { kept: others } = await studio.api.begin(example);
     shown();
     await studio.draft.changedOnDisk("");
-    if (others.length > 0)
-      studio.draft.store.set({ notice: `These files were there already and stay as they are: ${others.join(", ")}` });
+    // The page itself has written the file: it is no news that it changed on disk.
+    const notice = others.length > 0 ? `These files were there already and stay as they are: ${others.join(", ")}` : "";
+    studio.draft.store.set({ notice });
   };
   const begin = async (act: () => Promise<void>) => {
     setBusy(true);

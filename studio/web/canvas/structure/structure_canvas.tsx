@@ -15,6 +15,7 @@ import {
 import { useMemo, useRef, useState, type CSSProperties, type MouseEvent } from "react";
 import { useStudio, useStore } from "../../hooks/use";
 import { useLens } from "../../hooks/use_lens";
+import { behavioursAt } from "../../model/causes";
 import { useComplaints, useStructure } from "../../hooks/use_structure";
 import { connect as connectEdit } from "../../model/text/edits";
 import type { Box } from "../../model/net/geometry";
@@ -201,8 +202,9 @@ function Drawing() {
   );
   const surroundings = useMemo((): Surroundings => {
     const connected = drawn.structure.channels.flatMap(({ from, to }) => [withoutIndex(from), withoutIndex(to)]);
-    return { structure: drawn.structure, levels, connected: new Set(connected), ends: endsOf(drawn, over) };
-  }, [drawn, levels, over]);
+    const standstill = lens && behavioursAt(lens.atEnd);
+    return { structure: drawn.structure, levels, connected: new Set(connected), ends: endsOf(drawn, over), standstill };
+  }, [drawn, levels, over, lens]);
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;

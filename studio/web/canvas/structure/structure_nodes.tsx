@@ -26,6 +26,8 @@ export interface Surroundings {
   connected: ReadonlySet<string>;
   /** The agents at the ends of the bundle under the pointer. */
   ends: readonly string[];
+  /** The behaviours in which subsystems stand still, while they are shown; null: those of the run are shown. */
+  standstill: ReadonlyMap<string, string> | null;
 }
 export const SurroundingsContext = createContext<Surroundings | null>(null);
 const useSurroundings = () => useContext(SurroundingsContext)!;
@@ -86,10 +88,11 @@ export function SubsystemNode({ data, width = 0, height = 0 }: NodeProps) {
     card: Card;
   };
   const studio = useStudio();
-  const { structure, levels } = useSurroundings();
+  const { structure, levels, standstill } = useSurroundings();
   const step = useStep(levels);
   const running = useRunning(useStore(studio.scene.store, ({ panes }) => panes[0]!.stage));
-  const now = running.get(subsystem.path) ?? [...running].find(([path]) => path.replace(/\[\d+\]/, "") === subsystem.path)?.[1];
+  const present = standstill ?? running;
+  const now = present.get(subsystem.path) ?? [...present].find(([path]) => path.replace(/\[\d+\]/, "") === subsystem.path)?.[1];
   const of = (direction: Buffer["direction"]) => subsystem.buffers.filter((buffer) => buffer.direction === direction);
   const isSelected = selected === subsystem.path;
   const rate = rateText(structure, subsystem);

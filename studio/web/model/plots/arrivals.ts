@@ -80,20 +80,30 @@ export function rateOf({ times, written, valid }: Arrivals, end: number): Sample
   };
   const come = times.filter((_, at) => valid[at] && !Number.isNaN(written[at]!));
   const gaps = times.filter((_, at) => Number.isNaN(written[at]!));
-  const begin = times[0] ?? 0;
+  // From then on all values are known.
+  let since = times[0] ?? 0;
   let [left, gap] = [0, 0];
   const until = (time: number, right: number) => {
     // Values leave the second one after the other.
     for (; left < right && come[left]! + second <= time; left += 1) add(come[left]! + second, right - left - 1);
   };
+  const interrupted = (time: number, right: number) => {
+    for (; gap < gaps.length && gaps[gap]! <= time; gap += 1) {
+      until(gaps[gap]!, right);
+      add(gaps[gap]!, NaN);
+      // Some are missing until the next one.
+      [since, left] = [come[right] ?? Infinity, right];
+    }
+  };
   come.forEach((time, at) => {
+    interrupted(time, at);
     until(time, at);
-    for (; gap < gaps.length && gaps[gap]! <= time; gap += 1) add(gaps[gap]!, NaN);
     // Before a whole second has passed, the number would be too low.
-    if (time >= begin + second) add(time, at - left + 1);
+    if (time >= since + second) add(time, at - left + 1);
   });
+  interrupted(end, come.length);
   until(end, come.length);
   // Before the first whole second there is no rate, either.
-  const first = count(rate.times, (time) => time < begin + second);
+  const first = count(rate.times, (time) => time < (times[0] ?? 0) + second);
   return { times: rate.times.slice(first), values: rate.values.slice(first) };
 }

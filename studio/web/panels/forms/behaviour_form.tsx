@@ -2,6 +2,7 @@ import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { keysNow, named } from "../../live/editor";
 import * as edits from "../../model/text/edits";
+import { nameList } from "../../model/text/name_list";
 import { exampleOf, goalsOf, keptCells } from "../../model/structure/kept_cells";
 import { groupTemplates, takenBy } from "../../model/structure/group_templates";
 import {
@@ -17,6 +18,7 @@ import {
 import { CodeInForm } from "./code_form";
 import { Choice, Field } from "./field";
 import { nameProblem, namesIn, Remove, useEdit } from "./form_parts";
+import { useProblems } from "./use_problems";
 
 interface Shown {
   structure: Structure;
@@ -209,6 +211,8 @@ function Orders({ structure, behaviour, subsystem }: Shown) {
   );
 }
 
+const listHint = "Names in this order: a, b; or +a, -b to change the list of the subsystem";
+
 function OneForm(shown: Shown) {
   const { structure, behaviour, subsystem } = shown;
   const edit = useEdit();
@@ -220,6 +224,12 @@ function OneForm(shown: Shown) {
     const around = listAround(structure, subsystem, key);
     return around ? `${around}, as the subsystem` : all;
   };
+  const problem = useProblems(structure);
+  /** The names that such a list can have. A behaviour for each member of a fleet uses its own part of an array. */
+  const buffers = (direction: "input" | "output") =>
+    subsystem.buffers
+      .filter((one) => one.direction === direction)
+      .map(({ name, type }) => (behaviour.for && type.includes(`[${behaviour.for}]`) ? `${name}[i]` : name));
   return (
     <>
       <TemplateNote behaviour={behaviour} />
@@ -252,16 +262,20 @@ function OneForm(shown: Shown) {
         mono
         value={field("send")}
         placeholder={list("send", "all outputs")}
-        hint="[a, b] in this order; [+a, -b] changes the list of the subsystem"
-        onChange={set("send")}
+        choices={buffers("output")}
+        problem={problem([...behaviour.yaml, "send"])}
+        hint={listHint}
+        onChange={(text) => set("send")(nameList(text))}
       />
       <Field
         label="Receives"
         mono
         value={field("receive")}
         placeholder={list("receive", "all inputs")}
-        hint="[a, b] in this order; [+a, -b] changes the list of the subsystem"
-        onChange={set("receive")}
+        choices={buffers("input")}
+        problem={problem([...behaviour.yaml, "receive"])}
+        hint={listHint}
+        onChange={(text) => set("receive")(nameList(text))}
       />
       <Choice
         label="Transfer"

@@ -10,6 +10,7 @@ import {
   type Subsystem,
   type Thing,
 } from "../../model/structure/structure";
+import { nameList } from "../../model/text/name_list";
 import { fieldOf, fieldsOf, type FieldShape } from "../../model/text/schema_fields";
 import { limitNames, titled } from "../../model/structure/inside_types";
 import { BehaviourForm } from "./behaviour_form";
@@ -143,8 +144,8 @@ function SubsystemForm({ structure, subsystem, agent }: { structure: Structure; 
         mono
         value={structure.yaml.lineText([...subsystem.yaml, "send"])}
         placeholder="all outputs"
-        hint="[a, b]: the outputs that a behaviour without a list sends, in this order"
-        onChange={set("send")}
+        hint="a, b: the outputs that a behaviour without a list sends, in this order"
+        onChange={(text) => set("send")(nameList(text))}
       />
       {subsystem.buffers.some(({ direction }) => direction === "input") && (
         <Field

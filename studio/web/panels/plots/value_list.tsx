@@ -91,6 +91,7 @@ export function ValueList({ track, seconds, none }: ValueListProps) {
           CSV
         </button>
       </div>
+      {signals.length === 0 && <p className="faint pad">A click on a row plots it over time.</p>}
       {part(["value"], "", "")}
       {part(
         ["age", "rate"],

@@ -5,7 +5,7 @@ import { readdirSync } from "node:fs";
 const suites = {
   reading: ["studio", "readable", "keyboard", "guide", "tour", "fleet", "appearance"],
   editing: ["editing", "boxes", "keeping"],
-  building: ["building", "workshop"],
+  building: ["building", "workshop", "newcomer"],
   running: ["run", "dock", "teleoperation", "beside", "deployment"],
   recordings: ["recordings", "plots", "reports", "world"],
 };

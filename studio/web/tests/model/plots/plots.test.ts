@@ -146,6 +146,18 @@ describe("ages and rates of an input", () => {
     expect(valueAt(age, 2.5 * s, "slope")).toBeNaN();
     expect(valueAt(age, 4.5 * s, "slope")).toBeNaN();
   });
+  it("gives no rate until a whole second is known again after missing arrivals", () => {
+    const other = new ArrivalLog();
+    for (let at = 0; at < 20; at += 1) other.add("x", at * 0.1 * s, at * 0.1 * s, true);
+    other.interrupt(2 * s);
+    for (let at = 51; at < 70; at += 1) other.add("x", at * 0.1 * s, at * 0.1 * s, true);
+    other.interrupt(7 * s);
+    const rate = rateOf(other.byPath.get("x")!, 8 * s);
+    expect(valueAt(rate, 1.55 * s)).toBe(10);
+    for (const time of [2.5, 5.3, 5.9, 7.5]) expect(valueAt(rate, time * s)).toBeNaN();
+    expect(valueAt(rate, 6.55 * s)).toBe(10);
+    expect(rate.values.filter((value) => value < 9)).toEqual([]);
+  });
 });
 
 describe("a value that its device does not give any more", () => {

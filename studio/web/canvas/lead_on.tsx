@@ -93,6 +93,12 @@ export function LeadOnForm({ structure, of, onClose }: { structure: Structure; o
           ? "An entry before it is always taken: this one is tried after it. Give that one a condition."
           : "A condition in C++, or error after a failure. Entries are tried in their order."}
       </p>
+      {behaviour && !behaviour.isGroup && behaviour.terminal === "" && when.trim() !== "error" && (
+        <p className="faint">
+          {behaviour.name} never ends: it has no terminal condition. If this is its only way on, write the condition there, and
+          leave this field empty.
+        </p>
+      )}
       <div className="buttons">
         <button type="button" onClick={close}>
           Cancel

@@ -39,7 +39,7 @@ test("who is stuck is seen and named after one click, and a verified repair mend
     await cause.getByRole("button", { name: "Find a repair" }).click();
     const repair = cause.locator(".repair").first();
     await repair.waitFor();
-    await repair.getByText(/^Verified: deadlock free/).waitFor();
+    await repair.getByText(/^Verified: with it, “deadlock free”/).waitFor();
     await repair.getByRole("button", { name: "Apply" }).click();
     await until(page, async () => (await page.locator(".mark.holds").count()) >= 7, "the properties hold");
     assert.equal(await page.locator(".cause:not(.warning)").count(), 0);

@@ -26,6 +26,7 @@ export function RecordingsPanel() {
   const found = recordingsWith(list, words);
   return (
     <>
+      <h2 className="visually-hidden">Recordings</h2>
       {problem && <p className="problem-hint">{problem}</p>}
       {list.length === 0 && !problem && <p className="faint">Nothing was recorded yet: every run leaves a recording.</p>}
       {list.length > 0 && shown && <p className="faint">A recording is shown beside the run.</p>}

@@ -31,10 +31,7 @@ async function twoRuns(page) {
 test("a recording beside the run: one camera, one time if wanted, and what differs is said", () =>
   onBuiltNet(example("02_gap"), async (page) => {
     await twoRuns(page);
-    await page
-      .getByRole("button", { name: /^Show .* beside/ })
-      .last()
-      .click();
+    await page.locator(".recordings > li > button:first-child").last().click();
     const compared = page.getByTestId("compared-at");
     await compared.waitFor();
     assert.equal(await panes(page).count(), 2);

@@ -62,7 +62,7 @@ test("all processes of a deployment are watched on one page, which shows who is 
       await page.reload();
       await page.getByRole("tab", { name: "Fleet" }).click();
       await page.getByText("2 of 3 processes run on this machine").waitFor();
-      await page.getByRole("button", { name: "Stop watching" }).click();
+      await page.getByTestId("fleet").getByRole("button", { name: "Stop watching" }).click();
       await page.getByText("let go; they run on").waitFor();
       await server.kill();
       assert.ok(alive("rover[0]") && alive("rover[1]"), "a studio that dies disturbs nobody");

@@ -172,7 +172,8 @@ test("the robot's path is there after a reload, and in the recording up to the m
     };
     const whole = await at(1);
     const half = await at(0.5);
-    assert.ok(whole > 0.8 * before && half > 0.2 * whole && half < 0.8 * whole, `${before} before, ${half} of ${whole}`);
+    // The line of a recording has a row more, so that the world is smaller.
+    assert.ok(whole > 0.6 * before && half > 0.2 * whole && half < 0.8 * whole, `${before} before, ${half} of ${whole}`);
     assert.ok((await at(0)) < 0.3 * half);
     assert.ok((await at(1)) > 0.9 * whole);
   }));

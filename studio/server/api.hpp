@@ -77,6 +77,11 @@ class Api {
   /// Trust in the project, and the emergency stop.
   void serve_consent(HttpServer& server);
   [[nodiscard]] bool is_trusted() const;
+  /// Whether a build would take nothing from the folder. A project that the page begins there is the user's own, and
+  /// needs no question.
+  [[nodiscard]] bool holds_nothing_to_build() const;
+  /// Returns whether a note of it is kept; otherwise it counts until the server ends.
+  bool trust_folder();
   void write_files(const Request& request, Response& response);
   void begin_project(const Request& request, Response& response);
   /// Answers what `tessera` prints for these arguments.

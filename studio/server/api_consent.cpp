@@ -18,6 +18,18 @@ namespace tessera::server {
 
 using nlohmann::json;
 
+bool Api::holds_nothing_to_build() const {
+  std::error_code ignored;
+  for (const char* const part : {"src", "test", "project.cmake", "CMakeLists.txt", ".tessera"})
+    if (std::filesystem::exists(std::filesystem::symlink_status(parts_.file.folder() / part, ignored)))
+      return false;
+  return true;
+}
+bool Api::trust_folder() {
+  const bool kept = project::trust(parts_.file.folder());
+  if (!kept) trusted_here_ = true;
+  return kept;
+}
 bool Api::is_trusted() const { return trusted_here_ || project::is_trusted(parts_.file.folder()); }
 
 void Api::answer_command(const std::vector<std::string>& arguments, Response& response) {
@@ -35,9 +47,7 @@ void Api::answer_command(const std::vector<std::string>& arguments, Response& re
 
 void Api::serve_consent(HttpServer& server) {
   server.Post("/api/trust", [this](const Request&, Response& response) {
-    const bool kept = project::trust(parts_.file.folder());
-    if (!kept) trusted_here_ = true;
-    answer(response, text_of(json{{"kept", kept}}));
+    answer(response, text_of(json{{"kept", trust_folder()}}));
   });
   server.Get("/api/driving", [this](const Request&, Response& response) {
     answer(response, text_of(parts_.driving.last()));

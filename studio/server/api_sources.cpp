@@ -2,7 +2,6 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
-#include "project/files/trust.hpp"
 #include "server/analysis/examples.hpp"
 #include "server/analysis/sources.hpp"
 #include "server/analysis/world_targets.hpp"
@@ -15,14 +14,6 @@ namespace {
 
 constexpr const char* no_source =
     "this is no source of the project: those are the C++ files in src/ and test/, and params.yaml";
-
-/// Whether a build would take nothing from the folder.
-bool holds_nothing_to_build(const std::filesystem::path& folder) {
-  std::error_code ignored;
-  for (const char* const part : {"src", "test", "project.cmake", "CMakeLists.txt", ".tessera"})
-    if (std::filesystem::exists(std::filesystem::symlink_status(folder / part, ignored))) return false;
-  return true;
-}
 
 nlohmann::json content_json(const SpecFile::Content& content) {
   return {{"text", content.text}, {"revision", content.revision}};
@@ -135,12 +126,10 @@ void Api::begin_project(const Request& request, Response& response) {
   RequestBody body(request, response);
   const std::string name = body.text("example");
   if (!body.good()) return;
-  const std::filesystem::path folder = parts_.file.folder();
-  // Only what Tessera has written itself needs no question.
-  const bool is_new = holds_nothing_to_build(folder);
+  const bool is_new = holds_nothing_to_build();
   const Begun begun = begin_with(options_.share / "examples", name, parts_.file.path());
   if (begun.problem) return answer_error(response, 409, begun.problem->text);
-  if (is_new && begun.kept.empty() && !project::trust(folder)) trusted_here_ = true;
+  if (is_new && begun.kept.empty()) static_cast<void>(trust_folder());
   answer(response, text_of(nlohmann::json{{"files", begun.files}, {"kept", begun.kept}}));
 }
 

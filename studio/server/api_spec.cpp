@@ -44,9 +44,11 @@ void Api::put_spec(const Request& request, Response& response) {
   RequestBody body(request, response);
   const std::string text = body.text("text"), revision = body.text("revision");
   if (!body.good()) return;
+  const bool begins = holds_nothing_to_build() && parts_.file.read().text.empty();
   const SpecFile::Outcome outcome = parts_.file.write_shown(text, revision);
   switch (outcome.written) {
     case SpecFile::Written::yes:
+      if (begins) static_cast<void>(trust_folder());
       return answer_with_analysis(request, response, fmt::format(R"("revision":"{}")", outcome.now.revision),
                                   *parts_.analyses.of(text));
     case SpecFile::Written::conflict:

@@ -90,6 +90,25 @@ TEST_F(Hostile, AnExampleIsTrustedUnlessItsFolderHadCodeAlready) {
   EXPECT_FALSE(begins("old"));
 }
 
+TEST_F(Hostile, ASpecificationThatThePageBeginsIsTrustedUnlessThereWasCodeOrAnother) {
+  const std::string text =
+      "tessera: 1\nsystem: own\nagents: { robot: { control: { rate: 1 Hz, behaviours: { run: } } } }\n";
+  const auto begins = [&](const std::string& name) {
+    studio_.reset();
+    options_.spec = folder_ / name / "spec.yaml";
+    fs::create_directories(folder_ / name);
+    serve();
+    const std::string revision = get("/api/spec").json().at("revision");
+    EXPECT_EQ(put("/api/spec", {{"text", text}, {"revision", revision}}).status, 200);
+    return get("/api/project").json().at("trusted").get<bool>();
+  };
+  EXPECT_TRUE(begins("empty"));
+  write(folder_ / "code/src/control.cpp", "");
+  EXPECT_FALSE(begins("code"));
+  write(folder_ / "other/spec.yaml", text + "# of others\n");
+  EXPECT_FALSE(begins("other"));
+}
+
 TEST_F(Hostile, ForeignOriginsAndHostsAreRefused) {
   serve();
   const std::string own = "http://" + host();

@@ -62,7 +62,7 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
 
     // The switch holds it at the run's time.
     await page.getByRole("switch", { name: "Same time" }).check();
-    const run = page.getByRole("group", { name: "The run" }).locator(".position");
+    const run = page.getByTestId("line-time").first();
     const recording = page.getByRole("group", { name: /^Recording/ }).locator(".position");
     await until(
       page,
@@ -90,7 +90,7 @@ test("a recording beside the run: one camera, one time if wanted, and what diffe
     await page.getByRole("button", { name: /^Close Run/ }).click();
     await until(page, async () => (await panes(page).count()) === 1, "one pane");
     await page
-      .getByRole("button", { name: /beside/ })
+      .getByRole("button", { name: /^Show .* beside/ })
       .first()
       .click();
     await until(page, async () => (await panes(page).count()) === 2, "two recordings");

@@ -87,7 +87,7 @@ test("a run is made again with the code as it is now, and goes on from a moment"
 /** The line says in words what has happened, and the log leads to the place of an event. */
 async function toldByTheLine(page) {
   const line = page.getByRole("region", { name: "The run" });
-  assert.equal(await line.getByTestId("line-state").innerText(), "Paused");
+  await line.getByTestId("line-state").getByText("Paused").waitFor();
   assert.match(await line.locator(".sentence").innerText(), /^robot\W+(control|sensor|motor) [a-z]+/);
   await tab(page, "Events").click();
   const events = page.getByRole("listbox", { name: "Events" });

@@ -17,8 +17,8 @@ test("who is stuck is seen and named after one click, and a verified repair mend
     await button(page, "Verify").click();
     const cause = card(page, "left.control and right.control wait for each other");
     await cause.getByText("deadlock free, goes on").waitFor();
-    assert.equal(await page.locator('[data-testid="lens"] [data-lens]').count(), 2);
-    assert.equal(await page.locator(".lens-wait").count(), 2);
+    await until(page, async () => (await page.locator('[data-testid="lens"] [data-lens]').count()) === 2, "both are marked");
+    await until(page, async () => (await page.locator(".lens-wait").count()) === 2, "both waits are drawn");
     await tab(page, "Structure").click();
     await until(page, async () => (await page.locator(".lens-wait").count()) === 2, "the lens in the structure");
     // The camera is at the two boxes.

@@ -1,6 +1,6 @@
 // Measures the response of the page while a run streams faster than it can be drawn: the gaps between frames,
 // and the time from a click on another layer to its drawing.
-import { button, example, onPage, tab, until } from "./page.mjs";
+import { button, example, onNet, tab, until } from "./page.mjs";
 
 /** The measured cases: with a simulated world, and without one, which fires faster. */
 const projects = {
@@ -23,7 +23,7 @@ export async function measureStream(beside) {
 }
 
 const measureProject = (name, layers, beside) =>
-  onPage(example(name), async (page) => {
+  onNet(example(name), async (page) => {
     await tab(page, "Run").click();
     if (beside) await start(page, "60s");
     if (beside) await page.getByTestId("run-state").getByText("Ended").waitFor();

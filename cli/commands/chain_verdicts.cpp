@@ -88,7 +88,9 @@ ChainVerdicts chain_verdicts(const spec::Model& model) {
     ++lines[at->second].chains;
   }
   if (lines.empty()) return result;
-  result.text = "times, if no call takes longer than `takes`, and nothing fails or ends:\n";
+  result.text =
+      "times, if no call takes longer than `takes`, no thread waits for a processor, and nothing fails or "
+      "ends:\n";
   for (const Line& line : lines)
     result.text += fmt::format("  {}: {}{}\n", line.name, line.verdict,
                                line.chains > 1 ? fmt::format(" (so in {} agents)", line.chains) : "");

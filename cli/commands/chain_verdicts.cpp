@@ -89,8 +89,9 @@ ChainVerdicts chain_verdicts(const spec::Model& model) {
   }
   if (lines.empty()) return result;
   result.text =
-      "times, if no call takes longer than `takes`, no thread waits for a processor, and nothing fails or "
-      "ends:\n";
+      "times, if no call takes longer than `takes`, nothing fails or ends, and no thread waits for a "
+      "processor\n"
+      "but as `realtime` says:\n";
   for (const Line& line : lines)
     result.text += fmt::format("  {}: {}{}\n", line.name, line.verdict,
                                line.chains > 1 ? fmt::format(" (so in {} agents)", line.chains) : "");

@@ -3,13 +3,18 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <csignal>
+#include <cstdint>
+#include <cstring>
 #include <string>
 #include <string_view>
 #include <utility>
 
 #include "../eventually.hpp"
 #include "command.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::cli_test {
 
@@ -58,17 +63,22 @@ class Deploy : public Command {
     }
     return true;
   }
-  [[nodiscard]] std::uintmax_t recorded(const char* process) const {
-    return fs::file_size(project_ / ".tessera/last" / fmt::format("process-{}.tsr", process));
+  /// The bytes after the header of a recording, of which only a part may be there: it is written page by page.
+  [[nodiscard]] static std::size_t bytes_of_events(const fs::path& recording) {
+    const std::string bytes = content_of(recording);
+    std::uint32_t header = 0;
+    if (bytes.size() < recording_magic.size() + sizeof header) return 0;
+    std::memcpy(&header, bytes.data() + recording_magic.size(), sizeof header);
+    const std::size_t begin = (recording_magic.size() + sizeof header + header + 7) / 8 * 8;
+    return bytes.size() - std::min(begin, bytes.size());
   }
   /// Whether all processes fire. When their recordings begin, their devices are not open yet.
   [[nodiscard]] bool all_fire() const {
     if (!eventually([&] { return all_run(); })) return false;
-    for (const char* process : {"gate", "rover[0]", "rover[1]"}) {
-      const std::uintmax_t before = recorded(process);
-      if (!eventually([&] { return recorded(process) > before + 1000; })) return false;
-    }
-    return true;
+    return std::ranges::all_of(std::array{"gate", "rover[0]", "rover[1]"}, [&](const char* process) {
+      const fs::path recording = project_ / ".tessera/last" / fmt::format("process-{}.tsr", process);
+      return eventually([&] { return bytes_of_events(recording) > 1000; });
+    });
   }
   /// Runs it, and kills rover[0] when all fire.
   project::Exit run_and_kill(const std::string& options) const {

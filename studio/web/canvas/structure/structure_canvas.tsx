@@ -33,6 +33,7 @@ import {
 import { channelOf, channelPath, withoutIndex } from "../../model/structure/structure";
 import { mostBundleLetters } from "../../model/structure/structure_graph";
 import { leastPixels } from "../../model/structure/text_size";
+import { ChainOverlay } from "./chain_overlay";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { ExportButtons } from "../export_button";
@@ -287,6 +288,7 @@ function Drawing() {
               drawing={drawing}
               look={{ selected, complaints, stuck, over, onOver: setOver }}
             />
+            <ChainOverlay drawn={drawn} boxOf={boxOf} />
             <LensOverlay
               net={net}
               whole={whole}

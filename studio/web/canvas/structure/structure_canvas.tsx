@@ -35,6 +35,7 @@ import { mostBundleLetters } from "../../model/structure/structure_graph";
 import { leastPixels } from "../../model/structure/text_size";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
+import { useFocusInSight } from "../drawing_focus";
 import { ExportButtons } from "../export_button";
 import { LayoutProblem } from "../layout_problem";
 import { Legend } from "../legend";
@@ -225,6 +226,7 @@ function Drawing() {
     if (path !== null) comeNear(path);
   };
   const area = useRef<HTMLDivElement>(null);
+  useFocusInSight(area, moved);
   const drag = () => {
     dragged.current = true;
     addEventListener("pointerup", dragEnds, { once: true });

@@ -15,6 +15,7 @@ import {
 import { outside } from "../model/structure/walk";
 import { changedLines } from "../model/text/changed_lines";
 import * as edits from "../model/text/edits";
+import { arrowEdits, type NewArrow } from "../model/text/lead_on";
 import type { YamlPath } from "../model/text/yaml_text";
 import { keysNow, named, type Wish } from "./editor";
 import { Store } from "./store";
@@ -215,14 +216,11 @@ export class ElementEdits {
     this.answered(yes);
   }
 
-  /** Adds an entry of `next`, and selects it. */
-  leadOn(from: string, to: string, when: string): Promise<boolean> {
+  /** Adds an arrow: an entry of `next`, and what ends the behaviour for it. Selects the entry. */
+  leadOn(from: string, arrow: NewArrow): Promise<boolean> {
     const thing = this.thing(from);
     if (thing?.kind !== "behaviour") return Promise.resolve(false);
-    return this.studio.change(edits.addNext(thing.of, { to, when }), (now) => {
-      const after = findThing(now, from);
-      const last = after?.kind === "behaviour" ? after.of.next.length - 1 : 0;
-      return { selected: `next:${from}#${last}`, panel: "inspect" };
-    });
+    const { edits: all, entry } = arrowEdits(thing.of, arrow);
+    return this.studio.change(all, () => ({ selected: `next:${from}#${entry}`, panel: "inspect" }));
   }
 }

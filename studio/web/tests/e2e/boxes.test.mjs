@@ -74,7 +74,7 @@ test("the keyboard alone reaches, copies, links and removes elements, and the me
     assert.deepEqual(found, []);
     await page.keyboard.press("Enter");
     await selects(page, "next:robot.control.follow#0");
-    assert.match(await now(), /follow:\n +next: \[\{ to: init, when: in\.line\.left \}\]/);
+    assert.match(await now(), /follow:\n +terminal: in\.line\.left\n +next: init/);
 
     // Elements that others use are listed first, and stays if the user says so.
     await page.keyboard.press("Control+z");

@@ -32,6 +32,7 @@ import {
 import { channelOf, channelPath, withoutIndex } from "../../model/structure/structure";
 import { mostBundleLetters } from "../../model/structure/structure_graph";
 import { leastPixels } from "../../model/structure/text_size";
+import { ChainOverlay } from "./chain_overlay";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { useFocusInSight } from "../drawing_focus";
@@ -290,6 +291,7 @@ function Drawing() {
               drawing={drawing}
               look={{ selected, complaints, stuck, over, onOver: setOver }}
             />
+            <ChainOverlay drawn={drawn} boxOf={boxOf} />
             <LensOverlay
               net={net}
               whole={whole}

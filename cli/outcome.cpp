@@ -10,6 +10,8 @@
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/recordings/film.hpp"
+#include "cli/recordings/measured_ages.hpp"
+#include "cli/recordings/slow_calls.hpp"
 #include "cli/terminal.hpp"
 #include "tessera/judgement.hpp"
 #include "tessera/printable.hpp"
@@ -97,6 +99,8 @@ report::ReportInput report_input(RunOutcome outcome, const verify::Report& verif
   input.paths = std::move(outcome.paths);
   input.floor = std::move(outcome.floor);
   input.judged = judged_in(outcome);
+  input.chains = std::move(outcome.chains);
+  input.slow_calls = std::move(outcome.slow_calls);
   put_poster(outcome.recording.string(), input);
   input.simulated_s = outcome.summary.value("simulated_s", 0.0);
   input.wall_s = outcome.summary.value("wall_s", 0.0);
@@ -137,6 +141,7 @@ RunOutcome read_outcome(const Controller& controller, const LaunchOptions& optio
     outcome.curves = outcome.summary.value("curves", json::array());
     outcome.summary.erase("curves");
   }
+  outcome.slow_calls = slow_calls_in(files.recording.string(), specification.model);
   const std::optional<spec::Simulation>& simulation = specification.model.simulation;
   const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
   if (!has_world) return outcome;
@@ -160,6 +165,7 @@ std::string to_json(const RunOutcome& outcome) {
     result["lateral_error_m"] = {{"mean", line.mean_error_m}, {"max", line.max_error_m}};
   }
   if (!outcome.robots.empty()) result["robots"] = outcome.robots;
+  if (!outcome.slow_calls.empty()) result["overtime"] = slow_calls_json(outcome.slow_calls);
   return result.dump(2) + "\n";
 }
 
@@ -195,6 +201,7 @@ void print(const RunOutcome& outcome) {
              speed_text(summary.value("real_time_factor", 0.0)), summary.value("firings", 0ULL),
              printable(summary.value("ended", "")));
   print_subsystems(summary.value("subsystems", json::array()));
+  fmt::print("{}", slow_calls_text(outcome.slow_calls));
   fmt::print("{}", printable(judgement_lines(summary.dump())));
   if (outcome.drive && !outcome.drive->is_whole)
     fmt::print(
@@ -209,6 +216,20 @@ void print(const RunOutcome& outcome) {
     fmt::print("the recording has no poses of the world, so there is no path\n");
   if (outcome.floor && !outcome.robots.empty()) fmt::print("{}\n", several_robots(outcome.robots));
   fmt::print("recording: {}\n", outcome.recording.string());
+}
+
+std::vector<report::ChainTimes> chain_times_of(const RunOutcome& outcome, const spec::Model& model) {
+  std::string error;
+  const std::optional<Recording> recording = read_recording(outcome.recording.string(), error);
+  if (!recording) throw std::runtime_error(error);
+  std::vector<report::ChainTimes> chains;
+  for (const AgesOfChain& one : ages_in({&*recording, 1}, model))
+    chains.push_back({one.measured.group,
+                      one.measured.chains,
+                      {one.measured.age, one.age_ns},
+                      {one.measured.reaction, one.reaction_ns},
+                      one.why});
+  return chains;
 }
 
 void write_report(RunOutcome outcome, const verify::Report& verification, const fs::path& folder) {

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "project/launch.hpp"
 #include "report/report.hpp"
@@ -16,9 +17,11 @@ struct RunOutcome {
   std::filesystem::path recording;
   std::optional<report::DrivenPath> drive;
   std::string robots;  ///< "rover, rover_2": several move in the world, so there is no drive; empty: one
-  std::optional<report::RunPaths> paths;  ///< of a simulated world
-  std::optional<sim::Track> floor;        ///< that the world has
-  nlohmann::json curves;                  ///< of checks and measures; to_json leaves them out
+  std::optional<report::RunPaths> paths;      ///< of a simulated world
+  std::optional<sim::Track> floor;            ///< that the world has
+  std::vector<report::ChainTimes> chains;     ///< only for a report
+  std::vector<report::SlowCalls> slow_calls;  ///< of a real run, as far as it is recorded
+  nlohmann::json curves;                      ///< of checks and measures; to_json leaves them out
 };
 
 /// Reads the files of the run. Throws std::runtime_error if one of them cannot be read.
@@ -33,6 +36,10 @@ struct RunOutcome {
 
 /// The same for people, on standard output.
 void print(const RunOutcome& outcome);
+
+/// How old the readings were that the commands of the run acted on, for its report.
+[[nodiscard]] std::vector<report::ChainTimes> chain_times_of(const RunOutcome& outcome,
+                                                             const spec::Model& model);
 
 /// Writes index.html, poster.png and, with a drive, path.png to `folder`, which is made if it does not exist.
 /// Standard error names the files. Throws std::runtime_error if one cannot be written.

@@ -49,7 +49,8 @@ struct ReplayOptions {
   std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json, mcap, coverage;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
-  bool check = false, print = false, ages = false;
+  bool check = false, print = false, ages = false, takes = false, write = false;
+  double margin_percent = 20;
   FilmOptions film;
   std::string values;  ///< buffers whose path contains this; all_values; empty: none
 };
@@ -206,11 +207,17 @@ int replay_command(ReplayOptions options) {
     return complain("there is no recording in this folder"), options.check ? usage : failed;
   options.recording = options.recordings.front();
   if (!options.coverage.empty()) return coverage_command(options);
-  if (options.ages) return ages_command({options.recordings, specification_of(options), options.json});
+  if (options.ages || options.takes) {
+    const TimesOptions times{options.recordings, specification_of(options), options.json,
+                             options.margin_percent, options.write};
+    return options.ages ? ages_command(times) : takes_command(times);
+  }
   if (options.recordings.size() > 1 && options.film.file.empty() && only_checks(options))
     return check_command(options);
   if (options.recordings.size() > 1)
-    return complain("several recordings are read together with --check alone, or with --coverage or --ages"),
+    return complain(
+               "several recordings are read together with --check alone, or with --coverage, --ages or "
+               "--takes"),
            usage;
   if (!options.film.file.empty()) return film_command(options);
   if (only_writes_bag(options) && !bag::is_bag(options.recording) &&
@@ -263,9 +270,10 @@ void add_replay(CommandLine& app) {
   Subcommand command =
       app.add("replay", "Read a recording: what ran when, how regularly, and whether it was legal");
   ReplayOptions& options = command.runs(replay_command);
-  command.option("recording", options.recordings,
-                 std::string("Recording of a run, or a project: its last one (default: ") + usual_recording +
-                     "); several with --coverage and --ages, or with --check those of a deployed system");
+  command.option(
+      "recording", options.recordings,
+      std::string("Recording of a run, or a project: its last one (default: ") + usual_recording +
+          "); several with --coverage, --ages and --takes, or with --check those of a deployed system");
   command.flag("--check", options.check,
                "Play it on the net of its specification: is it a legal firing sequence?");
   command.option("--spec", options.spec, "That specification (default: beside the recording or above)");
@@ -274,6 +282,12 @@ void add_replay(CommandLine& app) {
                "--coverage=FILE writes JSON, too");
   Option ages = command.flag("--ages", options.ages,
                              "How old the readings were that commands acted on, beside the proved bounds");
+  Option takes = command.flag("--takes", options.takes,
+                              "Propose `takes` for the specification from the calls of real runs");
+  command.flag("--write", options.write, "Write the proposed `takes` into the specification").needs(takes);
+  command.option("--margin", options.margin_percent, "Percent around the shortest and the longest call")
+      .shows_default()
+      .needs(takes);
   command.flag("--print", options.print, "Print the events");
   command.flag("--values", options.values, all_values,
                "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
@@ -302,7 +316,8 @@ void add_replay(CommandLine& app) {
   for (const char* other :
        {"--check", "--print", "--values", "--csv", "--to-perfetto", "--mcap", "--coverage", "--film",
         "--last", "--subsystem", "--containing", "--from", "--to"})
-    ages.excludes(command.declared(other));
+    ages.excludes(command.declared(other)), takes.excludes(command.declared(other));
+  ages.excludes(takes);
   command.footer(
       "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 2 if no\n"
       "recording can be read, 3 if events are missing. --ages ends with 1 if a time exceeds its bound.\n"
@@ -313,7 +328,8 @@ void add_replay(CommandLine& app) {
       "         tessera replay --mcap run.mcap && tessera replay --check run.mcap\n"
       "         tessera replay --film run.mp4 --speed 2\n"
       "         tessera replay --coverage monday.tsr tuesday.tsr all.json\n"
-      "         tessera replay --ages monday.tsr tuesday.tsr");
+      "         tessera replay --ages monday.tsr tuesday.tsr\n"
+      "         tessera replay --takes monday.tsr tuesday.tsr --write");
 }
 
 }  // namespace tessera::cli

@@ -70,10 +70,13 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
       folder.withdraw();
     return exit.code == 0 ? failed : exit.code;
   }
-  const RunOutcome outcome = read_outcome(controller, options);
+  RunOutcome outcome = read_outcome(controller, options);
   // Files first: the terminal may be closed, and then nothing can be printed.
   if (!json.empty() && json != "-") write_output(json, to_json(outcome));
-  if (!report_folder.empty()) write_report(outcome, controller.report, report_folder);
+  if (!report_folder.empty()) {
+    outcome.chains = chain_times_of(outcome, controller.specification.model);
+    write_report(outcome, controller.report, report_folder);
+  }
   std::optional<CoverageInput> reached;
   if (!coverage.empty()) reached.emplace(controller.specification).add_file(outcome.recording.string());
   if (reached && coverage != "-") report_coverage(*reached, coverage, /*shown=*/false);

@@ -5,10 +5,15 @@
 #include <algorithm>
 #include <optional>
 
+#include "cli/line_difference.hpp"
 #include "cli/recordings/bags.hpp"
+#include "cli/recordings/learned_takes.hpp"
 #include "cli/recordings/measured_ages.hpp"
 #include "cli/terminal.hpp"
+#include "project/build/user_sources.hpp"
 #include "project/verification/pipeline.hpp"
+#include "replay/times/call_durations.hpp"
+#include "spec/parser.hpp"
 #include "tessera/recording.hpp"
 #include "verify/hashes.hpp"
 
@@ -82,6 +87,64 @@ int ages_command(const TimesOptions& options) {
   if (!options.json.empty())
     write_output(options.json, nlohmann::json{{"ages", ages_json(all, options.recordings)}}.dump(2) + "\n");
   return std::ranges::any_of(all, &AgesOfChain::exceeds) ? failed : ok;
+}
+
+int takes_command(const TimesOptions& options) {
+  int code = ok;
+  const std::optional<Input> input = read_input(options, code);
+  if (!input) return code;
+  if (!(options.margin_percent >= 0 && options.margin_percent < 100))
+    return complain("--margin is a part of the time in percent, from 0 to less than 100"), usage;
+  replay::DurationsOfBehaviours measured;
+  for (std::size_t index = 0; index < input->recordings.size(); ++index) {
+    if (input->recordings[index].clock == "simulated")
+      fmt::print(
+          stderr,
+          "note: {}: a simulated run: its calls take the times that the specification says, so nothing is "
+          "learned from it\n",
+          options.recordings[index]);
+    else
+      add_durations(input->recordings[index], measured);
+  }
+  const std::vector<LearnedTakes> all =
+      learned_takes(input->specification.model, measured, options.margin_percent / 100);
+  if (std::ranges::none_of(all, [](const LearnedTakes& one) { return one.measured.count > 0; }))
+    return complain(
+        "no recording tells how long a call takes: record a real run (tessera run) with "
+        "--record-values small");
+  const diagnostics::Diagnostics& before = input->specification.diagnostics;
+  const TakesEdit edit = with_takes(before, all);
+  if (!options.json.empty())
+    write_output(
+        options.json,
+        nlohmann::json{{"takes", takes_json(all)}, {"margin_percent", options.margin_percent}}.dump(2) +
+            "\n");
+  const bool is_shown = options.json != "-";
+  if (is_shown)
+    fmt::print("{}margin: {:g} % below the shortest and above the longest call\n", takes_table(all),
+               options.margin_percent);
+  for (const std::string& other : edit.elsewhere) fmt::print(stderr, "write it there yourself: {}\n", other);
+  if (!edit.problem.empty()) return complain("the specification cannot be changed: " + edit.problem);
+  diagnostics::Diagnostics after(input->specification.file.string(), edit.text, before.folder());
+  if (!spec::parse(after)) {
+    terminal().say(after);
+    return complain("the specification with these times would not be correct, so nothing was changed");
+  }
+  const std::string difference = line_difference(before.text(), edit.text);
+  if (difference.empty()) {
+    if (is_shown) fmt::print("{}: nothing to change\n", input->specification.file.string());
+    return ok;
+  }
+  if (is_shown) fmt::print("\n{}\n{}", input->specification.file.string(), difference);
+  if (!options.write) {
+    if (is_shown) fmt::print("--write writes this\n");
+    return ok;
+  }
+  if (const auto problem = project::replace_together(input->specification.project,
+                                                     {{input->specification.file, before.text(), edit.text}}))
+    return complain("nothing was changed: " + *problem);
+  if (is_shown) fmt::print("written\n");
+  return ok;
 }
 
 }  // namespace tessera::cli

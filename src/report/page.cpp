@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "replay/timeline.hpp"
+#include "report/ages_html.hpp"
 #include "report/charts.hpp"
 #include "report/colours.hpp"
 #include "report/messages.hpp"
@@ -268,6 +269,7 @@ std::string page(const ReportInput& input) {
   if (input.drive && !input.drive->trace.points.empty()) put_drive(html, *input.drive);
   put_judged(html, input);
   put_behaviours(html, timeline);
+  html += ages_html(input);
   put_subsystems(html, input, timeline);
   put_messages(html, input.recording);
   put_verification(html, input);

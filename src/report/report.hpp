@@ -6,6 +6,7 @@
 #include <string_view>
 #include <vector>
 
+#include "replay/times/ages.hpp"
 #include "report/frame.hpp"
 #include "report/paths.hpp"
 #include "report/plots.hpp"
@@ -41,6 +42,25 @@ struct Verdict {
   std::string note;      ///< may be empty
 };
 
+/// How old the readings were that the commands of a chain acted on.
+struct ChainTimes {
+  struct Measured {
+    replay::MeasuredTimes times{};
+    std::optional<std::int64_t> bound_ns{};  ///< proved
+  };
+  std::string name;
+  std::uint64_t chains = 1;  ///< that are measured together
+  Measured age{}, reaction{};
+  std::string no_bound{};  ///< why; empty: there is one
+};
+
+/// Calls of one behaviour that took longer than its `takes`.
+struct SlowCalls {
+  std::string behaviour;  ///< "robot.control.follow"
+  std::uint64_t slow = 0, calls = 0;
+  std::int64_t declared_ns = 0, longest_ns = 0, longest_at_ns = 0;
+};
+
 /// The content of a report. Unknown parts stay empty and are left out of the page.
 struct ReportInput {
   Recording recording;
@@ -56,6 +76,8 @@ struct ReportInput {
   std::string ended;                         ///< why the run ended
   std::vector<SubsystemFigures> subsystems;  ///< empty: counted from the recording, without overruns
   std::vector<Verdict> verdicts;
+  std::vector<ChainTimes> chains{};
+  std::vector<SlowCalls> slow_calls{};
 };
 
 /// It is near the beginning of every page and distinguishes it from pages of other programs.

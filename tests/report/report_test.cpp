@@ -57,6 +57,28 @@ ReportInput run_on_a_track() {
   return input;
 }
 
+TEST(Report, ShowsHowOldTheReadingsOfCommandsWereBesideTheBound) {
+  ReportInput input = run_without_a_track();
+  EXPECT_THAT(render(input)[0].bytes, Not(HasSubstr("Age of commands")));
+  tessera::replay::MeasuredTimes times{100, 10'000'000, 20'000'000, 30'000'000, 35'000'000, 40'000'000,
+                                       {},  {},         0,          0,          0};
+  times.histogram = {90, 9, 1};
+  ChainTimes chain{.name = "robot.eye -> robot.control -> robot.<motor>", .age = {times, 82'000'000}};
+  input.chains = {chain};
+  const std::string within = render(input)[0].bytes;
+  EXPECT_THAT(within, HasSubstr("Age of commands"));
+  EXPECT_THAT(within, HasSubstr("robot.&lt;motor&gt;"));
+  EXPECT_THAT(within, HasSubstr("at most 82 ms"));
+  EXPECT_THAT(within, HasSubstr("longest 40.000 ms"));
+  EXPECT_THAT(within, Not(HasSubstr("above its bound")));
+  EXPECT_THAT(within, Not(HasSubstr("reaction:")));  // there is none
+  input.chains[0].age.bound_ns = 39'000'000;
+  EXPECT_THAT(render(input)[0].bytes, HasSubstr("above its bound"));
+  input.slow_calls = {{"robot.control.follow", 3, 500, 8'000'000, 9'100'000, 2'300'000'000}};
+  EXPECT_THAT(render(input)[0].bytes, HasSubstr("Overtime"));
+  EXPECT_THAT(render(input)[0].bytes, HasSubstr("9.100 ms"));
+}
+
 TEST(Report, WithATrackIsAPageAndAPicture) {
   const auto files = render(run_on_a_track());
   ASSERT_EQ(files.size(), 2U);

@@ -10,7 +10,7 @@
 
 namespace tessera::cli {
 
-/// Of each behaviour with such calls, in the order of the specification. None: all calls were in time, the run was
+/// One for each behaviour with such calls, in the order of the specification. None: all calls were in time, the run was
 /// simulated, or nothing is declared or recorded. Reads a recording of any length piece by piece.
 [[nodiscard]] std::vector<report::SlowCalls> slow_calls_in(const std::string& recording,
                                                            const spec::Model& model);

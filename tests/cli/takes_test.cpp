@@ -158,7 +158,7 @@ TEST_F(TakesOfRuns, ACallThatTakesLongerThanDeclaredIsTold) {
       cli::slow_calls_text(slow).find("took longer than its takes of 8 ms; the longest took 30.000 ms, at "),
       std::string::npos)
       << cli::slow_calls_text(slow);
-  // What is learned from it contains the slow calls.
+  // The proposal contains the slow call.
   const nlohmann::json told = json("replay run.tsr --takes --spec 01_line_follower");
   for (const nlohmann::json& one : told.at("takes"))
     if (one.at("behaviours").at(0) == "robot.control.follow") {

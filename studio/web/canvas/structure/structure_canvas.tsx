@@ -17,9 +17,8 @@ import { useStudio, useStore } from "../../hooks/use";
 import { useLens } from "../../hooks/use_lens";
 import { behavioursAt } from "../../model/causes";
 import { useComplaints, useStructure } from "../../hooks/use_structure";
-import { connect as connectEdit } from "../../model/text/edits";
 import type { Box } from "../../model/net/geometry";
-import { channelEnd } from "../../model/structure/connections";
+import { connectEdits } from "../../model/text/connect_edits";
 import { bundleAt, bundlePath, isBundlePath } from "../../model/structure/bundles";
 import {
   agentFilled,
@@ -33,8 +32,10 @@ import {
 import { channelOf, channelPath, withoutIndex } from "../../model/structure/structure";
 import { mostBundleLetters } from "../../model/structure/structure_graph";
 import { leastPixels } from "../../model/structure/text_size";
+import { ChainOverlay } from "./chain_overlay";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
+import { useFocusInSight } from "../drawing_focus";
 import { ExportButtons } from "../export_button";
 import { LayoutProblem } from "../layout_problem";
 import { Legend } from "../legend";
@@ -208,8 +209,10 @@ function Drawing() {
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
-    const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
-    void studio.change(connectEdit(from, to), (now) => ({ selected: channelPath(now.channels.length - 1), panel: "inspect" }));
+    void studio.change(connectEdits(structure, sourceHandle, targetHandle), (now) => ({
+      selected: channelPath(now.channels.length - 1),
+      panel: "inspect",
+    }));
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
@@ -225,6 +228,7 @@ function Drawing() {
     if (path !== null) comeNear(path);
   };
   const area = useRef<HTMLDivElement>(null);
+  useFocusInSight(area, moved);
   const drag = () => {
     dragged.current = true;
     addEventListener("pointerup", dragEnds, { once: true });
@@ -287,6 +291,7 @@ function Drawing() {
               drawing={drawing}
               look={{ selected, complaints, stuck, over, onOver: setOver }}
             />
+            <ChainOverlay drawn={drawn} boxOf={boxOf} />
             <LensOverlay
               net={net}
               whole={whole}

@@ -62,7 +62,8 @@ class ChainExplainer {
 
   ChainExplanation explain() {
     const timing::ChainVerdict verdict = timing::judge(declared_, model_, bounds_, chain_);
-    ChainExplanation result{chain_.name + (chain_.is_named ? ": " + chain_.leads : "") + "\n  " +
+    ChainExplanation result{assumptions_of_times + chain_.name +
+                                (chain_.is_named ? ": " + chain_.leads : "") + "\n  " +
                                 verdict_text(chain_, verdict) + "\n",
                             {{"chain", chain_.name}, {"leads", chain_.leads}},
                             overall(verdict)};

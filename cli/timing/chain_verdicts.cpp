@@ -12,14 +12,9 @@
 namespace tessera::cli {
 namespace {
 
-constexpr const char* chain_assumptions =
-    "times, if no call takes longer than `takes`, nothing fails or ends, and no thread waits for a "
-    "processor\n"
-    "but as `realtime` says:\n";
-
 /// "at most 82 ms", "holds (exact: 82 ms; asked 100 ms)", "at most 142 ms, asked 120 ms: not proved"
 std::string answer_text(timing::Answer answer, const std::optional<timing::Time>& asked, timing::Time bound,
-                 bool exact) {
+                        bool exact) {
   const std::string is = exact ? "exact: " : "at most ";
   switch (answer) {
     case timing::Answer::holds:
@@ -117,25 +112,16 @@ std::string verdict_text(const timing::DeclaredChain& chain, const timing::Chain
       asked += (asked.empty() ? "; asked: reaction " : ", reaction ") + time_text(*chain.reaction);
     return "none: " + verdict.why + asked;
   }
-  std::string text = "age " + answer_text(verdict.age, chain.age, verdict.bound.age, verdict.exact) + ", reaction " +
+  std::string text = "age " + answer_text(verdict.age, chain.age, verdict.bound.age, verdict.exact) +
+                     ", reaction " +
                      answer_text(verdict.reaction, chain.reaction, verdict.bound.reaction, verdict.exact);
-  return text + (verdict.exact ? " (exact: some run takes so long)" : "");
-}
-
-bool says_times(const spec::Model& model) {
-  return model.timing.chains ||
-         std::ranges::any_of(model.definitions, [](const spec::Definition& definition) {
-           return std::ranges::any_of(definition.subsystems, [](const spec::Subsystem& subsystem) {
-             return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
-               return behaviour.takes.is_declared();
-             });
-           });
-         });
+  const bool asks = chain.age || chain.reaction;
+  return text + (verdict.exact && !asks ? " (exact: some run takes so long)" : "");
 }
 
 ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop) try {
   ChainVerdicts result{{}, {}, nlohmann::json::array(), nlohmann::json::object()};
-  if (!says_times(model)) return result;
+  if (!timing::says_times(model)) return result;
   const timing::Declared declared = timing::declared(model);
   if (declared.chains.empty()) return result;
   const timing::Bounds bounds(declared.system, stop);
@@ -154,8 +140,8 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
     if (line.is_notable) notable.add(line.name, line.text);
   }
   result.conduct = conduct_json(conduct, declared, model);
-  result.text = chain_assumptions + lines.text() + notable.text();
-  result.explained = chain_assumptions + lines.text() + all.text();
+  result.text = assumptions_of_times + lines.text() + notable.text();
+  result.explained = assumptions_of_times + lines.text() + all.text();
   return result;
 } catch (const timing::Interrupted&) {
   ChainVerdicts result{"times: not computed: the time limit is reached, or the search was stopped\n",

@@ -152,9 +152,9 @@ TEST(Edits, TheChainsOfASubsystemGoWithIt) {
     EXPECT_EQ(now.problem, std::nullopt);
     return now.text.substr(now.text.find("timing:"));
   };
-  EXPECT_EQ(rest(R"({"do": "remove_with_uses", "at": ["agents", "a", "receptors", "s"]})"),
+  EXPECT_EQ(rest(R"({"do": "remove", "at": ["agents", "a", "receptors", "s"]})"),
             "timing:\n  chains:\n    - { name: two, path: [a.t, a.control, a.m] }\n");
-  EXPECT_EQ(rest(R"({"do": "remove_with_uses", "at": ["agents", "a", "receptors", "s", "outputs", "x"]})"),
+  EXPECT_EQ(rest(R"({"do": "remove", "at": ["agents", "a", "receptors", "s", "outputs", "x"]})"),
             "timing:\n  chains:\n    - { name: one, path: [a.s, a.control, a.m] }\n"
             "    - { name: two, path: [a.t, a.control, a.m] }\n");
 }

@@ -14,7 +14,7 @@ namespace {
 
 using nlohmann::json;
 
-const char* word_of(timing::Step::Kind kind) {
+const char* step_word(timing::Step::Kind kind) {
   switch (kind) {
     case timing::Step::Kind::next_reading:
       return "next_reading";
@@ -34,7 +34,7 @@ const char* word_of(timing::Step::Kind kind) {
   return "until_sent";
 }
 
-const char* word_of(timing::Change::Kind kind) {
+const char* change_word(timing::Change::Kind kind) {
   switch (kind) {
     case timing::Change::Kind::twice_the_rate:
       return "twice_the_rate";
@@ -62,7 +62,8 @@ class ChainExplainer {
 
   ChainExplanation explain() {
     const timing::ChainVerdict verdict = timing::judge(declared_, model_, bounds_, chain_);
-    ChainExplanation result{chain_.name + (chain_.is_named ? ": " + chain_.leads : "") + "\n  " +
+    ChainExplanation result{assumptions_of_times + chain_.name +
+                                (chain_.is_named ? ": " + chain_.leads : "") + "\n  " +
                                 verdict_text(chain_, verdict) + "\n",
                             {{"chain", chain_.name}, {"leads", chain_.leads}},
                             overall(verdict)};
@@ -100,7 +101,7 @@ class ChainExplainer {
       until += step.time;
       result.text += fmt::format("    {:>10}  {:>10}  {}\n", "+" + time_text(step.time), time_text(until),
                                  words_of(step, is_age));
-      json one{{"kind", word_of(step.kind)}, {"subsystem", path(step.subsystem)}, {"ns", step.time}};
+      json one{{"kind", step_word(step.kind)}, {"subsystem", path(step.subsystem)}, {"ns", step.time}};
       if (step.kind == timing::Step::Kind::until_read) one["channel"] = channel(step.channel);
       all.push_back(std::move(one));
     }
@@ -135,10 +136,10 @@ class ChainExplainer {
     result.json["changes"] = json::array();
     for (std::size_t at = 0; at < changes.size(); ++at) {
       const timing::Change& change = changes[at];
-      result.json["changes"].push_back({{"kind", word_of(change.kind)},
+      result.json["changes"].push_back({{"kind", change_word(change.kind)},
                                         {"change", words_of(change)},
-                                        {"age_ns", json_of(change.age)},
-                                        {"reaction_ns", json_of(change.reaction)}});
+                                        {"age_ns", time_json(change.age)},
+                                        {"reaction_ns", time_json(change.reaction)}});
       if (at >= most_told) continue;
       result.text += fmt::format("  {}: {}: age {}, reaction {}\n", at == 0 ? "what helps most" : "also",
                                  words_of(change), from_to(verdict, verdict.bound.age, change.age),
@@ -147,7 +148,7 @@ class ChainExplainer {
     if (changes.empty()) result.text += "  no single change of a rate, a mode or a processor helps\n";
   }
 
-  static json json_of(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
+  static json time_json(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
   static std::string from_to(const timing::ChainVerdict& verdict, timing::Time from, timing::Time to) {
     const auto name = [](timing::Time time) {
       return time >= timing::unbounded ? std::string("none") : time_text(time);

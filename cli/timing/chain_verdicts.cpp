@@ -12,14 +12,9 @@
 namespace tessera::cli {
 namespace {
 
-constexpr const char* assumptions =
-    "times, if no call takes longer than `takes`, nothing fails or ends, and no thread waits for a "
-    "processor\n"
-    "but as `realtime` says:\n";
-
 /// "at most 82 ms", "holds (exact: 82 ms; asked 100 ms)", "at most 142 ms, asked 120 ms: not proved"
-std::string said(timing::Answer answer, const std::optional<timing::Time>& asked, timing::Time bound,
-                 bool exact) {
+std::string answer_text(timing::Answer answer, const std::optional<timing::Time>& asked, timing::Time bound,
+                        bool exact) {
   const std::string is = exact ? "exact: " : "at most ";
   switch (answer) {
     case timing::Answer::holds:
@@ -35,12 +30,12 @@ std::string said(timing::Answer answer, const std::optional<timing::Time>& asked
   return (exact ? "" : "at most ") + time_text(bound);
 }
 
-verify::Verdict worse(verify::Verdict a, verify::Verdict b) {
+verify::Verdict worse_of(verify::Verdict a, verify::Verdict b) {
   if (a == verify::Verdict::violated || b == verify::Verdict::violated) return verify::Verdict::violated;
   return a == verify::Verdict::unknown ? a : b;
 }
 
-verify::Verdict verdict_of(timing::Answer answer) {
+verify::Verdict verdict_on(timing::Answer answer) {
   if (answer == timing::Answer::violated) return verify::Verdict::violated;
   return answer == timing::Answer::unknown || answer == timing::Answer::none ? verify::Verdict::unknown
                                                                              : verify::Verdict::holds;
@@ -72,7 +67,7 @@ class VerdictLines {
   std::map<std::pair<std::string, std::string>, std::size_t> line_of_;
 };
 
-nlohmann::json json_of(const timing::DeclaredChain& chain, const timing::ChainVerdict& verdict) {
+nlohmann::json chain_json(const timing::DeclaredChain& chain, const timing::ChainVerdict& verdict) {
   nlohmann::json one{{"chain", chain.name}, {"leads", chain.leads}};
   if (verdict.why.empty())
     one.update({{"age_ns", verdict.bound.age},
@@ -106,7 +101,7 @@ std::string answer_word(timing::Answer answer) {
 }
 
 verify::Verdict overall(const timing::ChainVerdict& verdict) {
-  return worse(verdict_of(verdict.age), verdict_of(verdict.reaction));
+  return worse_of(verdict_on(verdict.age), verdict_on(verdict.reaction));
 }
 
 std::string verdict_text(const timing::DeclaredChain& chain, const timing::ChainVerdict& verdict) {
@@ -117,25 +112,16 @@ std::string verdict_text(const timing::DeclaredChain& chain, const timing::Chain
       asked += (asked.empty() ? "; asked: reaction " : ", reaction ") + time_text(*chain.reaction);
     return "none: " + verdict.why + asked;
   }
-  std::string text = "age " + said(verdict.age, chain.age, verdict.bound.age, verdict.exact) + ", reaction " +
-                     said(verdict.reaction, chain.reaction, verdict.bound.reaction, verdict.exact);
-  return text + (verdict.exact ? " (exact: some run takes so long)" : "");
-}
-
-bool says_times(const spec::Model& model) {
-  return model.timing.chains ||
-         std::ranges::any_of(model.definitions, [](const spec::Definition& definition) {
-           return std::ranges::any_of(definition.subsystems, [](const spec::Subsystem& subsystem) {
-             return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
-               return behaviour.takes.is_declared();
-             });
-           });
-         });
+  std::string text = "age " + answer_text(verdict.age, chain.age, verdict.bound.age, verdict.exact) +
+                     ", reaction " +
+                     answer_text(verdict.reaction, chain.reaction, verdict.bound.reaction, verdict.exact);
+  const bool asks = chain.age || chain.reaction;
+  return text + (verdict.exact && !asks ? " (exact: some run takes so long)" : "");
 }
 
 ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop) try {
   ChainVerdicts result{{}, {}, nlohmann::json::array(), nlohmann::json::object()};
-  if (!says_times(model)) return result;
+  if (!timing::says_times(model)) return result;
   const timing::Declared declared = timing::declared(model);
   if (declared.chains.empty()) return result;
   const timing::Bounds bounds(declared.system, stop);
@@ -143,8 +129,8 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
   for (const timing::DeclaredChain& chain : declared.chains) {
     timing::check(stop);
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
-    result.json.push_back(json_of(chain, verdict));
-    result.overall = worse(result.overall, overall(verdict));
+    result.json.push_back(chain_json(chain, verdict));
+    result.overall = worse_of(result.overall, overall(verdict));
     lines.add(chain.name, verdict_text(chain, verdict));
   }
   const timing::Conduct conduct = timing::conduct_of(declared, bounds);
@@ -154,8 +140,8 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
     if (line.is_notable) notable.add(line.name, line.text);
   }
   result.conduct = conduct_json(conduct, declared, model);
-  result.text = assumptions + lines.text() + notable.text();
-  result.explained = assumptions + lines.text() + all.text();
+  result.text = assumptions_of_times + lines.text() + notable.text();
+  result.explained = assumptions_of_times + lines.text() + all.text();
   return result;
 } catch (const timing::Interrupted&) {
   ChainVerdicts result{"times: not computed: the time limit is reached, or the search was stopped\n",

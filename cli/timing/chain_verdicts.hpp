@@ -23,9 +23,6 @@ struct ChainVerdicts {
   verify::Verdict overall = verify::Verdict::holds;
 };
 
-/// Whether the specification says what calls take, or names chains.
-[[nodiscard]] bool says_times(const spec::Model& model);
-
 /// stop: ends the computation; what is asked is then unknown.
 /// Precondition: the model is sound.
 [[nodiscard]] ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop = {});

@@ -9,9 +9,9 @@ namespace {
 
 using nlohmann::json;
 
-json json_of(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
-const char* word_of(timing::Fires fires) { return fires == timing::Fires::never ? "never" : "may"; }
-std::string at_most(timing::Time time) {
+json time_json(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
+const char* fires_word(timing::Fires fires) { return fires == timing::Fires::never ? "never" : "may"; }
+std::string at_most_text(timing::Time time) {
   return time >= timing::unbounded ? "without a bound" : "at most " + time_text(time);
 }
 
@@ -54,7 +54,7 @@ class ConductWords {
     const timing::Channel& ends = declared_.system.channels[wait.channel];
     const std::string other = path(wait.receives ? ends.from : ends.to);
     std::string text =
-        fmt::format("waits {} for {} ({})", at_most(wait.longest), other, channel(wait.channel));
+        fmt::format("waits {} for {} ({})", at_most_text(wait.longest), other, channel(wait.channel));
     if (wait.timeout > 0)
       text += fmt::format(": its timeout of {} {}", time_text(wait.timeout),
                           wait.fires == timing::Fires::never ? "never fires" : "may fire");
@@ -64,7 +64,7 @@ class ConductWords {
   [[nodiscard]] ConductLine line(const timing::StaleVerdict& stale) const {
     return {path(stale.subsystem),
             fmt::format("the value of {} gets {} old: `stale` ({}) {}", channel(stale.channel),
-                        at_most(stale.oldest), time_text(stale.stale),
+                        at_most_text(stale.oldest), time_text(stale.stale),
                         stale.fires == timing::Fires::never ? "never fires" : "may fire"),
             stale.fires == timing::Fires::may};
   }
@@ -97,7 +97,7 @@ json conduct_json(const timing::Conduct& conduct, const timing::Declared& declar
     json one{{"subsystem", words.path(rate.subsystem)},
              {"period_ns", rate.period},
              {"keeps", rate.keeps},
-             {"longest_ns", json_of(rate.longest)},
+             {"longest_ns", time_json(rate.longest)},
              {"may_overrun", rate.may_overrun}};
     if (rate.waits_for != rate.subsystem) one["waits_for"] = words.path(rate.waits_for);
     rates.push_back(std::move(one));
@@ -106,16 +106,16 @@ json conduct_json(const timing::Conduct& conduct, const timing::Declared& declar
     json one{{"subsystem", words.path(wait.subsystem)},
              {"channel", words.channel(wait.channel)},
              {"of", wait.receives ? "receive" : "send"},
-             {"longest_ns", json_of(wait.longest)}};
-    if (wait.timeout > 0) one.update({{"timeout_ns", wait.timeout}, {"fires", word_of(wait.fires)}});
+             {"longest_ns", time_json(wait.longest)}};
+    if (wait.timeout > 0) one.update({{"timeout_ns", wait.timeout}, {"fires", fires_word(wait.fires)}});
     waits.push_back(std::move(one));
   }
   for (const timing::StaleVerdict& one : conduct.stale)
     stale.push_back({{"subsystem", words.path(one.subsystem)},
                      {"channel", words.channel(one.channel)},
                      {"stale_ns", one.stale},
-                     {"oldest_ns", json_of(one.oldest)},
-                     {"fires", word_of(one.fires)}});
+                     {"oldest_ns", time_json(one.oldest)},
+                     {"fires", fires_word(one.fires)}});
   return {{"rates", std::move(rates)}, {"waits", std::move(waits)}, {"stale", std::move(stale)}};
 }
 

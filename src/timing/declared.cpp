@@ -210,6 +210,17 @@ class Reader {
 
 }  // namespace
 
+bool says_times(const spec::Model& model) {
+  return model.timing.chains ||
+         std::ranges::any_of(model.definitions, [](const spec::Definition& definition) {
+           return std::ranges::any_of(definition.subsystems, [](const spec::Subsystem& subsystem) {
+             return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
+               return behaviour.takes.is_declared();
+             });
+           });
+         });
+}
+
 Declared declared(const spec::Model& model) { return Reader(model).take(); }
 
 }  // namespace tessera::timing

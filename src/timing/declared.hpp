@@ -34,6 +34,8 @@ struct Declared {
   std::vector<DeclaredChain> chains;
 };
 
+/// Whether the specification says what calls take, or names chains.
+[[nodiscard]] bool says_times(const spec::Model& model);
 [[nodiscard]] Declared declared(const spec::Model& model);
 
 /// The answer to what is asked of an age or reaction.

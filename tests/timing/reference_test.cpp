@@ -24,7 +24,7 @@ struct Drawn {
   System system;
 };
 
-Time sum(const std::vector<Step>& steps) {
+Time total_of(const std::vector<Step>& steps) {
   Time all = 0;
   for (const Step& step : steps) {
     EXPECT_GT(step.time, 0);
@@ -66,8 +66,8 @@ TEST(Reference, HasTheSameBounds) {
       ASSERT_EQ(found, (ChainBound{same(best.age), same(best.reaction), same(best.start), best.enumerated}));
       if (found.reaction < unbounded) {
         const ChainSteps steps = steps_of(bounds, chain_of(chain));
-        ASSERT_EQ(sum(steps.age), found.age);
-        ASSERT_EQ(sum(steps.reaction), found.reaction);
+        ASSERT_EQ(total_of(steps.age), found.age);
+        ASSERT_EQ(total_of(steps.reaction), found.reaction);
       }
       ASSERT_EQ(summed, (ChainBound{same(sum.age), same(sum.reaction), same(sum.start), false}));
     }

@@ -6,8 +6,12 @@ export type LayoutName = (typeof layoutNames)[number];
 
 export const layoutTitles: Record<LayoutName, string> = { edit: "Edit", debug: "Debug", operate: "Operate" };
 
-/** The panel that is in front of its tab set. */
-const fronts: Record<LayoutName, string> = { edit: "inspect", debug: "run", operate: "run" };
+/** The panels that are in front of their tab sets. */
+const fronts: Record<LayoutName, readonly string[]> = {
+  edit: ["inspect"],
+  debug: ["run", "timeline", "events"],
+  operate: ["run"],
+};
 
 /** The widths of windows that have layouts of their own: panels on both sides of the drawing, on one side, or below it. */
 export type WidthName = "wide" | "medium" | "narrow";
@@ -81,38 +85,37 @@ const skeletons: Record<LayoutName, (width: number) => Row> = {
     ),
 };
 
-/** In a window of medium width, the text stands below the drawing, so that there are two columns. */
+/** In a window of medium width, panels stand in two columns: those at the left of a wide window below the drawing. */
 function mediumLayout(layout: LayoutName, width: number): Row {
   if (layout === "operate") return skeletons.operate(width);
   const right = (100 * rightPixels) / width;
-  const drawn = row("inner", 100 - right, tabs("centre", 62), tabs("left", 38));
-  return layout === "edit"
-    ? row(
-        "root",
-        100,
-        row("top", 68, drawn, row("side", right, tabs("right", 74), tabs("corner", 26))),
-        row("bottom", 32, tabs("below", 42), tabs("middle", 34), tabs("end", 24)),
-      )
-    : row(
-        "root",
-        100,
-        row("top", 62, drawn, row("side", right, tabs("end", 40), tabs("right", 60))),
-        row("bottom", 38, tabs("below", 38), tabs("middle", 32), tabs("corner", 30)),
-      );
+  const side =
+    layout === "edit"
+      ? row("side", right, tabs("right", 62), tabs("middle", 38))
+      : row("side", right, tabs("end", 34), tabs("right", 36), tabs("middle", 30));
+  return row("root", 100, row("top", 100, row("inner", 100 - right, tabs("centre", 60), tabs("below", 40)), side));
 }
+
+/** The places of a medium window that stand for others. */
+const mediumSlots: Record<LayoutName, Partial<Record<Slot, Slot>>> = {
+  edit: { left: "below", end: "middle", corner: "middle" },
+  debug: { left: "below", corner: "middle" },
+  operate: {},
+};
 
 /** In a narrow window, the panels are a stack of tabs below the drawing. */
 const stack = row("root", 100, tabs("centre", 46), tabs("right", 54));
 
 /** A layout as it comes with the page, for a window of so many pixels. */
 export function readyLayout(layout: LayoutName, panels: readonly Places[], width: number): Row {
-  const narrow = widthName(width) === "narrow";
-  const whole = narrow ? stack : widthName(width) === "medium" ? mediumLayout(layout, width) : skeletons[layout](width);
-  const slotOf = (one: Places): Slot => (narrow && one[layout] !== "centre" ? "right" : one[layout]);
+  const name = widthName(width);
+  const whole = { narrow: () => stack, medium: () => mediumLayout(layout, width), wide: () => skeletons[layout](width) }[name]();
+  const slotOf = ({ [layout]: slot }: Places): Slot =>
+    name === "narrow" && slot !== "centre" ? "right" : (name === "medium" && mediumSlots[layout][slot]) || slot;
   const walk = (cell: Cell): Cell => {
     if (cell.kind === "row") return { ...cell, children: cell.children.map(walk) };
     const mine = panels.filter((one) => slotOf(one) === cell.id).map(({ name }) => name);
-    return { ...cell, tabs: mine, front: mine.find((name) => name === fronts[layout]) ?? mine[0] ?? "" };
+    return { ...cell, tabs: mine, front: fronts[layout].find((name) => mine.includes(name)) ?? mine[0] ?? "" };
   };
   return pruned(walk(whole) as Row, () => true);
 }

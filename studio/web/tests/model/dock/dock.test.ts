@@ -53,8 +53,8 @@ test("a window of medium width has two columns, with the text below the drawing"
   const [top] = readyLayout("edit", panels, 1024).children;
   expect(top).toMatchObject({
     children: [
-      { kind: "row", children: [{ tabs: ["drawing"] }, { tabs: ["text"] }] },
-      { kind: "tabs", id: "right" },
+      { kind: "row", children: [{ tabs: ["drawing"] }, { tabs: ["text", "timeline"] }] },
+      { kind: "row", children: [{ tabs: ["inspect", "run"] }, { tabs: ["values", "world"] }] },
     ],
   });
 });

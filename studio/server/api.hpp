@@ -54,6 +54,7 @@ class Api {
   void put_spec(const Request& request, Response& response);
   void start_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
+  void get_timing(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
   void serve_sweeps(HttpServer& server);
   void start_sweep(const Request& request, Response& response);

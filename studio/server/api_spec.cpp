@@ -1,7 +1,11 @@
 #include <fmt/core.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <variant>
 
+#include "server/analysis/chain_bounds.hpp"
 #include "server/api.hpp"
 #include "server/http/answer.hpp"
 
@@ -19,6 +23,29 @@ void answer_with_analysis(const httplib::Request& request, httplib::Response& re
                 {std::make_shared<const std::string>("{" + members + ",\"analysis\":"), analysis.json, end});
 }
 
+/// nullopt: it is not understood.
+std::optional<OtherTimes> other_times(const json& given) {
+  OtherTimes result;
+  for (const auto& [name, value] : given.items()) {
+    if (name == "path") {
+      if (!value.is_string()) return std::nullopt;
+      result.path = value.get<std::string>();
+      continue;
+    }
+    std::int64_t* const time = name == "period_ns"     ? &result.period
+                               : name == "shortest_ns" ? &result.shortest
+                               : name == "longest_ns"  ? &result.longest
+                                                       : nullptr;
+    constexpr double hour_ns = 3600e9;
+    if (time == nullptr || !value.is_number()) return std::nullopt;
+    const double ns = value.get<double>();
+    if (!(ns >= 0 && ns <= hour_ns)) return std::nullopt;
+    *time = std::llround(ns);
+  }
+  if (result.path.empty()) return std::nullopt;
+  return result;
+}
+
 }  // namespace
 
 void Api::serve_spec(HttpServer& server) {
@@ -29,6 +56,26 @@ void Api::serve_spec(HttpServer& server) {
     const std::string text = body.text("text");
     if (body.good()) answer_packed(request, response, {parts_.analyses.of(text)->json});
   });
+  server.Post("/api/timing", by(&Api::get_timing));
+}
+
+void Api::get_timing(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string text = body.text("text");
+  std::vector<OtherTimes> others;
+  for (const json& one : body.objects("what_if")) {
+    const std::optional<OtherTimes> other = other_times(one);
+    if (!other)
+      return answer_error(response, 400,
+                          "an entry of what_if has a path, and times in nanoseconds from 0 to an hour");
+    others.push_back(*other);
+  }
+  if (!body.good()) return;
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+  if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
+  const std::variant<json, std::string> found = chain_bounds(*analysis->model, others);
+  if (const auto* const why = std::get_if<std::string>(&found)) return answer_error(response, 422, *why);
+  answer(response, text_of(std::get<json>(found)));
 }
 
 void Api::get_spec(const Request& request, Response& response) {

@@ -1,7 +1,8 @@
 import { useEffect, useId, useLayoutEffect, useRef, useState, type FormEvent, type KeyboardEvent } from "react";
 import { createPortal } from "react-dom";
 import { useStudio } from "../hooks/use";
-import { findThing, targetsIn, withoutIndex, type Structure } from "../model/structure/structure";
+import { terminalWith } from "../model/text/lead_on";
+import { findThing, targetsIn, withoutIndex, type Behaviour, type Structure } from "../model/structure/structure";
 
 /** A new entry of `next` that is asked for: where it begins, and perhaps where it leads. */
 export interface LeadOn {
@@ -11,6 +12,25 @@ export interface LeadOn {
   /** On the screen. */
   x: number;
   y: number;
+}
+
+/** Tells when a new arrow is taken. terminal: the new terminal condition of the behaviour; undefined: it stays. */
+function whenTaken({ name, isGroup, terminal: old, next }: Behaviour, when: string, terminal: string | undefined): string {
+  if (when === "error") return `Taken after a failure of ${name}.`;
+  if (isGroup) return `Taken when ${name} is left. Arrows are tried in their order. error: after a failure in it.`;
+  if (terminal !== undefined)
+    return old === ""
+      ? `${name} had no end. It now ends when this condition holds, and this arrow is taken.`
+      : `${name} now ends when ${terminal}. This arrow is taken if its condition holds then.`;
+  if (old === "")
+    return when === ""
+      ? `${name} never ends, so this arrow is not taken. Write the condition that ends ${name}, or error: after a failure.`
+      : `${name} never ends, so this arrow is not taken.`;
+  const ended = old === "true" ? `Tried after each round of ${name}` : `Tried when ${name} has ended: ${old}`;
+  if (when !== "") return `${ended}.`;
+  return next.some((one) => one.when === "")
+    ? `${ended}. Another arrow is always taken before it: give one of them a condition.`
+    : `${ended}.`;
 }
 
 /** The form of a new entry of `next`, near its arrow. Escape takes it back. */
@@ -25,6 +45,7 @@ export function LeadOnForm({ structure, of, onClose }: { structure: Structure; o
   const other = targets.find((name) => withoutIndex(name) !== behaviour?.name) ?? "end";
   const [to, setTo] = useState(targets.find((name) => withoutIndex(name) === of.to) ?? other);
   const [when, setWhen] = useState("");
+  const [ends, setEnds] = useState(true);
   const [place, setPlace] = useState({ left: of.x, top: of.y });
   useLayoutEffect(() => {
     const { width, height } = form.current!.getBoundingClientRect();
@@ -42,15 +63,22 @@ export function LeadOnForm({ structure, of, onClose }: { structure: Structure; o
   const add = (event: FormEvent) => {
     event.preventDefault();
     close();
-    void studio.elements.leadOn(of.from, to, when.trim());
+    void studio.elements.leadOn(of.from, { to, when: condition, ends });
   };
   const key = (event: KeyboardEvent) => {
     event.stopPropagation();
     if (event.key === "Escape") close();
+    if (event.key !== "Tab") return;
+    // Tab goes round in the form: behind it is the end of the page.
+    const all = [...form.current!.querySelectorAll<HTMLElement>("select, input, button")];
+    const [end, other] = event.shiftKey ? [all[0], all.at(-1)] : [all.at(-1), all[0]];
+    if (document.activeElement !== end) return;
+    event.preventDefault();
+    other!.focus();
   };
-  const first = behaviour?.next.length ?? 0;
   const named = ["error", ...(behaviour?.isGroup ? ["until"] : [])];
-  const always = behaviour?.next.some((one) => one.when === "");
+  const condition = when.trim();
+  const terminal = behaviour && terminalWith(behaviour, condition);
   return createPortal(
     <form
       ref={form}
@@ -88,17 +116,13 @@ export function LeadOnForm({ structure, of, onClose }: { structure: Structure; o
           ))}
         </datalist>
       </label>
-      <p className="faint">
-        {always && first > 0
-          ? "An entry before it is always taken: this one is tried after it. Give that one a condition."
-          : "A condition in C++, or error after a failure. Entries are tried in their order."}
-      </p>
-      {behaviour && !behaviour.isGroup && behaviour.terminal === "" && when.trim() !== "error" && (
-        <p className="faint">
-          {behaviour.name} never ends: it has no terminal condition. If this is its only way on, write the condition there, and
-          leave this field empty.
-        </p>
+      {terminal !== undefined && (
+        <label className="check">
+          <input type="checkbox" checked={ends} onChange={(event) => setEnds(event.target.checked)} />
+          {behaviour?.name} ends when this holds
+        </label>
       )}
+      {behaviour && <p className="faint">{whenTaken(behaviour, condition, ends ? terminal : undefined)}</p>}
       <div className="buttons">
         <button type="button" onClick={close}>
           Cancel

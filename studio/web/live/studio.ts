@@ -32,6 +32,7 @@ import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Sweeps } from "./plots/sweeps";
+import { Timing } from "./timing";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
 
@@ -67,6 +68,7 @@ export class Studio {
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
+  readonly timing = new Timing(this.api, this.draft);
   readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
@@ -267,6 +269,7 @@ export class Studio {
 
   /** Shows the stuck subsystems if a violation names them. */
   private verified(verdicts: readonly Verdict[]): void {
+    void this.timing.verify(this.verifier.store.get().text);
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();

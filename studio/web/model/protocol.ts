@@ -71,6 +71,11 @@ export interface Requests {
     /** Sockets on which a controller listens. */
     answer: string[];
   };
+  /**
+   * How old a command can be: the bounds of all chains, for the times of the text or others. 422: the text has
+   * errors, or there is no such subsystem.
+   */
+  "POST /api/timing": { body: { text: string; what_if?: OtherTimes[] }; status: 200; answer: Timing };
   /** The subsystems that cannot fire in a marking. */
   "POST /api/waits": { body: { text: string; marking: { place: number }[] }; status: 200; answer: { at_end: SubsystemAtEnd[] } };
   /** The C++ functions of the behaviours. */
@@ -436,6 +441,59 @@ export interface VerifyProblem {
   error: string;
 }
 export interface Nothing {}
+/** Other times of a subsystem than the text says, for all that share its description. */
+export interface OtherTimes {
+  /** robot.control */
+  path: string;
+  /** 0: no rate. */
+  period_ns?: number;
+  shortest_ns?: number;
+  longest_ns?: number;
+}
+export interface Timing {
+  /** Some behaviour says what it takes. */
+  says_times: boolean;
+  chains: TimedChain[];
+  subsystems: TimedSubsystem[];
+}
+/** A chain of subsystems from a device to another one. */
+export interface TimedChain {
+  /** robot.sensor -> robot.control -> robot.motor */
+  name: string;
+  /** Its subsystems in order. */
+  path: string[];
+  /** FROM->TO, those of all its ways. */
+  channels: string[];
+  /** So many members of a fleet have this verdict; the names are those of the first one. */
+  agents: number;
+  age: TimedBound;
+  reaction: TimedBound;
+  /** Some run reaches both bounds. */
+  exact: boolean;
+  /** Why there is no bound; empty: there is one. */
+  why: string;
+}
+export interface TimedBound {
+  /** Null: there is no bound. */
+  at_most_ns: number | null;
+  /** Null: nothing is asked. */
+  asked_ns: number | null;
+  /** unknown: more is proved than is asked, but no run is known that takes longer. none: there is no bound. */
+  answer: "not_asked" | "holds" | "violated" | "unknown" | "none";
+}
+/** A subsystem of some chain, with the times that the bounds are for. */
+export interface TimedSubsystem {
+  path: string;
+  /** 0: no rate. */
+  period_ns: number;
+  /** The shortest time of a call. Null: nothing bounds it. */
+  shortest_ns: number | null;
+  longest_ns: number | null;
+  /** Some receive of it waits for a value. */
+  waits: boolean;
+  /** Why nothing bounds its calls; empty: they are bounded. */
+  missing: string;
+}
 export interface FunctionShown {
   /** The path of an agent or a template: "walker.control". */
   subsystem: string;

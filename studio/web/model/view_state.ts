@@ -7,6 +7,7 @@ export const panelNames = [
   "text",
   "inspect",
   "verify",
+  "timing",
   "play",
   "run",
   "recordings",

@@ -129,7 +129,7 @@ const kinds: Record<Thing["kind"], string> = {
 function title(thing: Thing | undefined, selected: string): string {
   if (thing?.kind === "channel") return "Channel";
   const name =
-    selected
+    selectedPath(selected)
       .replace(/^template:/, "")
       .split(".")
       .at(-1) || "system";

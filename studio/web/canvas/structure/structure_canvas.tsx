@@ -15,9 +15,8 @@ import { useStudio, useStore } from "../../hooks/use";
 import { useLens } from "../../hooks/use_lens";
 import { behavioursAt } from "../../model/causes";
 import { useComplaints, useStructure } from "../../hooks/use_structure";
-import { connect as connectEdit } from "../../model/text/edits";
 import type { Box } from "../../model/net/geometry";
-import { channelEnd } from "../../model/structure/connections";
+import { connectEdits } from "../../model/text/connect_edits";
 import { bundleAt, bundlePath, isBundlePath } from "../../model/structure/bundles";
 import {
   agentFilled,
@@ -31,9 +30,11 @@ import {
 import { channelOf, channelPath, withoutIndex } from "../../model/structure/structure";
 import { mostBundleLetters } from "../../model/structure/structure_graph";
 import { leastPixels } from "../../model/structure/text_size";
+import { ChainOverlay } from "./chain_overlay";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
 import { PathText } from "../path_text";
+import { useFocusInSight } from "../drawing_focus";
 import { ExportButtons } from "../export_button";
 import { LayoutProblem } from "../layout_problem";
 import { CanvasFoot } from "../canvas_foot";
@@ -196,8 +197,10 @@ function Drawing() {
   const select = (path: string | null) => studio.choose(path, structure);
   const connect = ({ sourceHandle, targetHandle }: Connection) => {
     if (!sourceHandle || !targetHandle) return;
-    const [from, to] = [sourceHandle, targetHandle].map((path) => channelEnd(structure, path)) as [string, string];
-    void studio.change(connectEdit(from, to), (now) => ({ selected: channelPath(now.channels.length - 1), panel: "inspect" }));
+    void studio.change(connectEdits(structure, sourceHandle, targetHandle), (now) => ({
+      selected: channelPath(now.channels.length - 1),
+      panel: "inspect",
+    }));
   };
   const flow = useReactFlow();
   const zoom = useFlow(({ transform }) => structureStep(transform[2]));
@@ -213,6 +216,7 @@ function Drawing() {
     if (path !== null) comeNear(path);
   };
   const area = useRef<HTMLDivElement>(null);
+  useFocusInSight(area, moved);
   const drag = () => {
     dragged.current = true;
     addEventListener("pointerup", dragEnds, { once: true });
@@ -276,6 +280,7 @@ function Drawing() {
               drawing={drawing}
               look={{ selected, complaints, stuck, over, onOver: setOver }}
             />
+            <ChainOverlay drawn={drawn} boxOf={boxOf} />
             <LensOverlay
               net={net}
               whole={whole}

@@ -10,10 +10,18 @@ export interface Partner {
 /** Why a buffer cannot be the other end of a channel. */
 export const already = "connected already";
 
+const agentOf = (structure: Structure, path: string) => structure.agents.find((one) => path.startsWith(`${one.name}.`));
+
 /** The name of a buffer in a channel: `robot[i].control.line` for each member of a fleet. */
 export function channelEnd(structure: Structure, path: string): string {
-  const agent = structure.agents.find((one) => path.startsWith(`${one.name}.`));
+  const agent = agentOf(structure, path);
   return agent?.count ? path.replace(agent.name, `${agent.name}[i]`) : path;
+}
+
+/** The fleet at one end of a channel, if a single agent is at the other. */
+export function fleetOf(structure: Structure, path: string, other: string): string | undefined {
+  const fleet = agentOf(structure, path);
+  return fleet?.count && !agentOf(structure, other)?.count ? fleet.name : undefined;
 }
 
 /** The buffers at the other ends of all channels of a buffer. */
@@ -35,7 +43,7 @@ export function partnersOf(structure: Structure, buffer: Buffer): Partner[] {
   const others = connected(structure, buffer);
   const reason = (one: Buffer) => {
     if (others.includes(one.path)) return already;
-    if (!sameType(one.type, buffer.type)) return `its type is ${one.type || "not given"}`;
+    if (!fits(structure, one, buffer)) return `its type is ${one.type || "not given"}`;
     const input = wanted === "input" ? one : buffer;
     return isFed(structure, input) ? `${wanted === "input" ? "it" : "this input"} has its source already` : "";
   };
@@ -48,6 +56,20 @@ export function partnersOf(structure: Structure, buffer: Buffer): Partner[] {
 const subsystemOf = (path: string) => path.split(".").slice(0, 2).join(".");
 const everyBuffer = (structure: Structure) =>
   structure.agents.flatMap((agent: Agent) => agent.subsystems.flatMap((one: Subsystem) => one.buffers));
+
+/** Whether a type is an array with an element for each member of a fleet. */
+export const isForEach = (fleet: string, type: string) => new RegExp(`\\[\\s*each\\s+${fleet}\\s*\\]`).test(type);
+const element = (fleet: string, type: string) => type.replace(new RegExp(`\\[\\s*each\\s+${fleet}\\s*\\]`), "");
+
+/** An end at a single agent may have an element for each member of the fleet at the other. */
+function fits(structure: Structure, one: Buffer, other: Buffer): boolean {
+  const fleets = [fleetOf(structure, one.path, other.path), fleetOf(structure, other.path, one.path)];
+  const [left, right] = [fleets[1], fleets[0]].map((fleet, index) => {
+    const { type } = index === 0 ? one : other;
+    return fleet ? element(fleet, type) : type;
+  });
+  return sameType(left!, right!);
+}
 
 function sameType(one: string, other: string): boolean {
   const [left, right] = [one, other].map((text) => {

@@ -3,7 +3,7 @@ export interface TypeParts {
   base: string;
   /** The largest number of characters of a text; empty: it is none. */
   most: string;
-  /** The number of elements: "8", or "<=16" for a sequence of at most so many; empty: it is no array. */
+  /** The number of elements: "8", "each robot" for one of each member of a fleet, or "<=16" for a sequence of at most so many; empty: it is no array. */
   length: string;
   unit: string;
 }
@@ -26,7 +26,8 @@ export const isNumber = (base: string) => (numberTypes as readonly string[]).inc
 
 /** null: the text is no type. */
 export function typeParts(text: string): TypeParts | null {
-  const found = /^\s*(?:(string)\b\s*(?:<=\s*(\d+))?|([A-Za-z_]\w*))\s*(?:\[\s*(\d+)\s*\]|<=\s*(\d+))?\s*(.*?)\s*$/.exec(text);
+  const found =
+    /^\s*(?:(string)\b\s*(?:<=\s*(\d+))?|([A-Za-z_]\w*))\s*(?:\[\s*(\d+|each\s+\w+)\s*\]|<=\s*(\d+))?\s*(.*?)\s*$/.exec(text);
   if (!found) return null;
   const [, string, most = "", other = "", extent = "", largest, unit = ""] = found;
   const length = largest === undefined ? extent : `<=${largest}`;

@@ -1,7 +1,7 @@
 import { useId, useState } from "react";
-import * as edits from "../../model/text/edits";
-import { already, channelEnd, partnersOf } from "../../model/structure/connections";
-import { channelPath, type Buffer, type Structure } from "../../model/structure/structure";
+import { already, fleetOf, isForEach, partnersOf } from "../../model/structure/connections";
+import { connectEdits } from "../../model/text/connect_edits";
+import { channelPath, findThing, type Buffer, type Structure } from "../../model/structure/structure";
 import { useEdit } from "./form_parts";
 
 /** A channel from or to a buffer, without the mouse. */
@@ -19,11 +19,16 @@ export function ConnectForm({ structure, buffer }: { structure: Structure; buffe
       : !sends && partners.some(({ reason }) => reason === already)
         ? "it has its source"
         : "no buffer fits";
+  const [output, input] = sends ? [buffer.path, chosen?.path] : [chosen?.path, buffer.path];
+  const fleet = output && input ? fleetOf(structure, output, input) : undefined;
+  const readers = output && input ? fleetOf(structure, input, output) : undefined;
+  const typeOf = (path: string) => {
+    const found = findThing(structure, `output:${path}`);
+    return found?.kind === "buffer" ? found.of.type : "";
+  };
   const connect = () => {
-    if (!chosen) return;
-    const ends = [buffer.path, chosen.path].map((path) => channelEnd(structure, path));
-    const [from, to] = sends ? ends : ends.reverse();
-    void edit(edits.connect(from!, to!), (now) => channelPath(now.channels.length - 1));
+    if (!output || !input) return;
+    void edit(connectEdits(structure, output, input), (now) => channelPath(now.channels.length - 1));
   };
   return (
     <div className="field connect">
@@ -37,6 +42,16 @@ export function ConnectForm({ structure, buffer }: { structure: Structure; buffe
           </option>
         ))}
       </select>
+      {fleet && (
+        <p className="faint">
+          {input} gets a value from each {fleet}: in C++ in.{input!.split(".").at(-1)}[i]
+        </p>
+      )}
+      {output && readers && !isForEach(readers, typeOf(output)) && (
+        <p className="faint">
+          Each {readers} gets the same value. For a value of its own, give {output} the length: each {readers}
+        </p>
+      )}
       <button disabled={!chosen} onClick={connect}>
         Connect
       </button>

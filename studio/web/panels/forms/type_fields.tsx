@@ -28,7 +28,9 @@ export const changed =
 const wrongNumber = (text: string) => (/^\d*$/.test(text.trim()) ? undefined : "A whole number");
 
 const wrongLength = (text: string) =>
-  /^(<=\s*\d+|\d*)$/.test(text.trim()) ? undefined : "A whole number, or <=16 for at most so many";
+  /^(<=\s*\d+|\d*|each\s+\w+)$/.test(text.trim())
+    ? undefined
+    : "A whole number, <=16 for at most so many, or each robot for one of each member of a fleet";
 
 /** A type, chosen by its parts: kind, number of elements, and unit. */
 export function TypeInputs({ structure, value, of = "", without = [], onChange }: TypeInputsProps) {

@@ -1,6 +1,7 @@
 import { expect, it } from "vitest";
 import schemaText from "../../../../share/tessera/spec.schema.json";
 import { channelEnd, partnersOf } from "../../model/structure/connections";
+import { connectEdits } from "../../model/text/connect_edits";
 import { parameterParts, setParameter, type ParameterParts } from "../../model/text/parameter_text";
 import { driverKinds, fieldsOf, type Schema } from "../../model/text/schema_fields";
 import { readStructure } from "../../model/structure/structure";
@@ -99,6 +100,33 @@ it("buffers that can be connected come first, and the others say why they cannot
   ]);
   expect(channelEnd(structure, "b.control.slow")).toBe("b[i].control.slow");
   expect(channelEnd(structure, "a.control.speed")).toBe("a.control.speed");
+});
+
+it("an input of a single agent gets a value from each member of a fleet", () => {
+  const depot = (type: string, grant: string) =>
+    readStructure(`agents:
+  carrier: { count: 2, control: { outputs: { ask: bool }, inputs: { grant: bool, go: bool }, behaviours: { run: {} } } }
+  dock: { control: { inputs: { ask: "${type}" }, outputs: { grant: "${grant}", all: bool }, behaviours: { run: {} } } }
+`);
+  const channel = (from: string, to: string) => ({ do: "connect", at: ["channels"], fields: { from, to } });
+  const plain = depot("bool", "bool[each carrier]");
+  const [ask] = plain.agents[0]!.subsystems[0]!.buffers.filter(({ name }) => name === "ask");
+  expect(partnersOf(plain, ask!)).toEqual([{ path: "dock.control.ask", reason: "" }]);
+  expect(connectEdits(plain, "carrier.control.ask", "dock.control.ask")).toEqual([
+    { do: "set", at: ["agents", "dock", "control", "inputs"], key: "ask", text: "bool[each carrier]", as: "scalar" },
+    channel("carrier[i].control.ask", "dock.control.ask[i]"),
+  ]);
+  expect(connectEdits(plain, "dock.control.grant", "carrier.control.grant")).toEqual([
+    channel("dock.control.grant[i]", "carrier[i].control.grant"),
+  ]);
+  expect(connectEdits(plain, "dock.control.all", "carrier.control.go")).toEqual([
+    channel("dock.control.all", "carrier[i].control.go"),
+  ]);
+  const each = depot("bool[each carrier]", "bool");
+  expect(partnersOf(each, ask!)).toEqual([{ path: "dock.control.ask", reason: "" }]);
+  expect(connectEdits(each, "carrier.control.ask", "dock.control.ask")).toEqual([
+    channel("carrier[i].control.ask", "dock.control.ask[i]"),
+  ]);
 });
 
 it("the fields of a map are those of the schema, each with its own check", () => {

@@ -1,0 +1,139 @@
+#include "server/analysis/chain_bounds.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <set>
+#include <tuple>
+
+#include "timing/declared.hpp"
+
+namespace tessera::server {
+namespace {
+
+using nlohmann::json;
+using spec::InstanceId;
+using timing::Time;
+
+/// "robot.control" for "robot[3].control"
+std::string without_member(const std::string& path) {
+  const std::size_t from = path.find('['), to = path.find(']');
+  return from == std::string::npos || to < from ? path : path.substr(0, from) + path.substr(to + 1);
+}
+
+std::vector<InstanceId> instances_at(const spec::Model& model, const std::string& path) {
+  std::optional<spec::Instance> found;
+  for (const InstanceId id : model.instances.ids()) {
+    const std::string name = model.instance_path(id);
+    if (name != path && without_member(name) != path) continue;
+    found = model.instances[id];
+    break;
+  }
+  std::vector<InstanceId> all;
+  if (!found) return all;
+  const spec::DefinitionId definition = model.agents[found->agent].definition;
+  for (const InstanceId id : model.instances.ids())
+    if (const spec::Instance& one = model.instances[id];
+        one.subsystem == found->subsystem && model.agents[one.agent].definition == definition)
+      all.push_back(id);
+  return all;
+}
+
+/// Returns why they cannot be changed; empty: they are.
+std::string change(timing::Declared& declared, const spec::Model& model, const OtherTimes& other) {
+  const std::vector<InstanceId> instances = instances_at(model, other.path);
+  if (instances.empty()) return fmt::format("there is no subsystem {}", other.path);
+  for (const InstanceId instance : instances) {
+    timing::Subsystem& mine = declared.system.subsystems[instance.value];
+    if (other.period >= 0) mine.period = other.period;
+    if (other.shortest < 0 && other.longest < 0) continue;
+    if (const std::string& why = declared.missing[instance.value]; !why.empty()) return why;
+    if (other.shortest >= 0) mine.shortest = other.shortest;
+    if (other.longest >= 0) mine.longest = other.longest;
+    if (mine.shortest < 1 || mine.shortest > mine.longest)
+      return fmt::format("{} cannot take from {} to {} ns", other.path, mine.shortest, mine.longest);
+  }
+  return {};
+}
+
+bool says_times(const spec::Model& model) {
+  return std::ranges::any_of(model.definitions, [](const spec::Definition& definition) {
+    return std::ranges::any_of(definition.subsystems, [](const spec::Subsystem& subsystem) {
+      return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
+        return behaviour.takes.is_declared();
+      });
+    });
+  });
+}
+
+json time_of(Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
+
+json bound_of(const timing::ChainVerdict& verdict, Time time) {
+  return {{"at_most_ns", verdict.why.empty() ? time_of(time) : json(nullptr)},
+          {"asked_ns", nullptr},
+          {"answer", "not_asked"}};
+}
+
+}  // namespace
+
+std::variant<json, std::string> chain_bounds(const spec::Model& model,
+                                             const std::vector<OtherTimes>& others) {
+  timing::Declared declared = timing::declared(model);
+  for (const OtherTimes& other : others)
+    if (std::string why = change(declared, model, other); !why.empty()) return why;
+  const timing::Bounds bounds(declared.system);
+  json chains = json::array(), subsystems = json::array();
+  std::set<std::uint32_t> told;
+  const auto receive_blocks = [&](std::uint32_t channel) {
+    return declared.system.channels[channel].receive_blocks;
+  };
+  // Members of a fleet whose chains have equal verdicts are one entry.
+  std::map<std::tuple<std::string, Time, Time, bool, std::string>, std::size_t> entries;
+  for (const timing::DeclaredChain& chain : declared.chains) {
+    const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
+    std::string name;
+    json path = json::array();
+    for (const InstanceId instance : chain.path) {
+      path.push_back(model.instance_path(instance));
+      name += without_member(path.back()) + " ";
+    }
+    const auto [at, is_new] = entries.try_emplace(
+        {name, verdict.bound.age, verdict.bound.reaction, verdict.exact, without_member(verdict.why)},
+        chains.size());
+    if (!is_new) {
+      json& agents = chains[at->second]["agents"];
+      agents = agents.get<int>() + 1;
+      continue;
+    }
+    std::set<std::uint32_t> channels;
+    for (const timing::Chain& way : chain.ways) channels.insert(way.begin(), way.end());
+    json ends = json::array();
+    for (const std::uint32_t channel : channels)
+      ends.push_back(model.channel_name(model.channels[spec::ChannelId{channel}]));
+    chains.push_back({{"name", chain.name},
+                      {"path", std::move(path)},
+                      {"channels", std::move(ends)},
+                      {"agents", 1},
+                      {"age", bound_of(verdict, verdict.bound.age)},
+                      {"reaction", bound_of(verdict, verdict.bound.reaction)},
+                      {"exact", verdict.exact},
+                      {"why", verdict.why}});
+    for (const InstanceId instance : chain.path) {
+      if (!told.insert(instance.value).second) continue;
+      const timing::Subsystem& mine = declared.system.subsystems[instance.value];
+      subsystems.push_back({{"path", model.instance_path(instance)},
+                            {"period_ns", mine.period},
+                            {"shortest_ns", time_of(mine.shortest)},
+                            {"longest_ns", time_of(mine.longest)},
+                            {"waits", std::ranges::any_of(mine.receives, receive_blocks)},
+                            {"missing", declared.missing[instance.value]}});
+    }
+  }
+  return json{{"says_times", says_times(model)},
+              {"chains", std::move(chains)},
+              {"subsystems", std::move(subsystems)}};
+}
+
+}  // namespace tessera::server

@@ -1,0 +1,27 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "spec/model/model.hpp"
+
+namespace tessera::server {
+
+/// Other times of a subsystem than its specification says. They hold for all that share its description.
+struct OtherTimes {
+  std::string path;  ///< "robot.control"; of a fleet, with or without the number of a member
+  /// Nanoseconds. Below 0: as the specification says. A period of 0: no rate.
+  std::int64_t period = -1, shortest = -1, longest = -1;
+};
+
+/// How old a command can be: all chains of the specification, with the bounds that `tessera verify` tells
+/// (docs/theory/timing.md), for the times that it says and `others`.
+///
+/// Returns the answer of POST /api/timing, or why there is none.
+/// Threads: pure.
+[[nodiscard]] std::variant<nlohmann::json, std::string> chain_bounds(const spec::Model& model,
+                                                                     const std::vector<OtherTimes>& others);
+
+}  // namespace tessera::server

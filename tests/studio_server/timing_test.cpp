@@ -1,0 +1,125 @@
+#include <gmock/gmock.h>
+
+#include "served.hpp"
+
+namespace tessera::server_test {
+
+using nlohmann::json;
+
+class Timing : public Served {
+ protected:
+  /// The line follower, or a fleet of such robots, with the times of docs/theory/timing.md.
+  static std::string robot(const std::string& agent) {
+    return R"(tessera: 1
+system: follower
+types: { Reading: { dark: bool }, Velocity: { linear: float64 } }
+templates:
+  follower:
+    control:
+      rate: 20 Hz
+      inputs: { line: Reading }
+      outputs: { motion: Velocity }
+      behaviours: { follow: { takes: 2..8 ms } }
+    receptors:
+      sensor:
+        rate: 50 Hz
+        real: { light: float64 }
+        outputs: { line: Reading }
+        behaviours: { watch: { takes: 1..2 ms } }
+    effectors:
+      motor:
+        rate: 50 Hz
+        inputs: { velocity: Velocity }
+        real: { speed: float64 }
+        behaviours: { drive: { takes: 1..2 ms } }
+agents: { robot: )" +
+           agent + R"( }
+channels:
+  - "ROBOT.sensor.line -> ROBOT.control.line"
+  - { from: "ROBOT.control.motion", to: "ROBOT.motor.velocity", receive: blocking, timeout: 200 ms }
+)";
+  }
+  static std::string with(std::string text, const std::string& name) {
+    for (std::size_t at = 0; (at = text.find("ROBOT", at)) != std::string::npos;) text.replace(at, 5, name);
+    return text;
+  }
+  json bounds(const std::string& text, const json& what_if = json::array()) {
+    const Reply reply = post("/api/timing", {{"text", text}, {"what_if", what_if}});
+    EXPECT_EQ(reply.status, 200) << reply.body;
+    return reply.json();
+  }
+  const std::string single_ = with(robot("{ use: follower }"), "robot");
+};
+
+TEST_F(Timing, TheChainOfTheLineFollowerHasItsBounds) {
+  serve();
+  const json told = bounds(single_);
+  EXPECT_EQ(told.at("says_times"), true);
+  ASSERT_EQ(told.at("chains").size(), 1U) << told;
+  const json& chain = told.at("chains")[0];
+  EXPECT_EQ(chain.at("path"), json({"robot.sensor", "robot.control", "robot.motor"}));
+  EXPECT_EQ(chain.at("channels"),
+            json({"robot.sensor.line->robot.control.line", "robot.control.motion->robot.motor.velocity"}));
+  EXPECT_EQ(chain.at("age").at("at_most_ns"), 82'000'000);
+  EXPECT_EQ(chain.at("reaction").at("at_most_ns"), 142'000'000);
+  EXPECT_EQ(chain.at("why"), "");
+  EXPECT_EQ(told.at("subsystems")[1], json({{"path", "robot.control"},
+                                            {"period_ns", 50'000'000},
+                                            {"shortest_ns", 2'000'000},
+                                            {"longest_ns", 8'000'000},
+                                            {"waits", false},
+                                            {"missing", ""}}));
+  EXPECT_EQ(told.at("subsystems")[2].at("waits"), true);
+}
+
+TEST_F(Timing, OtherTimesAreThoseOfATextThatSaysThem) {
+  serve();
+  std::string faster = single_;
+  faster.replace(faster.find("20 Hz"), 5, "50 Hz");
+  EXPECT_EQ(bounds(single_, {{{"path", "robot.control"}, {"period_ns", 20'000'000}}}), bounds(faster));
+  std::string slower = single_;
+  slower.replace(slower.find("2..8 ms"), 7, "2..9 ms");
+  EXPECT_EQ(bounds(single_, {{{"path", "robot.control"}, {"longest_ns", 9'000'000}}}), bounds(slower));
+  std::string driven = single_;
+  driven.replace(driven.rfind("        rate: 50 Hz\n"), 20, "");
+  const json without = bounds(single_, {{{"path", "robot.motor"}, {"period_ns", 0}}});
+  EXPECT_EQ(without, bounds(driven));
+  EXPECT_EQ(without.at("chains")[0].at("reaction").at("at_most_ns"), 130'000'000);
+}
+
+TEST_F(Timing, AFleetIsOneEntryAndItsMembersChangeTogether) {
+  serve();
+  const std::string fleet = with(robot("{ use: follower, count: 3 }"), "robot[i]");
+  const json told = bounds(fleet, {{{"path", "robot.control"}, {"period_ns", 20'000'000}}});
+  ASSERT_EQ(told.at("chains").size(), 1U) << told;
+  EXPECT_EQ(told.at("chains")[0].at("agents"), 3);
+  EXPECT_EQ(told.at("chains")[0].at("name"), "robot[0].sensor -> robot[0].control -> robot[0].motor");
+  EXPECT_EQ(told, bounds(fleet, {{{"path", "robot[2].control"}, {"period_ns", 20'000'000}}}));
+}
+
+TEST_F(Timing, AChainWithoutABoundSaysWhy) {
+  serve();
+  std::string text = single_;
+  text.replace(text.find("{ takes: 2..8 ms }"), 18, "{}");
+  const json told = bounds(text);
+  EXPECT_EQ(told.at("chains")[0].at("age").at("at_most_ns"), nullptr);
+  EXPECT_EQ(told.at("chains")[0].at("why"), "robot.control.follow does not say what it takes");
+  const Reply guessed = post(
+      "/api/timing", {{"text", text}, {"what_if", {{{"path", "robot.control"}, {"longest_ns", 9'000'000}}}}});
+  EXPECT_EQ(guessed.status, 422);
+}
+
+TEST_F(Timing, WhatIsNotUnderstoodIsRefused) {
+  serve();
+  const auto status = [&](const json& body) { return post("/api/timing", body).status; };
+  EXPECT_EQ(status({{"text", "agents: ["}}), 422);
+  EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"path", "robot.arm"}, {"period_ns", 1}}}}}), 422);
+  EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"path", "robot.control"}, {"shortest_ns", 9e6}}}}}),
+            422);
+  EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"path", "robot.control"}, {"period_ns", -1}}}}}), 400);
+  EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"path", "robot.control"}, {"period", 1}}}}}), 400);
+  EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"period_ns", 1}}}}}), 400);
+  EXPECT_EQ(status({{"text", single_}, {"what_if", 3}}), 400);
+}
+
+}  // namespace tessera::server_test

@@ -107,7 +107,7 @@ export class Timing {
     this.store.set({ busy: false });
   }
 
-  /** A text with errors keeps the bounds of the one before. What is tried may be gone with its subsystem. */
+  /** A text with errors keeps the bounds of the one before. A rate that is tried may be gone with its subsystem. */
   private refused(error: unknown): void {
     const gone = error instanceof ApiError && error.status === 422 && this.store.get().text === this.draft.text;
     this.store.set({ problem: message(error), ...(gone ? { tried: new Map(), other: null } : {}) });

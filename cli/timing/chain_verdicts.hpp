@@ -19,7 +19,7 @@ struct ChainVerdicts {
   /// [{chain, leads, age_ns, reaction_ns, start_ns, exact, age, reaction} or {chain, leads, why}], all chains
   nlohmann::json json;
   nlohmann::json conduct;  ///< {rates, waits, stale}
-  /// Of what the specification asks of chains. holds: all of it, or it asks nothing.
+  /// The worst verdict on what the specification asks of chains. holds: on all of it, or it asks nothing.
   verify::Verdict overall = verify::Verdict::holds;
 };
 

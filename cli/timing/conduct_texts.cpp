@@ -53,8 +53,8 @@ class ConductWords {
   [[nodiscard]] ConductLine line(const timing::WaitVerdict& wait) const {
     const timing::Channel& ends = declared_.system.channels[wait.channel];
     const std::string other = path(wait.receives ? ends.from : ends.to);
-    std::string text =
-        fmt::format("waits {} for {} ({})", at_most_text(wait.longest), other, channel(wait.channel));
+    std::string text = fmt::format("its {} waits {} for {} ({})", wait.receives ? "receive" : "send",
+                                   at_most_text(wait.longest), other, channel(wait.channel));
     if (wait.timeout > 0)
       text += fmt::format(": its timeout of {} {}", time_text(wait.timeout),
                           wait.fires == timing::Fires::never ? "never fires" : "may fire");
@@ -94,6 +94,12 @@ json conduct_json(const timing::Conduct& conduct, const timing::Declared& declar
   const ConductWords words(declared, model);
   json rates = json::array(), waits = json::array(), stale = json::array();
   for (const timing::RateVerdict& rate : conduct.rates) {
+    if (!words.is_known(rate.subsystem)) {
+      rates.push_back({{"subsystem", words.path(rate.subsystem)},
+                       {"period_ns", rate.period},
+                       {"why", declared.missing[rate.subsystem]}});
+      continue;
+    }
     json one{{"subsystem", words.path(rate.subsystem)},
              {"period_ns", rate.period},
              {"keeps", rate.keeps},

@@ -117,7 +117,7 @@ void note_missing(const spec::Model& model, diagnostics::Diagnostics& out) {
     if (missing.size() > most_told) more += " and " + std::to_string(missing.size() - most_told) + " more";
     out.note("N341", asked.span,
              "nothing bounds the times of chain '" + asked.name + "' yet: " + missing.front(),
-             more.empty() ? "without it, `tessera verify` cannot prove what is asked" : more);
+             more.empty() ? "as long as it is so, `tessera verify` cannot prove what is asked" : more);
   }
 }
 

@@ -2,7 +2,7 @@ import { useReactFlow } from "@xyflow/react";
 import { useEffect, type RefObject } from "react";
 import { elementAt } from "./structure/structure_keys";
 
-/** Where the keys go in a drawing: to an element that was searched for, and never to one that is out of sight. */
+/** The keys go to the element of a drawing that was searched for, and never to one that is out of sight. */
 
 /** Milliseconds after which a drawing that has not arrived does not get the focus any more. */
 const patience = 3000;
@@ -10,8 +10,8 @@ const patience = 3000;
 const goesNowhere = (at: Element | null) => at === null || at === document.body || at.closest("dialog.search") !== null;
 
 /**
- * Focuses an element as soon as it is drawn; in the net, the drawing itself, which has the keys there. Who has gone elsewhere
- * meanwhile stays there.
+ * Focuses an element as soon as it is drawn; in the net, the drawing itself, which has the keys there. A user who has gone
+ * elsewhere meanwhile stays there.
  */
 export function focusDrawn(view: "structure" | "net", selection: string): void {
   const until = performance.now() + patience;

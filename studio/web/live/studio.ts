@@ -96,6 +96,7 @@ export class Studio {
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
+    map: null,
     ...keptView(),
     selected: null,
     ...linkedView(),
@@ -127,8 +128,8 @@ export class Studio {
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
-      const { view, panel, text, theme } = this.view.get();
-      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      const { view, panel, text, theme, map } = this.view.get();
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme, map }));
       this.link();
     });
     let followed: Replay | undefined;

@@ -16,7 +16,7 @@ export function TakesFields({ structure, subsystem }: { structure: Structure; su
         {missing > 0 ? `${missing} of ${own.length} behaviours do not say what they take` : "What its behaviours take"}
       </summary>
       {own.map(({ path, name, yaml }) =>
-        // A distribution has its form at the element.
+        // The element has the whole form of a distribution.
         structure.yaml.keys([...yaml, "takes"]).length > 0 ? (
           <p key={path}>
             <button className="link" onClick={() => studio.choose(path, structure)}>

@@ -173,7 +173,7 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model, const std
   for (const timing::DeclaredChain& chain : declared.chains) {
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
     if (chain.name == explained && verdict.why.empty()) steps = steps_of(chain, bounds, model);
-    std::string name = without_member(chain.name) + ":";
+    std::string name = chain.is_named ? without_member(chain.name) + ":" : "";
     json path = json::array();
     for (const InstanceId instance : chain.path) {
       path.push_back(model.instance_path(instance));

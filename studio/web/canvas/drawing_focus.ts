@@ -10,8 +10,8 @@ const patience = 3000;
 const goesNowhere = (at: Element | null) => at === null || at === document.body || at.closest("dialog.search") !== null;
 
 /**
- * Focuses an element as soon as it is drawn; in the net, the drawing itself, which has the keys there. A user who has gone elsewhere
- * meanwhile stays there.
+ * Focuses an element as soon as it is drawn; in the net, the drawing itself, which has the keys there. A user who has gone
+ * elsewhere meanwhile stays there.
  */
 export function focusDrawn(view: "structure" | "net", selection: string): void {
   const until = performance.now() + patience;

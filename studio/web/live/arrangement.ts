@@ -52,7 +52,7 @@ export class Arrangement {
     if (name !== undefined) this.storage?.setItem(unsent(key), "1");
   }
 
-  /** Of several texts under one key, the last one is sent. */
+  /** The last one of several texts under one key is sent. */
   private async send(): Promise<void> {
     if (this.sending) return;
     this.sending = true;

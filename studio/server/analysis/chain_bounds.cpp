@@ -70,6 +70,12 @@ bool says_times(const spec::Model& model) {
 
 json time_of(Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
 
+json bound_of(const timing::ChainVerdict& verdict, Time time) {
+  return {{"at_most_ns", verdict.why.empty() ? time_of(time) : json(nullptr)},
+          {"asked_ns", nullptr},
+          {"answer", "not_asked"}};
+}
+
 }  // namespace
 
 std::variant<json, std::string> chain_bounds(const spec::Model& model,
@@ -80,6 +86,9 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
   const timing::Bounds bounds(declared.system);
   json chains = json::array(), subsystems = json::array();
   std::set<std::uint32_t> told;
+  const auto receive_blocks = [&](std::uint32_t channel) {
+    return declared.system.channels[channel].receive_blocks;
+  };
   // Members of a fleet whose chains have equal verdicts are one entry.
   std::map<std::tuple<std::string, Time, Time, bool, std::string>, std::size_t> entries;
   for (const timing::DeclaredChain& chain : declared.chains) {
@@ -107,8 +116,8 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
                       {"path", std::move(path)},
                       {"channels", std::move(ends)},
                       {"agents", 1},
-                      {"age_ns", verdict.why.empty() ? time_of(verdict.bound.age) : json(nullptr)},
-                      {"reaction_ns", verdict.why.empty() ? time_of(verdict.bound.reaction) : json(nullptr)},
+                      {"age", bound_of(verdict, verdict.bound.age)},
+                      {"reaction", bound_of(verdict, verdict.bound.reaction)},
                       {"exact", verdict.exact},
                       {"why", verdict.why}});
     for (const InstanceId instance : chain.path) {
@@ -118,6 +127,7 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
                             {"period_ns", mine.period},
                             {"shortest_ns", time_of(mine.shortest)},
                             {"longest_ns", time_of(mine.longest)},
+                            {"waits", std::ranges::any_of(mine.receives, receive_blocks)},
                             {"missing", declared.missing[instance.value]}});
     }
   }

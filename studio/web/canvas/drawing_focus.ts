@@ -2,7 +2,7 @@ import { useReactFlow } from "@xyflow/react";
 import { useEffect, type RefObject } from "react";
 import { elementAt } from "./structure/structure_keys";
 
-/** Where the keys go in a drawing: to an element that was searched for, and never to one that is out of sight. */
+/** The keys go to the element of a drawing that was searched for, and never to one that is out of sight. */
 
 /** Milliseconds after which a drawing that has not arrived does not get the focus any more. */
 const patience = 3000;

@@ -33,6 +33,7 @@ import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Sweeps } from "./plots/sweeps";
+import { Timing } from "./timing";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
 
@@ -68,6 +69,7 @@ export class Studio {
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
+  readonly timing = new Timing(this.api, this.draft);
   readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
@@ -96,6 +98,7 @@ export class Studio {
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
+    map: null,
     ...keptView(),
     selected: null,
     ...linkedView(),
@@ -127,8 +130,8 @@ export class Studio {
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
-      const { view, panel, text, theme } = this.view.get();
-      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      const { view, panel, text, theme, map } = this.view.get();
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme, map }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -269,6 +272,7 @@ export class Studio {
 
   /** Shows the stuck subsystems if a violation names them. */
   private verified(verdicts: readonly Verdict[]): void {
+    void this.timing.verify(this.verifier.store.get().text);
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();

@@ -7,6 +7,7 @@ import { readStructure } from "../model/structure/structure";
 import { CauseCard } from "./cause_card";
 import { Term } from "../canvas/term";
 import { Icon } from "./icons";
+import { TimingVerdicts } from "./timing/timing_verdicts";
 
 /** The question of each property in words. */
 const asks: Record<string, string> = {
@@ -72,6 +73,7 @@ export function VerifyPanel() {
           <VerdictRow key={verdict.name} verdict={verdict} />
         ))}
       </div>
+      {verifier.verdicts.length > 0 && <TimingVerdicts />}
     </div>
   );
 }

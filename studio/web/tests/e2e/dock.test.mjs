@@ -126,6 +126,9 @@ test("a run opens its panels in three layouts at three widths: none covers anoth
         for (const name of ["Timeline", "Values", "World", "Run"]) {
           await tab(page, name).click();
           await panel(page, name).waitFor();
+          if (name !== "Timeline") continue;
+          const high = async () => (await panel(page, name).locator("canvas").boundingBox()).height;
+          await until(page, async () => (await high()) > 50, `the lanes have room: ${layout} at ${width}`);
         }
         if (layout === "Debug" && width !== 1024) await judge(`${layout} at ${width}`);
       }

@@ -1,4 +1,4 @@
-// What a user has arranged is there on another port, and a change that the server has not heard of is not lost.
+// The arrangement of a user is there on another port, and a change that the server has not heard of is not lost.
 import { expect, test } from "vitest";
 import { Arrangement } from "../../live/arrangement";
 

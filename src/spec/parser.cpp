@@ -44,10 +44,11 @@ std::string read_system(const Section& file, Diagnostics& out) {
 }
 
 Model read_model(const Node& root, Diagnostics& out) {
-  const Section file(root, root.span, "a specification",
-                     {"tessera", "system", "include", "types", "parameters", "templates", "agents",
-                      "channels", "drivers", "properties", "timing", "simulation", "models", "deploy", "on_error"},
-                     out);
+  const Section file(
+      root, root.span, "a specification",
+      {"tessera", "system", "include", "types", "parameters", "templates", "agents", "channels", "drivers",
+       "properties", "timing", "simulation", "models", "deploy", "on_error"},
+      out);
   Model model;
   if (!file.readable()) return model;
   if (const Entry* version = file.require("tessera", "begin the file with 'tessera: 1'"))

@@ -112,13 +112,13 @@ void Completer::whole_paths(PathEnd end, const std::string& fleet) {
       for (const UnitNames& unit : definition->units) add_path(name + "." + unit.name, "subsystem");
     else
       for (const UnitNames& unit : definition->units)
-      for (const auto& [part, symbol] : ends(unit, end)) {
-        if (proposals_.size() >= most_proposals) return;
-        const std::string index = index_[symbol].fleet.empty() ? "" : fleet;
-        add_path(name + "." + unit.name + "." + part + index, index_[symbol].type);
-        if (end == PathEnd::behaviour && index_[symbol].is_group)
-          paths_in_group(unit, symbol, name + "." + unit.name + "." + part, 0);
-      }
+        for (const auto& [part, symbol] : ends(unit, end)) {
+          if (proposals_.size() >= most_proposals) return;
+          const std::string index = index_[symbol].fleet.empty() ? "" : fleet;
+          add_path(name + "." + unit.name + "." + part + index, index_[symbol].type);
+          if (end == PathEnd::behaviour && index_[symbol].is_group)
+            paths_in_group(unit, symbol, name + "." + unit.name + "." + part, 0);
+        }
   }
 }
 

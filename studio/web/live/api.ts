@@ -145,6 +145,9 @@ export class Api {
   worldTargets = (text: string) => this.ask("POST /api/world", { body: { text } });
   source = (file: string) => this.ask("GET /api/sources", { query: { file } });
   layout = () => this.ask("GET /api/layout");
+  arrangement = () => this.ask("GET /api/arrangement");
+  /** It arrives also if the page is closed at once. */
+  arrange = (name: string, text: string) => this.ask("PUT /api/arrangement", { body: { name, text }, keepalive: true });
   saveLayout = (boxes: Positions, revision: string) =>
     this.ask("PUT /api/layout", { body: { boxes: boxes as unknown as BoxPositions, revision } });
   saveSource = (file: string, text: string, revision: string) => this.ask("PUT /api/sources", { body: { file, text, revision } });

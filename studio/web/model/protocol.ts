@@ -172,6 +172,21 @@ export interface Requests {
     status: 200;
     answer: { revision: string };
   };
+  "GET /api/arrangement": {
+    status: 200;
+    answer: {
+      /** Texts that the page has kept for the user, by name. */
+      entries: { [k: string]: string };
+    };
+  };
+  "PUT /api/arrangement": {
+    body: { name: string; text: string };
+    status: 200;
+    answer: {
+      /** False: there is no folder for it, or no room. */
+      kept: boolean;
+    };
+  };
   "GET /api/examples": { status: 200; answer: { name: string; title: string }[] };
   /** Copies an example into a project that has no specification yet. */
   "POST /api/begin": {

@@ -48,7 +48,13 @@ function Bar({ title, steps, other }: { title: string; steps: readonly TimedStep
 }
 
 const shadeOf = ({ kind }: TimedStep) =>
-  kind === "takes" ? "works" : kind === "until_read" ? "stands" : kind === "processor" || kind === "latency" ? "late" : "waits";
+  kind === "takes"
+    ? "part-works"
+    : kind === "until_read"
+      ? "part-stands"
+      : kind === "processor" || kind === "latency"
+        ? "part-late"
+        : "part-waits";
 
 /** One bar: each subsystem has its share, and within it the parts. */
 function Parts({ steps, most, label }: { steps: readonly TimedStep[]; most: number; label: string }) {

@@ -42,8 +42,8 @@ test("a reaction that is too slow is found by Verify, explained by its parts, an
     // Another rate is tried by the keys alone; nothing is written.
     const slider = page.getByRole("slider", { name: "arm.control" });
     await slider.focus();
-    for (let step = 0; step < 3; step += 1) await page.keyboard.press("ArrowRight");
-    assert.equal(await slider.getAttribute("aria-valuetext"), "25 Hz");
+    for (let step = 0; step < 4; step += 1) await page.keyboard.press("ArrowRight");
+    assert.equal(await slider.getAttribute("aria-valuetext"), "40 Hz");
     const faster = await until(
       page,
       async () => {
@@ -63,7 +63,7 @@ test("a reaction that is too slow is found by Verify, explained by its parts, an
     await button(page, "Write the new rate").click();
     await row.getByRole("img", { name: "holds" }).waitFor();
     assert.equal(await row.getByRole("cell").nth(1).locator("span").first().innerText(), faster);
-    assert.deepEqual(changes(before, await draftText(page)), ["-      rate: 10 Hz", "+      rate: 25 Hz"]);
+    assert.deepEqual(changes(before, await draftText(page)), ["-      rate: 10 Hz", "+      rate: 40 Hz"]);
     await button(page, "Verify the system").click();
     await page
       .getByRole("region", { name: "Times" })

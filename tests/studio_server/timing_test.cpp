@@ -173,4 +173,19 @@ TEST_F(Timing, WhatIsNotUnderstoodIsRefused) {
   EXPECT_EQ(status({{"text", single_}, {"what_if", 3}}), 400);
 }
 
+TEST_F(Timing, TheAnswersToWhatTheSpecificationAsksAreTold) {
+  serve();
+  const json told =
+      bounds(single_ +
+             "timing:\n  chains:\n    - { name: line to wheels, path: [robot.sensor, robot.control, "
+             "robot.motor], age: 100 ms, reaction: 120 ms }\n");
+  ASSERT_EQ(told.at("chains").size(), 1U) << told;
+  const json& chain = told.at("chains")[0];
+  EXPECT_EQ(chain.at("name"), "line to wheels");
+  EXPECT_EQ(chain.at("age"),
+            json({{"at_most_ns", 82'000'000}, {"asked_ns", 100'000'000}, {"answer", "holds"}}));
+  EXPECT_EQ(chain.at("reaction"),
+            json({{"at_most_ns", 142'000'000}, {"asked_ns", 120'000'000}, {"answer", "unknown"}}));
+}
+
 }  // namespace tessera::server_test

@@ -57,6 +57,14 @@ export function verdictOf({ age, reaction, why }: TimedChain): Verdict {
   return answers.includes("holds") ? "holds" : "none";
 }
 
+/** How many chains take longer than was asked, and of how many that is not known. */
+export function timesOf(timing: Timing | null): { late: number; unproved: number } {
+  const asked = (timing?.chains ?? []).filter(({ age, reaction }) => age.asked_ns !== null || reaction.asked_ns !== null);
+  const count = (verdict: Verdict) =>
+    asked.filter((one) => verdictOf(one) === verdict).reduce((sum, { agents }) => sum + agents, 0);
+  return { late: count("violated"), unproved: count("unknown") };
+}
+
 /** "at most 142 ms", "142 ms" if some run takes so long, "no bound". */
 export const saidBound = ({ at_most_ns }: TimedBound, exact: boolean): string =>
   at_most_ns === null ? "no bound" : `${exact ? "" : "at most "}${shownTime(at_most_ns)}`;

@@ -19,7 +19,7 @@ struct Act {
   std::string included{};  ///< "parts/docking.yaml:3": it is a line of an included file, and `line` is 0
 };
 
-/// Whom the words are for: those who follow the drawn net, or those who know the specification only.
+/// The words are for people who follow the drawn net, or for those who know the specification only.
 enum class Wording : std::uint8_t {
   with_transitions,  ///< "receives grant (t1, t2), goes on to enter"
   plain              ///< "receives grant, goes on to enter because in.grant.fresh"

@@ -438,7 +438,7 @@ export interface SubsystemAtEnd {
 }
 /** A stretch of a run in which one subsystem acts on its own. */
 export interface Act {
-  /** Of the firings, counted from 1. */
+  /** The number of a firing of the run, counted from 1. */
   first: number;
   last: number;
   /** The path of the subsystem; empty: the system and its agents. */

@@ -45,7 +45,7 @@ int rename_command(const RenameOptions& options) {
   const language::Named named = language::find_name(document, options.name);
   if (!named.position) return complain(named.problem);
   std::vector<language::Source> sources;
-  for (const std::filesystem::path& source : user_sources(std::filesystem::absolute(file).parent_path()))
+  for (const std::filesystem::path& source : files_with_names(std::filesystem::absolute(file).parent_path()))
     sources.push_back({source.string(), content_of(source)});
   const language::Renaming renaming =
       language::rename(document, nullptr, *named.position, sources, options.to);

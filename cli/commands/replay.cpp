@@ -18,6 +18,7 @@
 #include "cli/recordings/legality_check.hpp"
 #include "cli/recordings/legality_text.hpp"
 #include "cli/recordings/recording_summary.hpp"
+#include "cli/recordings/times_commands.hpp"
 #include "cli/terminal.hpp"
 #include "project/files/file_names.hpp"
 #include "project/files/state_folder.hpp"
@@ -48,7 +49,7 @@ struct ReplayOptions {
   std::string recording = usual_recording, spec, subsystem, transition, csv, perfetto, json, mcap, coverage;
   double from_s = 0, to_s = HUGE_VAL;
   std::size_t last = 0;
-  bool check = false, print = false;
+  bool check = false, print = false, ages = false;
   FilmOptions film;
   std::string values;  ///< buffers whose path contains this; all_values; empty: none
 };
@@ -205,10 +206,12 @@ int replay_command(ReplayOptions options) {
     return complain("there is no recording in this folder"), options.check ? usage : failed;
   options.recording = options.recordings.front();
   if (!options.coverage.empty()) return coverage_command(options);
+  if (options.ages) return ages_command({options.recordings, specification_of(options), options.json});
   if (options.recordings.size() > 1 && options.film.file.empty() && only_checks(options))
     return check_command(options);
   if (options.recordings.size() > 1)
-    return complain("several recordings are read together with --check alone, or with --coverage"), usage;
+    return complain("several recordings are read together with --check alone, or with --coverage or --ages"),
+           usage;
   if (!options.film.file.empty()) return film_command(options);
   if (only_writes_bag(options) && !bag::is_bag(options.recording) &&
       write_bag_of_file(options.recording, specification_if_any(options), options.mcap))
@@ -262,13 +265,15 @@ void add_replay(CommandLine& app) {
   ReplayOptions& options = command.runs(replay_command);
   command.option("recording", options.recordings,
                  std::string("Recording of a run, or a project: its last one (default: ") + usual_recording +
-                     "); several with --coverage, or with --check those of a deployed system");
+                     "); several with --coverage and --ages, or with --check those of a deployed system");
   command.flag("--check", options.check,
                "Play it on the net of its specification: is it a legal firing sequence?");
   command.option("--spec", options.spec, "That specification (default: beside the recording or above)");
   command.flag("--coverage", options.coverage, shown_only,
                "Show the parts of the net that no recording, or result of schedules, has reached; "
                "--coverage=FILE writes JSON, too");
+  Option ages = command.flag("--ages", options.ages,
+                             "How old the readings were that commands acted on, beside the proved bounds");
   command.flag("--print", options.print, "Print the events");
   command.flag("--values", options.values, all_values,
                "Print the values of buffers, or of those whose path contains TEXT (--values=TEXT); with "
@@ -294,16 +299,21 @@ void add_replay(CommandLine& app) {
   for (const char* other : {"--check", "--print", "--values", "--csv", "--to-perfetto", "--mcap", "--json",
                             "--coverage", "--last", "--subsystem", "--containing"})
     film.excludes(command.declared(other));
+  for (const char* other :
+       {"--check", "--print", "--values", "--csv", "--to-perfetto", "--mcap", "--coverage", "--film",
+        "--last", "--subsystem", "--containing", "--from", "--to"})
+    ages.excludes(command.declared(other));
   command.footer(
       "Without other options: a summary. --check ends with 0 if the run is legal, 1 if it is not, 2 if no\n"
-      "recording can be read, 3 if events are missing.\n"
+      "recording can be read, 3 if events are missing. --ages ends with 1 if a time exceeds its bound.\n"
       "Example: tessera replay --check\n"
       "         tessera replay flight.tsr --print --subsystem robot.control --from 12.5 --to 13\n"
       "         tessera replay --values=control.motion --csv motion.csv\n"
       "         tessera replay --to-perfetto run.json\n"
       "         tessera replay --mcap run.mcap && tessera replay --check run.mcap\n"
       "         tessera replay --film run.mp4 --speed 2\n"
-      "         tessera replay --coverage monday.tsr tuesday.tsr all.json");
+      "         tessera replay --coverage monday.tsr tuesday.tsr all.json\n"
+      "         tessera replay --ages monday.tsr tuesday.tsr");
 }
 
 }  // namespace tessera::cli

@@ -19,7 +19,7 @@
 /// The parser of the specification (spec/parser.hpp) judges a text. This module only finds names and places.
 namespace tessera::language {
 
-/// A file of the project beside the specification: C++, or params.yaml.
+/// A file of the project beside the specification: C++, params.yaml, or the layout of the drawing (a file in JSON).
 struct Source {
   std::string path;
   std::string text;

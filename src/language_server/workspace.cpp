@@ -128,7 +128,7 @@ std::optional<Workspace::Specification> Workspace::specification_of(const std::s
 
 std::vector<language::Source> Workspace::sources_of(const fs::path& folder) const {
   std::vector<language::Source> sources;
-  for (const fs::path& file : project::user_sources(folder)) {
+  for (const fs::path& file : project::files_with_names(folder)) {
     std::string uri = uri_of(file);
     for (const auto& [open, document] : open_)
       if (path_of(open) == file) uri = open;

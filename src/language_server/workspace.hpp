@@ -53,7 +53,7 @@ class Workspace {
   /// The specification that `uri` is, or that its project has: the next spec.yaml in a folder above it.
   [[nodiscard]] std::optional<Specification> specification_of(const std::string& uri);
 
-  /// The files of a project with names of its specification (project::user_sources); their paths are URIs.
+  /// The files of a project with names of its specification (project::files_with_names); their paths are URIs.
   [[nodiscard]] std::vector<language::Source> sources_of(const std::filesystem::path& folder) const;
 
  private:

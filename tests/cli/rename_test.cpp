@@ -42,6 +42,26 @@ TEST_F(Rename, ChangesEveryFileAndLeadsBackToTheSameBytes) {
   }
 }
 
+TEST_F(Rename, KeepsTheBoxesThatWereMovedInTheDrawing) {
+  const fs::path example = fs::path(TESSERA_SOURCE_DIR) / "examples/01_line_follower";
+  fs::copy(example, folder_, fs::copy_options::recursive | fs::copy_options::overwrite_existing);
+  const fs::path layout = folder_ / ".tessera-layout.json";
+  const std::string before =
+      "{\n  \"gone\": [4, 4],\n  \"robot\": [1, 2],\n  \"robot.sensor\": [-3, 40]\n}\n";
+  write(layout, before);
+  const project::Exit shown = tessera("rename robot.sensor eyes --dry-run");
+  EXPECT_NE(shown.text.find(".tessera-layout.json: line 4"), std::string::npos) << shown.text;
+  EXPECT_EQ(content_of(layout), before);
+  EXPECT_EQ(tessera("rename robot.sensor eyes").code, 0);
+  EXPECT_EQ(tessera("rename robot rover").code, 0);
+  EXPECT_EQ(content_of(layout),
+            "{\n  \"gone\": [4, 4],\n  \"rover\": [1, 2],\n  \"rover.eyes\": [-3, 40]\n}\n");
+  EXPECT_EQ(tessera("rename rover.control.follow robot").code, 0) << "this names no box";
+  EXPECT_EQ(tessera("rename rover robot").code, 0);
+  EXPECT_EQ(tessera("rename robot.eyes sensor").code, 0);
+  EXPECT_EQ(content_of(layout), before);
+}
+
 TEST_F(Rename, OfTwoAtOnceOneWinsWholeAndTheOtherIsRefused) {
   const std::string head = "tessera: 1\nsystem: s\nagents:\n  a: { control: { rate: 1 Hz, behaviours: { ";
   for (int round = 0; round < 12; ++round) {

@@ -40,5 +40,6 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   (void)headings(document);
   (void)uses_in_code(document.index(), text);
   (void)uses_in_parameter_file(document.index(), text);
+  (void)uses_in_layout_file(document.index(), text);
   return 0;
 }

@@ -60,14 +60,16 @@ TEST_F(Timing, TheChainOfTheLineFollowerHasItsBounds) {
   EXPECT_EQ(chain.at("path"), json({"robot.sensor", "robot.control", "robot.motor"}));
   EXPECT_EQ(chain.at("channels"),
             json({"robot.sensor.line->robot.control.line", "robot.control.motion->robot.motor.velocity"}));
-  EXPECT_EQ(chain.at("age_ns"), 82'000'000);
-  EXPECT_EQ(chain.at("reaction_ns"), 142'000'000);
+  EXPECT_EQ(chain.at("age").at("at_most_ns"), 82'000'000);
+  EXPECT_EQ(chain.at("reaction").at("at_most_ns"), 142'000'000);
   EXPECT_EQ(chain.at("why"), "");
   EXPECT_EQ(told.at("subsystems")[1], json({{"path", "robot.control"},
                                             {"period_ns", 50'000'000},
                                             {"shortest_ns", 2'000'000},
                                             {"longest_ns", 8'000'000},
+                                            {"waits", false},
                                             {"missing", ""}}));
+  EXPECT_EQ(told.at("subsystems")[2].at("waits"), true);
 }
 
 TEST_F(Timing, OtherTimesAreThoseOfATextThatSaysThem) {
@@ -82,7 +84,7 @@ TEST_F(Timing, OtherTimesAreThoseOfATextThatSaysThem) {
   driven.replace(driven.rfind("        rate: 50 Hz\n"), 20, "");
   const json without = bounds(single_, {{{"path", "robot.motor"}, {"period_ns", 0}}});
   EXPECT_EQ(without, bounds(driven));
-  EXPECT_EQ(without.at("chains")[0].at("reaction_ns"), 130'000'000);
+  EXPECT_EQ(without.at("chains")[0].at("reaction").at("at_most_ns"), 130'000'000);
 }
 
 TEST_F(Timing, AFleetIsOneEntryAndItsMembersChangeTogether) {
@@ -100,7 +102,7 @@ TEST_F(Timing, AChainWithoutABoundSaysWhy) {
   std::string text = single_;
   text.replace(text.find("{ takes: 2..8 ms }"), 18, "{}");
   const json told = bounds(text);
-  EXPECT_EQ(told.at("chains")[0].at("age_ns"), nullptr);
+  EXPECT_EQ(told.at("chains")[0].at("age").at("at_most_ns"), nullptr);
   EXPECT_EQ(told.at("chains")[0].at("why"), "robot.control.follow does not say what it takes");
   const Reply guessed = post(
       "/api/timing", {{"text", text}, {"what_if", {{{"path", "robot.control"}, {"longest_ns", 9'000'000}}}}});
@@ -118,6 +120,21 @@ TEST_F(Timing, WhatIsNotUnderstoodIsRefused) {
   EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"path", "robot.control"}, {"period", 1}}}}}), 400);
   EXPECT_EQ(status({{"text", single_}, {"what_if", {{{"period_ns", 1}}}}}), 400);
   EXPECT_EQ(status({{"text", single_}, {"what_if", 3}}), 400);
+}
+
+TEST_F(Timing, TheAnswersToWhatTheSpecificationAsksAreTold) {
+  serve();
+  const json told =
+      bounds(single_ +
+             "timing:\n  chains:\n    - { name: line to wheels, path: [robot.sensor, robot.control, "
+             "robot.motor], age: 100 ms, reaction: 120 ms }\n");
+  ASSERT_EQ(told.at("chains").size(), 1U) << told;
+  const json& chain = told.at("chains")[0];
+  EXPECT_EQ(chain.at("name"), "line to wheels");
+  EXPECT_EQ(chain.at("age"),
+            json({{"at_most_ns", 82'000'000}, {"asked_ns", 100'000'000}, {"answer", "holds"}}));
+  EXPECT_EQ(chain.at("reaction"),
+            json({{"at_most_ns", 142'000'000}, {"asked_ns", 120'000'000}, {"answer", "unknown"}}));
 }
 
 }  // namespace tessera::server_test

@@ -260,7 +260,11 @@ std::vector<CodeUse> uses_in_code(const Index& index, std::string_view source) {
   return CodeReader(index, source).read();
 }
 
-std::vector<CodeUse> uses_in_parameter_file(const Index& index, std::string_view text) {
+namespace {
+
+/// The uses in the keys of the map that a text is. `read` looks at the words of a key, and adds what they name.
+template <class Read>
+std::vector<CodeUse> uses_in_keys(std::string_view text, const Read& read) {
   std::vector<CodeUse> found;
   const Outline outline(text);
   for (const Entry& entry : outline.root().entries) {
@@ -271,24 +275,45 @@ std::vector<CodeUse> uses_in_parameter_file(const Index& index, std::string_view
                        false,
                        true});
     };
-    for (const DottedPath& path : paths_in(entry.key)) {
-      const auto& words = path.words;
-      const auto system = index.parameters().find(words.back().name);
-      if (words.size() == 1 && system != index.parameters().end()) add(words[0], system->second);
-      const auto agent = index.agents().find(words[0].name);
-      if (words.size() < 3 || agent == index.agents().end()) continue;
-      add(words[0], agent->second);
-      const DefinitionNames* definition = index.definition_of(words[0].name);
-      if (definition == nullptr) continue;
-      for (const UnitNames& unit : definition->units) {
-        if (unit.name != words[1].name) continue;
-        add(words[1], unit.symbol);
-        if (const auto own = unit.parameters.find(words[2].name); own != unit.parameters.end())
-          add(words[2], own->second);
-      }
-    }
+    for (const DottedPath& path : paths_in(entry.key)) read(path.words, add);
   }
   return found;
+}
+
+/// The words "robot.motor" at the beginning of a path. nullptr: the second names no subsystem, or is missing.
+template <class Add>
+const UnitNames* subsystem_at(const Index& index, const std::vector<PathWord>& words, const Add& add) {
+  const auto agent = index.agents().find(words[0].name);
+  if (agent == index.agents().end()) return nullptr;
+  add(words[0], agent->second);
+  const DefinitionNames* definition = index.definition_of(words[0].name);
+  if (definition == nullptr || words.size() < 2) return nullptr;
+  for (const UnitNames& unit : definition->units) {
+    if (unit.name != words[1].name) continue;
+    add(words[1], unit.symbol);
+    return &unit;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<CodeUse> uses_in_parameter_file(const Index& index, std::string_view text) {
+  return uses_in_keys(text, [&](const std::vector<PathWord>& words, const auto& add) {
+    const auto system = index.parameters().find(words.back().name);
+    if (words.size() == 1 && system != index.parameters().end()) add(words[0], system->second);
+    if (words.size() < 3) return;
+    const UnitNames* unit = subsystem_at(index, words, add);
+    if (unit == nullptr) return;
+    if (const auto own = unit->parameters.find(words[2].name); own != unit->parameters.end())
+      add(words[2], own->second);
+  });
+}
+
+std::vector<CodeUse> uses_in_layout_file(const Index& index, std::string_view text) {
+  return uses_in_keys(text, [&](const std::vector<PathWord>& words, const auto& add) {
+    if (words.size() <= 2) (void)subsystem_at(index, words, add);
+  });
 }
 
 }  // namespace tessera::language

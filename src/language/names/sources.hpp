@@ -25,4 +25,7 @@ struct CodeUse {
 /// The same for a file of parameters: `v: 0.2`, `robot.motor.r: 3 cm`.
 [[nodiscard]] std::vector<CodeUse> uses_in_parameter_file(const Index& index, std::string_view text);
 
+/// The same for the places of boxes in the drawing: `"robot.sensor": [4, 7]`.
+[[nodiscard]] std::vector<CodeUse> uses_in_layout_file(const Index& index, std::string_view text);
+
 }  // namespace tessera::language

@@ -14,8 +14,9 @@ namespace tessera::language {
 namespace {
 
 std::vector<CodeUse> uses_in(const Index& index, const Source& source) {
-  return source.path.ends_with(".yaml") ? uses_in_parameter_file(index, source.text)
-                                        : uses_in_code(index, source.text);
+  if (source.path.ends_with(".yaml")) return uses_in_parameter_file(index, source.text);
+  if (source.path.ends_with(".json")) return uses_in_layout_file(index, source.text);
+  return uses_in_code(index, source.text);
 }
 
 /// The name under a cursor.

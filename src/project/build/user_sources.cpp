@@ -135,6 +135,13 @@ std::vector<fs::path> user_sources(const fs::path& project) {
   return files;
 }
 
+std::vector<fs::path> files_with_names(const fs::path& project) {
+  std::vector<fs::path> files = user_sources(project);
+  const fs::path layout = project / file_names::layout;
+  if (!project.empty() && is_plain_file(layout)) files.insert(files.begin(), layout);
+  return files;
+}
+
 std::optional<std::string> replace_together(const fs::path& project, const std::vector<Replacement>& all) {
   const ChangeLock lock(project);
   std::vector<Replacement> files;

@@ -15,6 +15,9 @@ namespace tessera::project {
 /// followed, and no folder whose name begins with a dot.
 [[nodiscard]] std::vector<std::filesystem::path> user_sources(const std::filesystem::path& project);
 
+/// The same, and the layout of the drawing. The page of the studio changes that file by itself (server/analysis/layout_file.hpp).
+[[nodiscard]] std::vector<std::filesystem::path> files_with_names(const std::filesystem::path& project);
+
 struct Replacement {
   std::filesystem::path file;
   std::string before;  ///< what the change was made of; empty also for a file that is not there

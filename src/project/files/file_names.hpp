@@ -7,7 +7,8 @@ namespace tessera::project::file_names {
 
 inline constexpr const char* specification = "spec.yaml";
 inline constexpr const char* parameters = "params.yaml";
-inline constexpr const char* state_folder = ".tessera";  ///< of the project
+inline constexpr const char* layout = ".tessera-layout.json";  ///< the boxes that were moved in the studio
+inline constexpr const char* state_folder = ".tessera";        ///< of the project
 
 // In the folder of a run.
 inline constexpr const char* recording = recording_file_name;

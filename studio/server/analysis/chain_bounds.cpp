@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <optional>
 #include <set>
@@ -58,17 +59,15 @@ std::string change(timing::Declared& declared, const spec::Model& model, const O
   return {};
 }
 
-bool says_times(const spec::Model& model) {
-  return std::ranges::any_of(model.definitions, [](const spec::Definition& definition) {
-    return std::ranges::any_of(definition.subsystems, [](const spec::Subsystem& subsystem) {
-      return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
-        return behaviour.takes.is_declared();
-      });
-    });
-  });
-}
-
 json time_of(Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
+
+json bound_of(const timing::ChainVerdict& verdict, Time time, const std::optional<Time>& asked,
+              timing::Answer answer) {
+  constexpr std::array words{"not_asked", "holds", "violated", "unknown", "none"};
+  return {{"at_most_ns", verdict.why.empty() ? time_of(time) : json(nullptr)},
+          {"asked_ns", asked ? json(*asked) : json(nullptr)},
+          {"answer", words.at(static_cast<std::size_t>(answer))}};
+}
 
 }  // namespace
 
@@ -80,11 +79,14 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
   const timing::Bounds bounds(declared.system);
   json chains = json::array(), subsystems = json::array();
   std::set<std::uint32_t> told;
+  const auto receive_blocks = [&](std::uint32_t channel) {
+    return declared.system.channels[channel].receive_blocks;
+  };
   // Members of a fleet whose chains have equal verdicts are one entry.
   std::map<std::tuple<std::string, Time, Time, bool, std::string>, std::size_t> entries;
   for (const timing::DeclaredChain& chain : declared.chains) {
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
-    std::string name;
+    std::string name = chain.is_named ? without_member(chain.name) + " " : "";
     json path = json::array();
     for (const InstanceId instance : chain.path) {
       path.push_back(model.instance_path(instance));
@@ -103,14 +105,15 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
     json ends = json::array();
     for (const std::uint32_t channel : channels)
       ends.push_back(model.channel_name(model.channels[spec::ChannelId{channel}]));
-    chains.push_back({{"name", chain.name},
-                      {"path", std::move(path)},
-                      {"channels", std::move(ends)},
-                      {"agents", 1},
-                      {"age_ns", verdict.why.empty() ? time_of(verdict.bound.age) : json(nullptr)},
-                      {"reaction_ns", verdict.why.empty() ? time_of(verdict.bound.reaction) : json(nullptr)},
-                      {"exact", verdict.exact},
-                      {"why", verdict.why}});
+    chains.push_back(
+        {{"name", chain.name},
+         {"path", std::move(path)},
+         {"channels", std::move(ends)},
+         {"agents", 1},
+         {"age", bound_of(verdict, verdict.bound.age, chain.age, verdict.age)},
+         {"reaction", bound_of(verdict, verdict.bound.reaction, chain.reaction, verdict.reaction)},
+         {"exact", verdict.exact},
+         {"why", verdict.why}});
     for (const InstanceId instance : chain.path) {
       if (!told.insert(instance.value).second) continue;
       const timing::Subsystem& mine = declared.system.subsystems[instance.value];
@@ -118,10 +121,11 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
                             {"period_ns", mine.period},
                             {"shortest_ns", time_of(mine.shortest)},
                             {"longest_ns", time_of(mine.longest)},
+                            {"waits", std::ranges::any_of(mine.receives, receive_blocks)},
                             {"missing", declared.missing[instance.value]}});
     }
   }
-  return json{{"says_times", says_times(model)},
+  return json{{"says_times", timing::says_times(model)},
               {"chains", std::move(chains)},
               {"subsystems", std::move(subsystems)}};
 }

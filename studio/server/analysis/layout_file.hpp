@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "project/files/file_names.hpp"
 #include "server/analysis/spec_file.hpp"
 #include "tessera/result.hpp"
 
@@ -32,7 +33,7 @@ using BoxPositions = std::map<std::string, BoxPosition>;
 /// Threads: any.
 class LayoutFile {
  public:
-  static constexpr const char* name = ".tessera-layout.json";
+  static constexpr const char* name = project::file_names::layout;
   static constexpr std::size_t largest = std::size_t{1} << 20U;
 
   explicit LayoutFile(const std::filesystem::path& folder) : file_(folder / name) {}

@@ -11,10 +11,21 @@ function panelsSeen(): HTMLElement[] {
   });
 }
 
-/** The name of the panel that holds an element. */
+/** The name of the panel that holds an element, or whose tab it is. */
 export function panelAround(element: Element | null): string | null {
-  const panel = element?.closest(".dock [role=tabpanel]");
+  const panel = element?.closest(".dock :is([role=tabpanel], [role=tab])");
   return panel?.id.match(/[a-z]+$/)?.[0] ?? null;
+}
+
+/** A panel that is drawn elsewhere keeps the keys; or its tab does, if they were there. */
+function keepFocus(panel: string, onTab: boolean): void {
+  requestAnimationFrame(() =>
+    requestAnimationFrame(() => {
+      if (document.activeElement !== null && document.activeElement !== document.body) return;
+      const drawn = (role: string) => document.querySelector<HTMLElement>(`.dock [role=${role}][id$="-${panel}"]`);
+      (onTab ? (drawn("tab") ?? drawn("tabpanel")) : drawn("tabpanel"))?.focus();
+    }),
+  );
 }
 
 /** F6 and Shift F6 go from panel to panel, Alt Enter gives the panel the whole page. */
@@ -33,7 +44,9 @@ export function useDockKeys(): void {
       } else if (pressed === "maximise") {
         const panel = panelAround(document.activeElement);
         if (!panel) return;
+        const onTab = document.activeElement?.getAttribute("role") === "tab";
         studio.dock.maximise(panel);
+        keepFocus(panel, onTab);
         event.preventDefault();
         event.stopPropagation();
       }

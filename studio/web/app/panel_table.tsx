@@ -15,6 +15,7 @@ import { Centre } from "./centre";
 
 const CodePanel = lazy(() => import("../panels/forms/code_panel"));
 const EventPanel = lazy(() => import("../panels/events/event_panel"));
+const TimingPanel = lazy(() => import("../panels/timing/timing_panel"));
 const TextPane = lazy(() => import("../panels/text/text_pane"));
 
 export interface Panel extends Places {
@@ -78,6 +79,15 @@ export const panelTable: readonly Panel[] = [
     closed: ["operate"],
   },
   { name: "verify", title: "Verify", component: Verify, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
+  {
+    name: "timing",
+    title: "Timing",
+    component: scrolled(TimingPanel),
+    edit: "right",
+    debug: "right",
+    operate: "right",
+    closed: ["edit", "debug", "operate"],
+  },
   { name: "play", title: "Play", component: Play, edit: "right", debug: "right", operate: "right", closed: ["operate"] },
   { name: "run", title: "Run", component: Run, edit: "right", debug: "right", operate: "right" },
   { name: "recordings", title: "Recordings", component: Recordings, edit: "right", debug: "right", operate: "right" },

@@ -68,6 +68,13 @@ export function LeadOnForm({ structure, of, onClose }: { structure: Structure; o
   const key = (event: KeyboardEvent) => {
     event.stopPropagation();
     if (event.key === "Escape") close();
+    if (event.key !== "Tab") return;
+    // Tab goes round in the form: behind it is the end of the page.
+    const all = [...form.current!.querySelectorAll<HTMLElement>("select, input, button")];
+    const [end, other] = event.shiftKey ? [all[0], all.at(-1)] : [all.at(-1), all[0]];
+    if (document.activeElement !== end) return;
+    event.preventDefault();
+    other!.focus();
   };
   const named = ["error", ...(behaviour?.isGroup ? ["until"] : [])];
   const condition = when.trim();

@@ -21,6 +21,9 @@ import { keysNow, named, type Wish } from "./editor";
 import { Store } from "./store";
 import type { Studio } from "./studio";
 
+/** The keys of the clipboard on this computer. */
+const keysFor = (letter: "C" | "V") => `${/Mac|iP(hone|ad)/.test(navigator.platform) ? "⌘" : "Ctrl"} ${letter}`;
+
 /** A removal that the user is asked about, since more than the element goes. */
 export interface Removal {
   what: string;
@@ -51,6 +54,11 @@ export class ElementEdits {
 
   private tell(notice: string): void {
     this.studio.draft.store.set({ notice });
+  }
+
+  private refuse(why: string): false {
+    this.tell(why);
+    return false;
   }
 
   private added(
@@ -138,28 +146,32 @@ export class ElementEdits {
     try {
       if (text !== undefined) await navigator.clipboard.writeText(text);
     } catch {
-      this.tell("Copied for this tab alone: the browser does not give the clipboard");
+      this.tell(`Copied for this tab alone: for other programs, press ${keysFor("C")}`);
     }
   }
 
   /** Pastes what is in the clipboard of the system, or else what was copied in this tab. */
   async pasteFromClipboard(): Promise<void> {
-    let text = "";
+    let text: string;
     try {
       text = await navigator.clipboard.readText();
     } catch {
-      // The browser or the user does not allow it.
+      // The browser or the user does not allow it. The keys work all the same: they give the text with the event.
+      if (this.copied === "") return this.tell(`This browser does not let a menu read the clipboard: press ${keysFor("V")}`);
+      if (await this.paste(""))
+        this.tell(`Pasted what this tab has copied. For the clipboard of the computer, press ${keysFor("V")}`);
+      return;
     }
     await this.paste(text);
   }
 
   /** Pastes an element beside or into what is selected, under a free name. text: of the clipboard; empty: it is not given. */
-  async paste(text: string): Promise<void> {
+  async paste(text: string): Promise<boolean> {
     const copied = readCopied(text || this.copied);
-    if (!copied) return this.tell("The clipboard has no element of a specification");
+    if (!copied) return this.refuse("The clipboard has no element of a specification");
     const place = placeFor(this.structure, this.selected, copied);
-    if (typeof place === "string") return this.tell(`Not pasted: ${place}`);
-    await this.added(
+    if (typeof place === "string") return this.refuse(`Not pasted: ${place}`);
+    return this.added(
       place.name ?? baseName(copied.name),
       place.taken,
       (name) => edits.paste(place.map, name, copied.text),

@@ -1,5 +1,5 @@
 import type { Positions } from "../model/structure/moved_boxes";
-import { joined, withChange, type BoxChange } from "../model/structure/box_changes";
+import { differing, joined, withChange, type BoxChange } from "../model/structure/box_changes";
 import { ApiError, message, type Api } from "./api";
 import type { Draft } from "./draft";
 import { Store } from "./store";
@@ -22,7 +22,10 @@ export class LayoutFile {
   /** The boxes on disk as far as known, and the revision of that file. */
   private onDisk: Positions = {};
   private revision = "";
-  private writing: Promise<void> = Promise.resolve();
+  /** Reads and writes of the file, one after the other: an answer that is late would undo a move. */
+  private queue: Promise<void> = Promise.resolve();
+  /** The boxes that this tab has moved, and nobody else since. */
+  private readonly mine = new Set<string>();
 
   constructor(
     private readonly api: Api,
@@ -32,23 +35,43 @@ export class LayoutFile {
   }
 
   /** Reads the file, and joins it with the moves of this tab that are not written yet. */
-  async load(): Promise<void> {
+  load(): Promise<void> {
+    return (this.queue = this.queue.then(() => this.read()));
+  }
+
+  private async read(): Promise<void> {
     try {
-      const { boxes, revision, error } = await this.api.layout();
-      const theirs = boxes as Positions;
+      const { boxes: read, revision, error } = await this.api.layout();
+      const theirs = read as Positions;
       const mine = this.store.get().boxes;
-      this.store.set({ boxes: joined(this.onDisk, mine, theirs), problem: error ?? "" });
+      const boxes = joined(this.onDisk, mine, theirs);
+      const both = differing(this.onDisk, theirs).filter((path) => this.mine.has(path));
+      this.store.set({ boxes, problem: error ?? "" });
       this.onDisk = theirs;
       this.revision = revision;
+      this.tell(both, mine, boxes);
     } catch (error) {
       this.store.set({ problem: message(error) });
     }
   }
 
+  /** Says that someone else has moved boxes, too, which this tab had moved. Undo leads to the places of this tab. */
+  private tell(both: readonly string[], mine: Positions, now: Positions): void {
+    if (both.length === 0) return;
+    const names = both.length > 3 ? `${both.length} boxes` : both.join(", ");
+    const left = differing(mine, now).filter((path) => both.includes(path));
+    const others = `Another tab or program has moved ${names}`;
+    if (left.length === 0) return this.draft.store.set({ notice: `${others} at the same time: this tab was later` });
+    for (const path of left) this.mine.delete(path);
+    const places = (boxes: Positions) => Object.fromEntries(left.map((path) => [path, boxes[path] ?? null]));
+    const undoes = !this.draft.store.get().canRedo;
+    if (undoes) this.draft.boxesMoved({ before: places(mine), after: places(now) }, "moved elsewhere");
+    this.draft.store.set({ notice: undoes ? `${others}. Undo puts back what this tab had` : others });
+  }
+
   /** The file changed on disk. */
-  async changedOnDisk(revision: string): Promise<void> {
-    await this.writing;
-    if (revision !== this.revision) await this.load();
+  changedOnDisk(revision: string): Promise<void> {
+    return (this.queue = this.queue.then(() => (revision !== this.revision ? this.read() : undefined)));
   }
 
   /** Moves boxes; undo takes it back. kind: moves of the same kind that follow each other quickly are one step. */
@@ -89,12 +112,13 @@ export class LayoutFile {
   }
 
   private take(change: BoxChange): void {
+    for (const path of Object.keys(change.after)) this.mine.add(path);
     this.store.set({ boxes: withChange(this.store.get().boxes, change) });
     this.write(false);
   }
 
   private write(anyway: boolean): void {
-    this.writing = this.writing.then(() => this.writeNow(anyway));
+    this.queue = this.queue.then(() => this.writeNow(anyway));
   }
 
   private async writeNow(anyway: boolean): Promise<void> {
@@ -112,7 +136,7 @@ export class LayoutFile {
           this.draft.store.set({ notice: `The moved boxes are not kept in ${file}: ${message(error)}` });
           return;
         }
-        await this.load();
+        await this.read();
       }
     }
   }

@@ -1,4 +1,5 @@
 import { Api, hasToken, message, shareToken, takeToken } from "./api";
+import { Arrangement } from "./arrangement";
 import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./run/coverage";
@@ -32,6 +33,7 @@ import { Sources } from "./sources";
 import { Stage } from "./stage";
 import { Store } from "./store";
 import { Sweeps } from "./plots/sweeps";
+import { Timing } from "./timing";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
 
@@ -67,6 +69,7 @@ export class Studio {
   readonly desk = new Stage();
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
+  readonly timing = new Timing(this.api, this.draft);
   readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
@@ -79,12 +82,13 @@ export class Studio {
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
   readonly sweeps = new Sweeps(this.api, this.connection);
-  readonly plots = new Plots();
+  readonly arrangement = new Arrangement(this.api);
+  readonly plots = new Plots(this.arrangement);
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
   readonly guide = new Guide(localStorage);
-  readonly dock = new Dock();
+  readonly dock = new Dock(this.arrangement);
   /** The seconds that timelines and curves show. */
   readonly watched = new Store({ seconds: 10 });
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
@@ -94,6 +98,7 @@ export class Studio {
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
+    map: null,
     ...keptView(),
     selected: null,
     ...linkedView(),
@@ -125,8 +130,8 @@ export class Studio {
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
-      const { view, panel, text, theme } = this.view.get();
-      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      const { view, panel, text, theme, map } = this.view.get();
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme, map }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -188,11 +193,12 @@ export class Studio {
   async open(): Promise<void> {
     try {
       const asked = this.api.project();
-      void asked.then(
-        (project) => this.beginDock(fileOf(project)),
+      const arranged = this.arrangement.load();
+      void Promise.all([asked, arranged]).then(
+        ([project]) => this.beginDock(fileOf(project)),
         () => this.beginDock(""),
       );
-      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf)), this.layoutFile.load()]);
+      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf)), this.layoutFile.load(), arranged]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
       this.plots.restore(fileOf(project));
@@ -241,7 +247,7 @@ export class Studio {
     this.serverStart = start;
     if (known !== undefined) void this.layoutFile.load();
     if (!this.project.get().project) {
-      const project = await this.api.project();
+      const [project] = await Promise.all([this.api.project(), this.arrangement.load()]);
       this.project.set({ project, problem: "" });
       this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));
@@ -266,6 +272,7 @@ export class Studio {
 
   /** Shows the stuck subsystems if a violation names them. */
   private verified(verdicts: readonly Verdict[]): void {
+    void this.timing.verify(this.verifier.store.get().text);
     const cause = causesOf(verdicts).find(({ atEnd, warning }) => atEnd.length > 0 && !warning);
     if (cause) this.lens.show(this.verifier.store.get().net, cause.atEnd, cause.title);
     else this.lens.close();

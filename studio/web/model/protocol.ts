@@ -147,6 +147,21 @@ export interface Requests {
     status: 200;
     answer: { revision: string };
   };
+  "GET /api/arrangement": {
+    status: 200;
+    answer: {
+      /** Texts that the page has kept for the user, by name. */
+      entries: { [k: string]: string };
+    };
+  };
+  "PUT /api/arrangement": {
+    body: { name: string; text: string };
+    status: 200;
+    answer: {
+      /** False: there is no folder for it, or no room. */
+      kept: boolean;
+    };
+  };
   "GET /api/examples": { status: 200; answer: { name: string; title: string }[] };
   /** Copies an example into a project that has no specification yet. */
   "POST /api/begin": {
@@ -478,14 +493,20 @@ export interface TimedChain {
   channels: string[];
   /** So many members of a fleet have this verdict; the names are those of the first one. */
   agents: number;
-  /** From a reading of the device to the end of any command that is based on it, at most. Null: no bound. */
-  age_ns: number | null;
-  /** From an event at the device to the end of the first command that reflects it, at most. */
-  reaction_ns: number | null;
+  age: TimedBound;
+  reaction: TimedBound;
   /** Some run reaches both bounds. */
   exact: boolean;
   /** Why there is no bound; empty: there is one. */
   why: string;
+}
+export interface TimedBound {
+  /** Null: there is no bound. */
+  at_most_ns: number | null;
+  /** Null: nothing is asked. */
+  asked_ns: number | null;
+  /** unknown: more is proved than is asked, but no run is known that takes longer. none: there is no bound. */
+  answer: "not_asked" | "holds" | "violated" | "unknown" | "none";
 }
 /** A subsystem of some chain, with the times that the bounds are for. */
 export interface TimedSubsystem {
@@ -495,6 +516,8 @@ export interface TimedSubsystem {
   /** The shortest time of a call. Null: nothing bounds it. */
   shortest_ns: number | null;
   longest_ns: number | null;
+  /** Some receive of it waits for a value. */
+  waits: boolean;
   /** Why nothing bounds its calls; empty: they are bounded. */
   missing: string;
 }

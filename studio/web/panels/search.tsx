@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useRef, useState, type KeyboardEvent } from "react";
+import { focusDrawn } from "../canvas/drawing_focus";
 import { useStore, useStudio } from "../hooks/use";
 import { useStructure } from "../hooks/use_structure";
 import { layerTitle } from "../model/net/labels";
@@ -63,11 +64,12 @@ export function Search() {
   const close = () => studio.view.set({ searching: false });
   useEffect(() => void dialog.current?.showModal(), []);
   const take = (one: Found | undefined) => {
-    if (one?.selection) studio.comeNear(one.selection, structure);
     // The structure has all but places and transitions.
-    else if (one && view === "structure" && findThing(structure, one.path)) studio.comeNear(one.path, structure);
+    const near = one && (one.selection ?? (view === "structure" && findThing(structure, one.path) ? one.path : undefined));
+    if (near !== undefined) studio.comeNear(near, structure);
     else if (one) studio.flyTo(one.path);
     close();
+    if (one) focusDrawn(near === undefined ? "net" : "structure", near ?? one.path);
   };
   const key = (event: KeyboardEvent) => {
     if (event.key === "ArrowDown") setChosen(Math.min(chosen + 1, found.length - 1));

@@ -7,6 +7,7 @@ import { readStructure } from "../model/structure/structure";
 import { CauseCard } from "./cause_card";
 import { Term } from "../canvas/term";
 import { Icon } from "./icons";
+import { TimingVerdicts } from "./timing/timing_verdicts";
 
 /** The question of each property in words. */
 const asks: Record<string, string> = {
@@ -34,6 +35,7 @@ export function VerifyPanel() {
   const old = verifier.verdicts.length > 0 && verifier.text !== text;
   return (
     <div>
+      <h2 className="visually-hidden">Verify</h2>
       <div className="buttons" style={{ marginTop: 0 }}>
         {running ? (
           <button onClick={() => studio.verifier.stop()}>Stop</button>
@@ -72,6 +74,7 @@ export function VerifyPanel() {
           <VerdictRow key={verdict.name} verdict={verdict} />
         ))}
       </div>
+      {verifier.verdicts.length > 0 && <TimingVerdicts />}
     </div>
   );
 }

@@ -25,6 +25,10 @@ export function withChange(boxes: Positions, { after }: BoxChange): Positions {
 
 const same = (a: Position | undefined, b: Position | undefined) => a?.[0] === b?.[0] && a?.[1] === b?.[1];
 
+/** The boxes that are elsewhere, or moved in one of both only. */
+export const differing = (a: Positions, b: Positions): string[] =>
+  [...new Set([...Object.keys(a), ...Object.keys(b)])].filter((path) => !same(a[path], b[path]));
+
 /** The boxes that two sides have moved since `base`. The place of `mine` counts for a box that both have moved. */
 export function joined(base: Positions, mine: Positions, theirs: Positions): Positions {
   const all = new Set([...Object.keys(base), ...Object.keys(mine), ...Object.keys(theirs)]);

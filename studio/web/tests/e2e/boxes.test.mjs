@@ -126,6 +126,10 @@ test("an element is pasted in the page of another project, and in the same tab w
   onPage(lineFollower, async (page) => {
     await page.setViewportSize({ width: 1920, height: 1000 }); // all of it stays in the drawing
     await at(page, "robot.sensor").click();
+    await page.keyboard.press("Shift+F10");
+    await page.getByRole("menuitem", { name: "Paste" }).click();
+    await page.getByText("This browser does not let a menu read the clipboard: press Ctrl V").waitFor();
+    await at(page, "robot.sensor").click();
     await page.keyboard.press("Control+c");
     await page.getByText("Copied: virtual receptor sensor").waitFor();
     await onPage(folder("orchard"), async (other) => {
@@ -134,7 +138,7 @@ test("an element is pasted in the page of another project, and in the same tab w
       await selects(other, "carrier.sensor");
       assert.match(await draftText(other), /sensor:\n\s+rate: 50 Hz\n\s+real:/);
     });
-    // The menu may not read the clipboard here: what this tab has copied is pasted.
+    // The menu may not read the clipboard here: what this tab has copied is pasted, and before a copy it says what to press.
     await at(page, "robot.control.follow").click();
     await page.keyboard.press("Control+c");
     await at(page, "robot.control").click();
@@ -142,6 +146,7 @@ test("an element is pasted in the page of another project, and in the same tab w
     await page.getByRole("menuitem", { name: "Paste" }).click();
     await has(page, "follow_2:");
     await selects(page, "robot.control.follow_2");
+    await page.getByText("For the clipboard of the computer, press Ctrl V").waitFor();
     // A copied agent has the channels within it, and the page says what it has not.
     await at(page, "robot").click();
     await page.keyboard.press("Control+d");

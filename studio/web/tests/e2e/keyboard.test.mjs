@@ -1,7 +1,7 @@
 // A person without a pointer reaches everything, and always sees where the keys go.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { drawn, example, onPage, tab } from "./page.mjs";
+import { draftText, drawn, example, judges, near, onPage, tab, until } from "./page.mjs";
 
 /** The element that has the focus, and the faults of how it shows it. */
 const focused = (page) =>
@@ -54,3 +54,66 @@ for (const width of [1440, 640])
       await page.keyboard.press("Enter");
       await page.getByRole("heading", { name: "Behaviour follow" }).waitFor();
     }));
+
+/** Waits until an element of that role and name has the focus. */
+const hasFocus = (page, role, name) =>
+  until(
+    page,
+    () => page.getByRole(role, { name, exact: true }).evaluateAll((all) => all.includes(document.activeElement)),
+    `the keys go to ${role} ${name}`,
+  );
+
+test("the search leads the keys into the drawing, and from there they change the system", () =>
+  onPage(example("01_line_follower"), async (page) => {
+    const found = [];
+    const judge = await judges(page, found);
+    const search = async (path) => {
+      await page.keyboard.press("Control+k");
+      await page.keyboard.type(path);
+      await page.keyboard.press("Enter");
+    };
+    await search("robot.control.follow");
+    await hasFocus(page, "button", "behaviour follow");
+    await page.keyboard.press("Shift+F10");
+    await hasFocus(page, "menuitem", "Add what follows…");
+    await page.keyboard.press("Enter");
+    const form = page.getByRole("form", { name: "After follow" });
+    await judge("the form of an arrow");
+    await page.keyboard.press("Shift+Tab");
+    await hasFocus(page, "button", "Add"); // the keys go round in the form
+    await page.keyboard.press("Tab");
+    await page.keyboard.press("Tab");
+    await page.keyboard.type("in.line.middle");
+    await page.keyboard.press("Enter");
+    await form.waitFor({ state: "detached" });
+    await until(
+      page,
+      async () => {
+        const text = (await draftText(page)) ?? "";
+        return text.includes("in.line.middle") && text.includes("next: init");
+      },
+      "the entry is there",
+    );
+
+    // Tab shows elements that were out of sight.
+    await near(page, "robot.sensor");
+    const faults = [];
+    await go(page, "velocity", faults);
+    assert.deepEqual(faults, []);
+
+    await tab(page, "Net").click();
+    await search("robot.motor");
+    await hasFocus(page, "application", "Drawing of the net. Arrow keys move, Enter opens, Escape goes up, F folds.");
+    assert.deepEqual(found, []);
+  }));
+
+test("a panel that becomes as large as the page keeps the keys", () =>
+  onPage(example("01_line_follower"), async (page) => {
+    await tab(page, "Element").focus();
+    await page.keyboard.press("Alt+Enter");
+    await page.getByRole("button", { name: "Back to its place (Alt Enter)" }).waitFor();
+    await hasFocus(page, "tab", "Element");
+    await page.keyboard.press("Alt+Enter");
+    await tab(page, "Text").waitFor();
+    await hasFocus(page, "tab", "Element");
+  }));

@@ -1,0 +1,44 @@
+// How old commands were, in recordings, beside what is proved for the specification.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "replay/times/ages.hpp"
+#include "spec/model/model.hpp"
+#include "tessera/recording.hpp"
+
+namespace tessera::cli {
+
+/// The times of a group of chains, and its bounds.
+struct AgesOfChain {
+  replay::ChainAges measured;
+  std::optional<std::int64_t> age_ns, reaction_ns;  ///< proved, for all its chains; nullopt: nothing is
+  bool exact = false;                               ///< some run takes so long
+  std::string why;                                  ///< there are no bounds, because of this
+
+  [[nodiscard]] bool exceeds() const {
+    return (age_ns && measured.age.most > *age_ns) || (reaction_ns && measured.reaction.most > *reaction_ns);
+  }
+};
+
+/// "robot[].control": the members of a fleet have one name.
+[[nodiscard]] std::string fleet_name_of(const std::string& name);
+
+/// Each receptor -> control -> effector of one agent.
+[[nodiscard]] std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model);
+
+/// The chains of the model, measured in all the recordings together.
+[[nodiscard]] std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings,
+                                               const spec::Model& model);
+
+/// names: of the recordings, for the worst cases.
+[[nodiscard]] std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::string> names);
+/// docs/reference/recordings.md describes it.
+[[nodiscard]] nlohmann::json ages_json(const std::vector<AgesOfChain>& all,
+                                       std::span<const std::string> names);
+
+}  // namespace tessera::cli

@@ -1,0 +1,87 @@
+#include "cli/recordings/times_commands.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "cli/recordings/bags.hpp"
+#include "cli/recordings/measured_ages.hpp"
+#include "cli/terminal.hpp"
+#include "project/verification/pipeline.hpp"
+#include "tessera/recording.hpp"
+#include "verify/hashes.hpp"
+
+namespace tessera::cli {
+namespace {
+
+/// Tells the reader of the figures what the recording lacks.
+void note(const Recording& recording, const std::string& file) {
+  const auto say = [&](const std::string& what) { fmt::print(stderr, "note: {}: {}\n", file, what); };
+  if (lacks_beginning(recording)) say(note_on_beginning(recording));
+  if (recording.truncated) say("it is cut off at its end");
+  if (recording.lost > 0)
+    say(fmt::format("{} events are missing in it; times that depend on them are left out", recording.lost));
+}
+
+struct Input {
+  project::Specification specification;
+  std::vector<Recording> recordings;
+};
+
+/// nullopt: the reason has been printed, and `code` is the exit code.
+std::optional<Input> read_input(const TimesOptions& options, int& code) {
+  std::optional<project::Specification> specification = project::read(options.spec, terminal());
+  if (!specification) return code = exit_code_without_net(), std::nullopt;
+  Input input{std::move(*specification), {}};
+  for (const std::string& file : options.recordings) {
+    std::string error;
+    std::optional<ReadRun> run = read_run(file, error);
+    if (!run) return complain(error), code = usage, std::nullopt;
+    if (run->recording.system != input.specification.model.system)
+      return code = complain(fmt::format(
+                 "{} is of the system '{}', and {} has the system '{}': name the specification it was made "
+                 "with by --spec",
+                 file, run->recording.system, input.specification.file.string(),
+                 input.specification.model.system)),
+             std::nullopt;
+    note(run->recording, file);
+    input.recordings.push_back(std::move(run->recording));
+  }
+  return input;
+}
+
+/// The net may have changed since; then subsystems, behaviours and channels are those with the same names.
+void note_on_other_nets(const Input& input, const std::vector<std::string>& files) {
+  const std::optional<project::Nets> nets = project::build(input.specification, terminal());
+  if (!nets) return;
+  const std::string hash = verify::hash_of(nets->flat);
+  for (std::size_t index = 0; index < files.size(); ++index)
+    if (input.recordings[index].net_hash != hash)
+      fmt::print(
+          stderr,
+          "note: {}: it is of another version of the net than {}; parts with the same names are compared\n",
+          files[index], input.specification.file.string());
+}
+
+}  // namespace
+
+int ages_command(const TimesOptions& options) {
+  int code = ok;
+  const std::optional<Input> input = read_input(options, code);
+  if (!input) return code;
+  note_on_other_nets(*input, options.recordings);
+  const std::vector<AgesOfChain> all = ages_in(input->recordings, input->specification.model);
+  if (all.empty())
+    return complain(
+        "no values lead from a receptor over a control subsystem to an effector of the same agent");
+  if (options.json != "-") {
+    fmt::print("{}", ages_text(all, options.recordings));
+    std::fflush(stdout);
+  }
+  if (!options.json.empty())
+    write_output(options.json, nlohmann::json{{"ages", ages_json(all, options.recordings)}}.dump(2) + "\n");
+  return std::ranges::any_of(all, &AgesOfChain::exceeds) ? failed : ok;
+}
+
+}  // namespace tessera::cli

@@ -1,0 +1,115 @@
+import type { Timing as Bounds } from "../model/protocol";
+import { type Api, ApiError, message } from "./api";
+import type { Draft } from "./draft";
+import { Store } from "./store";
+
+export interface TimingState {
+  /** The bounds of the specification. */
+  found: Bounds | null;
+  /** The text that they are of. */
+  text: string;
+  /** Periods in nanoseconds that the user tries, by subsystem ("robot.control"); 0: no rate. */
+  tried: ReadonlyMap<string, number>;
+  /** The bounds with these; null: nothing is tried, or they are not known yet. */
+  other: Bounds | null;
+  /** The key of the chain that is shown; null: the user has chosen none. */
+  chosen: string | null;
+  /** An answer is on its way. */
+  busy: boolean;
+  problem: string;
+  /** The bounds of the text that was verified last. */
+  verified: Bounds | null;
+}
+
+/** How old commands can be: the bounds of all chains of the text, and those with other rates. */
+export class Timing {
+  readonly store = new Store<TimingState>({
+    found: null,
+    text: "",
+    tried: new Map(),
+    other: null,
+    chosen: null,
+    busy: false,
+    problem: "",
+    verified: null,
+  });
+  private asking = false;
+  private stale = false;
+
+  constructor(
+    private readonly api: Api,
+    private readonly draft: Draft,
+  ) {}
+
+  /** Asks for the bounds of the text as it is now, unless they are known. */
+  look(): void {
+    const { text } = this.draft;
+    if (this.store.get().found && this.store.get().text === text && this.store.get().problem === "") return;
+    this.update();
+  }
+
+  choose(chain: string | null): void {
+    this.store.set({ chosen: chain });
+  }
+
+  /** Asks for the bounds with another period of a subsystem; undefined: with its own one. */
+  try(subsystem: string, period_ns: number | undefined): void {
+    const tried = new Map(this.store.get().tried);
+    if (period_ns === undefined) tried.delete(subsystem);
+    else tried.set(subsystem, period_ns);
+    this.store.set(tried.size === 0 ? { tried, other: null } : { tried });
+    this.update();
+  }
+
+  forget(): void {
+    this.store.set({ tried: new Map(), other: null, problem: "" });
+  }
+
+  /** Asks for the bounds of a text that was verified. */
+  async verify(text: string): Promise<void> {
+    this.store.set({ verified: null });
+    try {
+      const verified = await this.api.timing(text);
+      this.store.set({ verified });
+    } catch {
+      // The verification itself tells what is wrong with the text.
+    }
+  }
+
+  /** One question at a time; of those that come meanwhile, only the last one is asked. */
+  private update(): void {
+    this.stale = true;
+    if (!this.asking) void this.ask();
+  }
+
+  private async ask(): Promise<void> {
+    this.asking = true;
+    this.store.set({ busy: true });
+    while (this.stale) {
+      this.stale = false;
+      const { text } = this.draft;
+      try {
+        if (this.store.get().text !== text || !this.store.get().found) {
+          const found = await this.api.timing(text);
+          this.store.set({ found, text, problem: "" });
+        }
+        const { tried } = this.store.get();
+        if (tried.size > 0) {
+          const other = await this.api.timing(text, tried);
+          // A slider that was put back meanwhile asks for nothing.
+          if (this.store.get().tried.size > 0) this.store.set({ other, problem: "" });
+        } else this.store.set({ other: null, problem: "" });
+      } catch (error) {
+        this.refused(error);
+      }
+    }
+    this.asking = false;
+    this.store.set({ busy: false });
+  }
+
+  /** A text with errors keeps the bounds of the one before. A rate that is tried may be gone with its subsystem. */
+  private refused(error: unknown): void {
+    const gone = error instanceof ApiError && error.status === 422 && this.store.get().text === this.draft.text;
+    this.store.set({ problem: message(error), ...(gone ? { tried: new Map(), other: null } : {}) });
+  }
+}

@@ -1,0 +1,83 @@
+import type { TimedBound, TimedChain, Timing } from "./protocol";
+import { withoutIndex } from "./structure/structure";
+
+/** Chains and their times in words. */
+
+const units = [
+  { ns: 1e9, name: "s" },
+  { ns: 1e6, name: "ms" },
+  { ns: 1e3, name: "us" },
+] as const;
+
+/** "82 ms": at most four digits, rounded up, since a bound must not be told too small. */
+export function shownTime(ns: number): string {
+  const unit = units.find((one) => ns >= one.ns);
+  if (!unit) return `${ns} ns`;
+  let step = unit.ns / 1000;
+  while (ns / step >= 10_000) step *= 10;
+  return `${Number(((Math.ceil(ns / step) * step) / unit.ns).toFixed(3))} ${unit.name}`;
+}
+
+/** "20 Hz" */
+export const shownRate = (period_ns: number): string =>
+  period_ns === 0 ? "no rate" : `${Number((1e9 / period_ns).toPrecision(6))} Hz`;
+
+/** Periods of whole microseconds, many of which divide each other: the pattern of all subsystems repeats soon. */
+const usualRates = [1, 2, 4, 5, 8, 10, 16, 20, 25, 40, 50, 80, 100, 125, 200, 250, 400, 500, 1000];
+
+/** The periods that a slider offers, the slowest rate first; the present one is among them. */
+export const periodsBeside = (present_ns: number): number[] =>
+  [...new Set([...usualRates.map((rate) => 1e9 / rate), ...(present_ns > 0 ? [present_ns] : [])])].sort((a, b) => b - a);
+
+/** The words of a path without what they have in common: "robot: sensor → control → motor". */
+export function chainTitle(path: readonly string[]): string {
+  const agents = new Set(path.map((one) => one.split(".")[0]));
+  const names = path.map((one) => (agents.size === 1 ? one.slice(one.indexOf(".") + 1) : one)).join(" → ");
+  return agents.size === 1 ? `${[...agents][0]}: ${names}` : names;
+}
+
+/** Names a chain also after an edit, and whichever member of a fleet stands for it. */
+export const chainKey = ({ path, name }: Pick<TimedChain, "path" | "name">): string =>
+  `${withoutIndex(name)} ${path.map(withoutIndex).join(" ")}`;
+
+export type Verdict = "holds" | "violated" | "unknown" | "none";
+
+/** The verdict on a chain: the worse one of its age and its reaction. Without a bound, nothing is known. */
+export function verdictOf({ age, reaction, why }: TimedChain): Verdict {
+  const answers = [age.answer, reaction.answer];
+  if (answers.includes("violated")) return "violated";
+  if (answers.includes("unknown") || answers.includes("none") || why !== "") return "unknown";
+  return answers.includes("holds") ? "holds" : "none";
+}
+
+/** "at most 142 ms", "142 ms" if some run takes so long, "no bound". */
+export const saidBound = ({ at_most_ns }: TimedBound, exact: boolean): string =>
+  at_most_ns === null ? "no bound" : `${exact ? "" : "at most "}${shownTime(at_most_ns)}`;
+
+/** A verdict in plain words. */
+export function saidChain({ age, reaction, exact, why }: TimedChain): string {
+  if (why) return `No bound: ${why}.`;
+  const asked = (name: string, bound: TimedBound) =>
+    bound.asked_ns === null ? "" : ` (asked: ${name} of ${shownTime(bound.asked_ns)} or less)`;
+  return `A command is ${saidBound(age, exact)} old${asked("an age", age)}; an event is answered within ${saidBound(
+    reaction,
+    false,
+  ).replace("at most ", "")}${asked("a reaction", reaction)}.`;
+}
+
+/** The chain to show: the chosen one, or else the first that breaks what was asked. */
+export function shownChain(timing: Timing | null, chosen: string | null): TimedChain | null {
+  const chains = timing?.chains ?? [];
+  return (
+    chains.find((one) => chainKey(one) === chosen) ?? chains.find((one) => verdictOf(one) === "violated") ?? chains[0] ?? null
+  );
+}
+
+/** Chains that break what was asked come first, and then those of which it is unknown. */
+export function worstFirst(chains: readonly TimedChain[]): TimedChain[] {
+  const order: Record<Verdict, number> = { violated: 0, unknown: 1, holds: 2, none: 3 };
+  return chains
+    .map((chain, at) => ({ chain, at }))
+    .sort((a, b) => order[verdictOf(a.chain)] - order[verdictOf(b.chain)] || a.at - b.at)
+    .map(({ chain }) => chain);
+}

@@ -1,0 +1,41 @@
+import { useStore, useStudio } from "../../hooks/use";
+import { chainKey, chainTitle, saidChain, worstFirst } from "../../model/timing";
+import { VerdictMark } from "./chain_table";
+
+/** Most chains among the verdicts; the panel Timing has all. */
+const most = 6;
+
+/** The chains of the text that was verified, among the verdicts. */
+export function TimingVerdicts() {
+  const studio = useStudio();
+  const verified = useStore(studio.timing.store, (all) => all.verified);
+  if (!verified || verified.chains.length === 0) return null;
+  const open = (key: string | null) => {
+    studio.timing.choose(key);
+    studio.dock.open("timing");
+  };
+  const chains = verified.says_times ? worstFirst(verified.chains).slice(0, most) : [];
+  return (
+    <section className="timing-verdicts" aria-label="Times">
+      <h3>Times</h3>
+      {chains.map((chain) => (
+        <button key={chainKey(chain)} className="choice" onClick={() => open(chainKey(chain))}>
+          <VerdictMark chain={chain} />
+          <span>
+            {chainTitle(chain.path)}
+            {chain.agents > 1 && <span className="faint"> · {chain.agents.toLocaleString("en")} agents</span>}
+            <small>{saidChain(chain)}</small>
+          </span>
+        </button>
+      ))}
+      {!verified.says_times && (
+        <p className="faint">No behaviour says what it takes, so nothing bounds how old a command can be.</p>
+      )}
+      {chains.length < verified.chains.length && (
+        <button className="link" onClick={() => open(null)}>
+          {verified.says_times ? `All ${verified.chains.length} chains` : "Open the panel Timing"}
+        </button>
+      )}
+    </section>
+  );
+}

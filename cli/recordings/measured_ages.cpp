@@ -27,7 +27,7 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   const timing::Bounds bounds(declared.system);
   std::map<std::string, std::uint64_t> judged;
   for (const timing::DeclaredChain& chain : declared.chains) {
-    const auto found = of_group.find(fleet_name_of(chain.name));
+    const auto found = of_group.find(fleet_name_of(chain.leads));
     if (found == of_group.end()) continue;
     AgesOfChain& one = *found->second;
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
@@ -42,7 +42,8 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   }
   for (AgesOfChain& one : all) {
     if (one.why.empty() && judged[one.measured.group] != one.measured.chains)
-      one.why = "the behaviours of a subsystem use different channels";
+      one.why = model.timing.chains ? "`timing` does not name it"
+                                    : "the behaviours of a subsystem use different channels";
     if (!one.why.empty()) one.age_ns = one.reaction_ns = std::nullopt;
   }
 }

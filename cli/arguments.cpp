@@ -111,6 +111,17 @@ Option Subcommand::flag(const std::string& name, std::string& value, const std::
   return Option(*app_->add_flag(name + "{" + given + "}", value, help));
 }
 
+Option Subcommand::optional_value(const std::string& name, std::optional<std::string>& value,
+                                  const std::string& help) {
+  const auto take = [&value](const CLI::results_t& given) {
+    // CLI11 gives one of these for an option without a value.
+    const bool is_missing = given.empty() || given.front() == "true" || given.front() == "{}";
+    value = is_missing ? std::string() : given.front();
+    return true;
+  };
+  return Option(*app_->add_option(name, take, help)->expected(0, 1)->type_name("[TEXT]"));
+}
+
 void Subcommand::words(const std::string& flag, std::optional<std::vector<std::string>>& words,
                        const std::string& help) {
   app_->add_flag(flag, help);

@@ -67,6 +67,8 @@ class Subcommand {
   Option flag(const std::string& names, bool& value, const std::string& help);
   /// A flag that may have a value: --values, --values=TEXT. Without a value it is `given`.
   Option flag(const std::string& name, std::string& value, const std::string& given, const std::string& help);
+  /// An option that may stand without a value, which is then empty: --explain, --explain NAME. nullopt: not given.
+  Option optional_value(const std::string& name, std::optional<std::string>& value, const std::string& help);
   /// A flag whose words go from it to `--`, or to the end of the line, whatever they are. Without the flag, nullopt.
   void words(const std::string& flag, std::optional<std::vector<std::string>>& words,
              const std::string& help);

@@ -10,6 +10,7 @@
 #include "project/verification/pipeline.hpp"
 #include "spec/model/former_routes.hpp"
 #include "spec/parser.hpp"
+#include "timing/declared.hpp"
 
 namespace tessera::cli {
 
@@ -36,6 +37,7 @@ int check_json(const CheckOptions& options) {
       if (check_simulation_files(*model, project, found)) check_world(*model, project, "", found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
       note_former_routes(*model, found);
+      timing::note_missing(*model, found);
     }
   write_output(options.json, diagnostics::render_json(found) + "\n");
   if (!found.has_errors()) return ok;
@@ -52,6 +54,7 @@ int check_command(const CheckOptions& options) {
   if (!nets) return failed;
   diagnostics::Diagnostics notes = specification->diagnostics.of_same_source();
   note_former_routes(specification->model, notes);
+  timing::note_missing(specification->model, notes);
   terminal().say(notes);
   const spec::Model& model = specification->model;
   fmt::print("{}: {}, {}, {}; {}, {}\n", model.system, count_of(model.agents, "agent"),

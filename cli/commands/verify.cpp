@@ -4,11 +4,14 @@
 #include <atomic>
 #include <chrono>
 #include <csignal>
+#include <filesystem>
 #include <nlohmann/json.hpp>
+#include <utility>
 
-#include "cli/commands/chain_verdicts.hpp"
 #include "cli/commands/commands.hpp"
 #include "cli/terminal.hpp"
+#include "cli/timing/chain_explanation.hpp"
+#include "cli/timing/chain_verdicts.hpp"
 #include "diagnostics/source.hpp"
 #include "explore/explore.hpp"
 #include "layers/layers.hpp"
@@ -33,7 +36,8 @@ using nlohmann::json;
 struct VerifyOptions {
   std::string spec = ".", json, trace, scenario, timeout = "60s", memory = "2GB", method = "any";
   std::vector<std::string> properties, without;
-  bool states = false, explain = false;
+  std::optional<std::string> explain;  ///< a chain; empty: each verdict
+  bool states = false;
 };
 
 std::atomic<bool> searches_stopped{false};
@@ -57,7 +61,7 @@ struct Judged {
   std::optional<Nets> nets;  ///< from a specification
   std::optional<net::Net> drawn;
   std::vector<net::Invariant> invariants;
-  ChainVerdicts chains{};  ///< of a specification
+  std::optional<spec::Model> model{};  ///< of a specification
 
   [[nodiscard]] const net::Net& net() const { return drawn ? *drawn : nets->flat; }
   [[nodiscard]] verify::Subject subject() const {
@@ -88,7 +92,7 @@ std::optional<Judged> load(const std::string& given) {
   if (!judged.nets) return std::nullopt;
   judged.file = specification->file.string();
   judged.invariants = layers::invariants(specification->model, judged.nets->pages, judged.nets->flat);
-  judged.chains = chain_verdicts(specification->model);
+  judged.model = std::move(specification->model);
   return judged;
 }
 
@@ -109,8 +113,19 @@ class Allowance {
     return std::max(std::chrono::duration<double>(0), std::chrono::duration<double>(seconds_) - spent);
   }
   [[nodiscard]] std::uint64_t bytes() const { return bytes_; }
+  /// Asked by the computation of times, which may take that part of the time that is left.
+  [[nodiscard]] timing::StopAsked stop(double part) const {
+    const auto end =
+        std::chrono::steady_clock::now() +
+        std::chrono::duration_cast<std::chrono::steady_clock::duration>(std::min(time_left() * part, most));
+    return [end] {
+      return searches_stopped.load(std::memory_order_relaxed) || std::chrono::steady_clock::now() >= end;
+    };
+  }
 
  private:
+  static constexpr std::chrono::duration<double> most = std::chrono::hours(24 * 365);
+
   double seconds_;
   std::uint64_t bytes_;
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
@@ -189,8 +204,8 @@ bool known(const std::vector<std::string>& asked, const std::vector<std::string>
   return all;
 }
 
-int exit_code_of(const verify::Report& report) {
-  switch (report.overall()) {
+int exit_code_of(verify::Verdict verdict) {
+  switch (verdict) {
     case verify::Verdict::holds:
       return ok;
     case verify::Verdict::violated:
@@ -201,23 +216,71 @@ int exit_code_of(const verify::Report& report) {
   return unknown;
 }
 
-int verify_command(const VerifyOptions& options) {
+verify::Verdict overall(const verify::Report& report, const ChainVerdicts& chains) {
+  const verify::Verdict net = report.overall();
+  if (net == verify::Verdict::violated || chains.overall == verify::Verdict::holds) return net;
+  return chains.overall;
+}
+
+/// Bounds assume that the system goes on.
+bool stands_still(const verify::Report& report) {
+  return std::ranges::any_of(report.properties, [](const verify::PropertyResult& property) {
+    return (property.name == "goes_on" || property.name == "deadlock_free") &&
+           property.verdict == verify::Verdict::violated;
+  });
+}
+
+/// Explains one chain, and proves nothing else.
+int explain_one(const Judged& judged, const VerifyOptions& options, const Allowance& allowance) {
+  if (!judged.model) return complain("a PNML net has no chains");
+  const std::vector<std::string> names = chain_names(*judged.model);
+  if (std::ranges::find(names, *options.explain) == names.end()) {
+    complain(
+        with_hint("there is no chain '" + *options.explain + "'", did_you_mean(*options.explain, names)));
+    return usage;
+  }
+  const Interruptible interruptible;
+  try {
+    project::Step step(terminal(), "computing times");
+    const std::optional<ChainExplanation> chain =
+        explain_chain(*judged.model, *options.explain, allowance.stop(1));
+    if (!options.json.empty()) write_output(options.json, chain->json.dump(2) + "\n");
+    if (options.json != "-") fmt::print("{}", printable(chain->text));
+    return exit_code_of(chain->verdict);
+  } catch (const timing::Interrupted&) {
+    complain("the times are not computed: the time limit is reached, or the search was stopped");
+    return unknown;
+  }
+}
+
+int verify_command(const VerifyOptions& given) {
+  VerifyOptions options = given;
+  // `verify --explain robot/spec.yaml`: the word behind the option is the specification.
+  if (options.explain && options.spec == "." && std::filesystem::exists(*options.explain))
+    options.spec = std::exchange(*options.explain, "");
   const Allowance allowance(options);
   const std::optional<Judged> judged = load(options.spec);
   if (!judged) return exit_code_without_net();
   if (!known(options.properties, judged->properties())) return usage;
+  if (options.explain && !options.explain->empty()) return explain_one(*judged, options, allowance);
   const Interruptible interruptible;
   json space;
+  ChainVerdicts chains;
   verify::Report report;
   {
     project::Step step(terminal(), "verifying");
+    // Bounds are found at once, but in systems of hundreds of timeouts: properties get the larger part of the time.
+    if (judged->model && options.properties.empty())
+      chains = chain_verdicts(*judged->model, allowance.stop(0.3));
     report = judge(*judged, options, allowance, step);
     if (options.states) space = count_states(*judged, options, allowance, step);
   }
+  const int exit_code = exit_code_of(overall(report, chains));
   if (!options.json.empty()) {
     json result = report_json(judged->net(), judged->nets ? &judged->nets->pages : nullptr, report);
     if (options.states) result["state_space"] = space;
-    if (!judged->chains.json.empty()) result["chains"] = judged->chains.json;
+    if (!chains.json.empty()) result["chains"] = chains.json;
+    if (!chains.conduct.empty()) result["times"] = chains.conduct;
     write_output(options.json, result.dump(2) + "\n");
   }
   if (!options.trace.empty())
@@ -226,15 +289,17 @@ int verify_command(const VerifyOptions& options) {
                                         .dump(2) +
                                     "\n");
   if (!options.scenario.empty() && write_scenario(*judged, report, options) != ok) return failed;
-  if (options.json == "-" || options.trace == "-") return exit_code_of(report);
+  if (options.json == "-" || options.trace == "-") return exit_code;
   for (const verify::PropertyResult& property : report.properties)
-    print_result(*judged, property, options.explain);
+    print_result(*judged, property, options.explain.has_value());
   if (options.states) {
     fmt::print("states: {} markings, {} edges{}\n", space["markings"].get<std::uint64_t>(),
                space["edges"].get<std::uint64_t>(), space["complete"].get<bool>() ? "" : " and more");
   }
-  if (options.properties.empty()) fmt::print("{}", printable(judged->chains.text));
-  return exit_code_of(report);
+  fmt::print("{}", printable(options.explain ? chains.explained : chains.text));
+  if (!chains.json.empty() && stands_still(report))
+    fmt::print("  these times do not count: the system does not go on\n");
+  return exit_code;
 }
 
 }  // namespace
@@ -262,11 +327,13 @@ void add_verify(CommandLine& app) {
   command.option("--trace", options.trace, "Write the runs that show violations as JSON");
   command.option("--scenario", options.scenario,
                  "Write the run of a violation for `tessera simulate --scenario`");
-  command.flag("--explain", options.explain,
-               "Explain each verdict: its method, and its meaning for the net with conditions");
+  command.optional_value(
+      "--explain", options.explain,
+      "Explain each verdict: its method, and its meaning for the net with conditions; with "
+      "the name of a chain: where its time goes, and what would help");
   command.footer(
       "Ends with 0 if all properties hold, 1 if one is violated or the specification is wrong,\n"
-      "2 if a file cannot be read, 3 if a property is unknown.\n"
+      "2 if a file cannot be read, 3 if a property is unknown. What `timing` asks of chains counts as well.\n"
       "Example: tessera verify robot/spec.yaml --explain\n"
       "         tessera verify net.pnml --states --json -");
 }

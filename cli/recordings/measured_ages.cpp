@@ -27,7 +27,7 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   const timing::Bounds bounds(declared.system);
   std::map<std::string, std::uint64_t> judged;
   for (const timing::DeclaredChain& chain : declared.chains) {
-    const auto found = of_group.find(fleet_name_of(chain.name));
+    const auto found = of_group.find(fleet_name_of(chain.leads));
     if (found == of_group.end()) continue;
     AgesOfChain& one = *found->second;
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
@@ -42,7 +42,8 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   }
   for (AgesOfChain& one : all) {
     if (one.why.empty() && judged[one.measured.group] != one.measured.chains)
-      one.why = "the behaviours of a subsystem use different channels";
+      one.why = model.timing.chains ? "`timing` does not name it"
+                                    : "the behaviours of a subsystem use different channels";
     if (!one.why.empty()) one.age_ns = one.reaction_ns = std::nullopt;
   }
 }
@@ -98,6 +99,29 @@ std::vector<std::vector<std::string>> ways_along(
   return ways;
 }
 
+/// Those that the specification names, over the channels that it means.
+std::vector<replay::MeasuredChain> named_chains(const spec::Model& model) {
+  std::vector<replay::MeasuredChain> chains;
+  for (const spec::TimedChain& named : *model.timing.chains) {
+    replay::MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
+    for (const spec::InstanceId instance : named.path)
+      chain.subsystems.push_back(model.instance_path(instance));
+    for (const std::vector<spec::ChannelId>& hop : named.hops) {
+      std::vector<std::vector<std::string>> longer;
+      for (const spec::ChannelId channel : hop) {
+        if (model.channels[channel].model.valid()) continue;
+        for (std::vector<std::string> way : chain.ways) {
+          way.push_back(model.channel_name(model.channels[channel]));
+          longer.push_back(std::move(way));
+        }
+      }
+      chain.ways = std::move(longer);
+    }
+    if (!chain.ways.empty()) chains.push_back(std::move(chain));
+  }
+  return chains;
+}
+
 }  // namespace
 
 std::string fleet_name_of(const std::string& name) {
@@ -112,6 +136,7 @@ std::string fleet_name_of(const std::string& name) {
 }
 
 std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
+  if (model.timing.chains) return named_chains(model);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::string>> channels;
   for (const spec::ChannelId id : model.channels.ids()) {
     const spec::Channel& channel = model.channels[id];

@@ -28,7 +28,7 @@ struct AgesOfChain {
 /// "robot[].control": the members of a fleet have one name.
 [[nodiscard]] std::string fleet_name_of(const std::string& name);
 
-/// Each receptor -> control -> effector of one agent.
+/// Those that the specification names; else each receptor -> control -> effector of one agent.
 [[nodiscard]] std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model);
 
 /// The chains of the model, measured in all the recordings together.

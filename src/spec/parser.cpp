@@ -20,6 +20,7 @@
 #include "spec/document/section.hpp"
 #include "spec/document/text_checks.hpp"
 #include "spec/properties/properties.hpp"
+#include "spec/timing/timing.hpp"
 #include "spec/values/types.hpp"
 
 namespace tessera::spec {
@@ -43,10 +44,11 @@ std::string read_system(const Section& file, Diagnostics& out) {
 }
 
 Model read_model(const Node& root, Diagnostics& out) {
-  const Section file(root, root.span, "a specification",
-                     {"tessera", "system", "include", "types", "parameters", "templates", "agents",
-                      "channels", "drivers", "properties", "simulation", "models", "deploy", "on_error"},
-                     out);
+  const Section file(
+      root, root.span, "a specification",
+      {"tessera", "system", "include", "types", "parameters", "templates", "agents", "channels", "drivers",
+       "properties", "timing", "simulation", "models", "deploy", "on_error"},
+      out);
   Model model;
   if (!file.readable()) return model;
   if (const Entry* version = file.require("tessera", "begin the file with 'tessera: 1'"))
@@ -74,6 +76,7 @@ Model read_model(const Node& root, Diagnostics& out) {
   check_complete_lists(model, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
+  model.timing = read_timing(file.find("timing"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
   read_deployment(file.find("deploy"), groups, model, out);
   check_writers(model, out);

@@ -12,27 +12,51 @@ EventId Bounds::next_of(const Chain& chain, std::size_t hop) const {
                                 : events.finish(events_.system().channels[chain[hop]].to);
 }
 
-ChainBound Bounds::sum(const Chain& chain) const {
+Time Bounds::read_before(EventId read, EventId next, Time sent, Time given) const {
+  const std::uint32_t i = events_.events()[read].subsystem;
+  const Time begin = given - events_.since_start(next);
+  const Time at = events_.periodic(i)
+                      ? begin - events_.system().subsystems[i].period + events_.since_start(read)
+                      : given - events_.once(read, next);
+  return std::max(sent, std::min(at, begin));
+}
+
+ChainBound Bounds::sum(const Chain& chain) const { return sum(chain, nullptr); }
+
+ChainBound Bounds::sum(const Chain& chain, ChainRoutes* routes) const {
   const Events& events = events_.events();
   const EventId begin = events.start(events_.system().channels[chain.front()].from),
                 first_write = events.write(chain.front());
   Time written = events_.once(begin, first_write), replaced = events_.twice(begin, first_write),
        start = events_.first(first_write);
+  if (routes != nullptr) *routes = {{written, {}}, {replaced, {}}};
   for (std::size_t hop = 0; hop < chain.size(); ++hop) {
     const EventId read = events.read(chain[hop]), next = next_of(chain, hop);
     const Time last = events_.last_read(chain[hop], written, replaced),
                on = plus(events_.until_read(chain[hop]), events_.once(read, next));
+    const Time sent = written, sent_next = replaced;
     written = plus(last, events_.once(read, next));
     replaced = std::min(plus(last, events_.twice(read, next)), plus(replaced, on));
     start = plus(start, on);
+    if (routes == nullptr) continue;
+    routes->age.hops.push_back(
+        {std::clamp(last, sent, std::max(sent, written - events_.since_start(next))), written});
+    routes->reaction.hops.push_back({read_before(read, next, sent_next, replaced), replaced});
   }
   return {written, replaced, start, false};
 }
 
 ChainBound Bounds::chain(const Chain& chain) const {
   ChainBound result = sum(chain);
-  enumerate(chain, result);
+  enumerate(chain, result, nullptr);
   return result;
+}
+
+ChainRoutes Bounds::routes(const Chain& chain) const {
+  ChainRoutes routes;
+  ChainBound result = sum(chain, &routes);
+  enumerate(chain, result, &routes);
+  return routes;
 }
 
 Time Bounds::staleness(std::uint32_t channel) const {
@@ -40,7 +64,7 @@ Time Bounds::staleness(std::uint32_t channel) const {
 }
 
 /// As `sum`, with absolute times, for each reading of the device until everything repeats.
-void Bounds::enumerate(const Chain& chain, ChainBound& result) const {
+void Bounds::enumerate(const Chain& chain, ChainBound& result, ChainRoutes* routes) const {
   const System& system = events_.system();
   const std::uint32_t root = system.channels[chain.front()].from;
   if (!clocked_.knows(root) || result.reaction >= unbounded) return;
@@ -58,17 +82,28 @@ void Bounds::enumerate(const Chain& chain, ChainBound& result) const {
   const Time end = settled + 2 * pattern, before = clocked_.before(root);
   const EventId write = events.write(chain.front());
   Time age = 0, reaction = 0;
+  ChainRoutes worst;
   for (Time k = -before;; ++k) {
     if (k >= Clocked::most_iterations || k + 1 >= clocked_.numbers(root)) return;
+    check(stop_);
     const Time reading = clocked_.earliest(events.start(root), k);
     if (reading > end) break;
     Moment written{clocked_.latest(write, k), k + before},
         replaced{clocked_.latest(write, k + 1), k + 1 + before};
-    for (std::size_t hop = 0; hop < chain.size(); ++hop)
+    ChainRoutes way{{written.time - reading, {}}, {replaced.time - reading, {}}};
+    for (std::size_t hop = 0; hop < chain.size(); ++hop) {
       if (!pass(chain[hop], next_of(chain, hop), written, replaced)) return;
+      if (routes == nullptr) continue;
+      way.age.hops.push_back({written.read - reading, written.time - reading});
+      way.reaction.hops.push_back({replaced.read - reading, replaced.time - reading});
+    }
+    if (routes != nullptr && written.time - reading > age) worst.age = way.age;
+    if (routes != nullptr && replaced.time - reading > reaction) worst.reaction = way.reaction;
     age = std::max(age, written.time - reading);
     reaction = std::max(reaction, replaced.time - reading);
   }
+  if (routes != nullptr && age <= result.age) routes->age = worst.age;
+  if (routes != nullptr && reaction <= result.reaction) routes->reaction = worst.reaction;
   result.enumerated = true;
   result.age = std::min(result.age, age);
   result.reaction = std::min(result.reaction, reaction);
@@ -107,6 +142,8 @@ bool Bounds::pass(std::uint32_t channel, EventId next, Moment& written, Moment& 
     if (written.number >= 0) on = at(written.number - before);
     newer = at(replaced.number - before);
   }
+  on.read = std::clamp(last, written.time, std::max(written.time, on.time - events_.since_start(next)));
+  newer.read = read_before(read, next, replaced.time, newer.time);
   written = on;
   replaced = newer;
   return true;

@@ -3,6 +3,7 @@
 
 #include "timing/clocked.hpp"
 #include "timing/occurrences.hpp"
+#include "timing/patience.hpp"
 
 namespace tessera::timing {
 
@@ -20,6 +21,20 @@ struct ChainBound {
   bool operator==(const ChainBound&) const = default;
 };
 
+/// The way of a value to the command, at the times of a bound. All are counted from the reading, or from the event.
+struct Route {
+  struct Hop {
+    Time read = 0;   ///< by the subsystem that the channel leads to
+    Time given = 0;  ///< by it: the write of the next channel, or the end of the command
+  };
+  Time sent = 0;  ///< the first write
+  std::vector<Hop> hops;
+};
+struct ChainRoutes {
+  Route age;       ///< ends at ChainBound::age
+  Route reaction;  ///< of the reading after the event; ends at ChainBound::reaction
+};
+
 /// Bounds for all that can happen in a system, if it goes on, nobody ends, no call takes longer than declared, and no
 /// wake-up is later than the latency.
 ///
@@ -28,13 +43,17 @@ struct ChainBound {
 class Bounds {
  public:
   /// Precondition: each channel is sent and received once, by the subsystems at its ends.
-  explicit Bounds(const System& system) : events_(system), clocked_(events_) {}
+  /// Throws Interrupted, as soon as `stop` says so; so does `chain`.
+  explicit Bounds(const System& system, const StopAsked& stop = {})
+      : stop_(stop), events_(system, stop), clocked_(events_) {}
   Bounds(const Bounds&) = delete;
   Bounds& operator=(const Bounds&) = delete;
 
   [[nodiscard]] const Occurrences& occurrences() const { return events_; }
   /// Precondition: each channel of the chain ends where the next one begins.
   [[nodiscard]] ChainBound chain(const Chain& chain) const;
+  /// Precondition: it has a bound.
+  [[nodiscard]] ChainRoutes routes(const Chain& chain) const;
   /// The sum of its hops alone, which is at least as large.
   [[nodiscard]] ChainBound sum(const Chain& chain) const;
   /// How long ago the value in an input may have been written, at any time after the first value.
@@ -45,12 +64,18 @@ class Bounds {
   struct Moment {
     Time time = 0;
     Time number = -1;  ///< of the iteration, counted from the first one; -1: it is not known
+    Time read = 0;     ///< what it is based on
   };
 
-  void enumerate(const Chain& chain, ChainBound& result) const;
+  /// routes: nullptr: they are not asked for.
+  [[nodiscard]] ChainBound sum(const Chain& chain, ChainRoutes* routes) const;
+  void enumerate(const Chain& chain, ChainBound& result, ChainRoutes* routes) const;
   [[nodiscard]] bool pass(std::uint32_t channel, EventId next, Moment& written, Moment& replaced) const;
+  /// When the value was read on which `given` is based, if it came at `sent`.
+  [[nodiscard]] Time read_before(EventId read, EventId next, Time sent, Time given) const;
   [[nodiscard]] EventId next_of(const Chain& chain, std::size_t hop) const;
 
+  StopAsked stop_;
   Occurrences events_;
   Clocked clocked_;
 };

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <optional>
-#include <set>
 
 #include "layers/wiring.hpp"
+#include "spec/model/endings.hpp"
 
 namespace tessera::timing {
 namespace {
@@ -18,12 +18,19 @@ class Reader {
  public:
   explicit Reader(const spec::Model& model) : model_(model), wiring_(model) {
     declared_.missing.resize(model.instances.size());
+    declared_.all_missing.resize(model.instances.size());
+    declared_.stale.resize(model.instances.size());
+    declared_.system.latency = model.timing.latency.count();
     for (const spec::InstanceId instance : model.instances.ids()) read(instance);
     for (const spec::ChannelId channel : model.channels.ids()) read(channel);
+    for (std::uint32_t c = 0; c < declared_.system.channels.size(); ++c) forbid_ends(c);
     // A subsystem of which something is missing may take any time, so that nothing that waits for it is bounded.
     for (std::size_t i = 0; i < declared_.missing.size(); ++i)
       if (!declared_.missing[i].empty()) declared_.system.subsystems[i].longest = unbounded;
-    for (const spec::Agent& agent : model.agents) find_chains(agent);
+    if (model.timing.chains)
+      for (const spec::TimedChain& chain : *model.timing.chains) add_chain(chain);
+    else
+      for (const spec::Agent& agent : model.agents) find_chains(agent);
   }
 
   Declared take() { return std::move(declared_); }
@@ -31,7 +38,9 @@ class Reader {
  private:
   void miss(spec::InstanceId instance, std::string why) {
     std::string& missing = declared_.missing[instance.value];
-    if (missing.empty()) missing = std::move(why);
+    if (missing.empty()) missing = why;
+    std::vector<std::string>& all = declared_.all_missing[instance.value];
+    if (std::ranges::find(all, why) == all.end()) all.push_back(std::move(why));
   }
 
   void read(spec::InstanceId instance) {
@@ -39,6 +48,7 @@ class Reader {
     Subsystem& mine = declared_.system.subsystems.emplace_back();
     mine.period = subsystem.period ? subsystem.period->count() : 0;
     mine.catch_up = subsystem.overrun == spec::Overrun::catch_up;
+    if (subsystem.stale) declared_.stale[instance.value] = subsystem.stale->count();
     if (subsystem.realtime && subsystem.realtime->cpu) {
       mine.processor = static_cast<int>(*subsystem.realtime->cpu);
       mine.priority = static_cast<int>(subsystem.realtime->priority);
@@ -89,6 +99,33 @@ class Reader {
     miss(channel.to.instance, why);
   }
 
+  /// Nothing bounds a wait for a subsystem that has ended.
+  void forbid_ends(std::uint32_t c) {
+    const Channel& channel = declared_.system.channels[c];
+    const auto waits = [&](std::uint32_t who, std::uint32_t other) {
+      if (may_end(model_.subsystem({other})))
+        miss({who},
+             model_.instance_path({who}) + " waits for " + model_.instance_path({other}) + ", which may end");
+    };
+    if (channel.receive_blocks && uses(declared_.system.subsystems[channel.to].receives, c))
+      waits(channel.to, channel.from);
+    if (channel.send_blocks && uses(declared_.system.subsystems[channel.from].sends, c))
+      waits(channel.from, channel.to);
+  }
+  /// Not by a failure: the bounds assume that there is none.
+  static bool may_end(const spec::Subsystem& subsystem) {
+    return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
+      if (behaviour.parent.valid()) return false;
+      const spec::Endings endings(behaviour);
+      if (!endings.possible(spec::Ending::terminal)) return false;
+      for (const spec::NextId id : behaviour.next.ids())
+        if (!behaviour.next[id].behaviour.valid() &&
+            endings.taken(id, spec::Ending::terminal) != spec::Truth::never)
+          return true;
+      return endings.none_possible(spec::Ending::terminal);
+    });
+  }
+
   static std::vector<std::uint32_t> numbers(const std::vector<spec::ChannelId>& channels) {
     std::vector<std::uint32_t> result;
     for (const spec::ChannelId channel : channels) result.push_back(channel.value);
@@ -106,6 +143,48 @@ class Reader {
     }
   }
 
+  [[nodiscard]] std::string name_of(const std::vector<spec::InstanceId>& path) const {
+    std::string name;
+    for (const spec::InstanceId instance : path)
+      name += (name.empty() ? "" : " -> ") + model_.instance_path(instance);
+    return name;
+  }
+
+  /// A chain that the specification names. It stays without a way if a behaviour does not use a channel of it.
+  void add_chain(const spec::TimedChain& asked) {
+    DeclaredChain chain{asked.name, asked.path, {{}}};
+    chain.leads = name_of(asked.path);
+    chain.is_named = true;
+    if (asked.age) chain.age = asked.age->count();
+    if (asked.reaction) chain.reaction = asked.reaction->count();
+    for (const std::vector<spec::ChannelId>& hop : asked.hops) {
+      std::vector<Chain> longer;
+      for (const spec::ChannelId channel : hop) {
+        const std::uint32_t c = channel.value, from = declared_.system.channels[c].from,
+                            to = declared_.system.channels[c].to;
+        if (!uses(declared_.system.subsystems[from].sends, c)) {
+          chain.unused = model_.instance_path({from}) + " does not send over " + name_of(channel);
+        } else if (!uses(declared_.system.subsystems[to].receives, c)) {
+          chain.unused = model_.instance_path({to}) + " does not receive over " + name_of(channel);
+        } else {
+          for (Chain way : chain.ways) {
+            way.push_back(c);
+            longer.push_back(std::move(way));
+          }
+        }
+      }
+      chain.ways = std::move(longer);
+    }
+    if (!chain.ways.empty()) chain.unused.clear();
+    declared_.chains.push_back(std::move(chain));
+  }
+  [[nodiscard]] std::string name_of(spec::ChannelId channel) const {
+    return model_.channel_name(model_.channels[channel]);
+  }
+  static bool uses(const std::vector<std::uint32_t>& channels, std::uint32_t channel) {
+    return std::ranges::find(channels, channel) != channels.end();
+  }
+
   void add_chain(std::vector<spec::InstanceId> path) {
     DeclaredChain chain{{}, std::move(path), {{}}};
     for (std::size_t at = 0; at + 1 < chain.path.size(); ++at) {
@@ -120,8 +199,7 @@ class Reader {
       chain.ways = std::move(longer);
     }
     if (chain.ways.empty()) return;
-    for (const spec::InstanceId instance : chain.path)
-      chain.name += (chain.name.empty() ? "" : " -> ") + model_.instance_path(instance);
+    chain.name = chain.leads = name_of(chain.path);
     declared_.chains.push_back(std::move(chain));
   }
 
@@ -130,69 +208,19 @@ class Reader {
   Declared declared_;
 };
 
-/// The nearest reason why something that the chain depends on is not bounded.
-std::string reason(const Declared& declared, const spec::Model& model, const Bounds& bounds,
-                   const Chain& chain) {
-  const System& system = declared.system;
-  std::vector<std::uint32_t> level;
-  std::set<std::uint32_t> seen;
-  const auto reach = [&](std::uint32_t i) {
-    if (seen.insert(i).second) level.push_back(i);
-  };
-  reach(system.channels[chain.front()].from);
-  for (const std::uint32_t c : chain) reach(system.channels[c].to);
-  for (std::size_t at = 0; at < level.size(); ++at) {
-    const std::uint32_t i = level[at];
-    if (!declared.missing[i].empty()) return declared.missing[i];
-    if (bounds.occurrences().response(i) >= unbounded)
-      return model.instance_path({i}) + " shares its processor with others that may never leave it";
-    for (const std::uint32_t c : system.subsystems[i].receives)
-      if (system.channels[c].receive_blocks) reach(system.channels[c].from);
-    for (const std::uint32_t c : system.subsystems[i].sends)
-      if (system.channels[c].send_blocks) reach(system.channels[c].to);
-  }
-  for (const std::uint32_t c : chain)
-    if (!bounds.occurrences().keeps_values(c))
-      return model.channel_name(model.channels[spec::ChannelId{c}]) +
-             " may take a value back before it is read, since its send may time out";
-  return "its subsystems wait for each other without a bound";
-}
-
-/// Each iteration begins at its instant, nobody waits, each subsystem has a processor of its own and comes once: then
-/// calls can be chosen that reach the bounds.
-bool is_exact(const Declared& declared, const Bounds& bounds, const Chain& chain) {
-  const System& system = declared.system;
-  if (system.latency > 0) return false;
-  std::set<std::uint32_t> path{system.channels[chain.front()].from};
-  for (const std::uint32_t c : chain) {
-    const Channel& channel = system.channels[c];
-    if (channel.send_blocks || channel.receive_blocks || !path.insert(channel.to).second) return false;
-  }
-  return std::ranges::all_of(path, [&](std::uint32_t i) {
-    return bounds.occurrences().periodic(i) && system.subsystems[i].processor < 0 &&
-           system.subsystems[i].longest <= system.subsystems[i].period;
-  });
-}
-
 }  // namespace
 
-Declared declared(const spec::Model& model) { return Reader(model).take(); }
-
-ChainVerdict judge(const Declared& declared, const spec::Model& model, const Bounds& bounds,
-                   const DeclaredChain& chain) {
-  ChainVerdict verdict{{0, 0, 0, true}, true, {}};
-  for (const Chain& way : chain.ways) {
-    const ChainBound bound = bounds.chain(way);
-    verdict.exact = verdict.exact && bound.enumerated && is_exact(declared, bounds, way);
-    verdict.bound.age = std::max(verdict.bound.age, bound.age);
-    verdict.bound.reaction = std::max(verdict.bound.reaction, bound.reaction);
-    verdict.bound.start = std::max(verdict.bound.start, bound.start);
-    verdict.bound.enumerated = verdict.bound.enumerated && bound.enumerated;
-    if (bound.reaction >= unbounded && verdict.why.empty())
-      verdict.why = reason(declared, model, bounds, way);
-  }
-  if (!verdict.why.empty()) verdict.exact = false;
-  return verdict;
+bool says_times(const spec::Model& model) {
+  return model.timing.chains ||
+         std::ranges::any_of(model.definitions, [](const spec::Definition& definition) {
+           return std::ranges::any_of(definition.subsystems, [](const spec::Subsystem& subsystem) {
+             return std::ranges::any_of(subsystem.behaviours, [](const spec::Behaviour& behaviour) {
+               return behaviour.takes.is_declared();
+             });
+           });
+         });
 }
+
+Declared declared(const spec::Model& model) { return Reader(model).take(); }
 
 }  // namespace tessera::timing

@@ -1,14 +1,19 @@
 #include "timing/occurrences.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "timing/graph.hpp"
 #include "timing/rows.hpp"
 
 namespace tessera::timing {
 
-Occurrences::Occurrences(const System& system)
-    : system_(system), events_(system_), responses_(responses_of(system_)), never_fires_(events_.size()) {
+Occurrences::Occurrences(const System& system, StopAsked stop)
+    : stop_(std::move(stop)),
+      system_(system),
+      events_(system_),
+      responses_(responses_of(system_, stop_)),
+      never_fires_(events_.size()) {
   for (const Response& response : responses_) late_.push_back(plus(system_.latency, response.dispatch));
   for (EventId z = 0; z < events_.size(); ++z) never_fires_[z] = timeout_of(z) > 0;
   // The first timeout that fires would do so although none before it has: those that can are taken out.
@@ -103,7 +108,10 @@ void Occurrences::assume_and_judge() {
   find_components();
   for (int pass = 0; pass < passes; ++pass) {
     timed_as_strict_ = pass % 2 == 1;
-    for (Component& component : components_) judge(component);
+    for (Component& component : components_) {
+      check(stop_);
+      judge(component);
+    }
   }
   for (EventId z = 0; z < size; ++z) wait_[z] = longest_wait(z);
 }

@@ -24,8 +24,8 @@ class Occurrences {
     timed    ///< its timeout may fire
   };
 
-  /// Precondition: the channels of the system join its subsystems, each one once.
-  explicit Occurrences(const System& system);
+  /// Precondition: the channels of the system join its subsystems, each one once. Throws Interrupted.
+  explicit Occurrences(const System& system, StopAsked stop = {});
 
   [[nodiscard]] const System& system() const { return system_; }
   [[nodiscard]] const Events& events() const { return events_; }
@@ -120,6 +120,7 @@ class Occurrences {
   /// Receives and sends of the event's subsystem wait somewhere.
   [[nodiscard]] bool waits(std::uint32_t subsystem) const;
 
+  const StopAsked stop_;
   const System system_;
   const Events events_;
   const std::vector<Response> responses_;

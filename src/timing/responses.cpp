@@ -15,7 +15,7 @@ struct Arrivals {
 
 class Responses {
  public:
-  explicit Responses(const System& system) : system_(system) {
+  Responses(const System& system, const StopAsked& stop) : system_(system), stop_(stop) {
     for (std::uint32_t i = 0; i < system.subsystems.size(); ++i)
       if (const int processor = system.subsystems[i].processor; processor >= 0)
         sharing_[processor].push_back(i);
@@ -74,6 +74,7 @@ class Responses {
     const Subsystem& subsystem = system_.subsystems[i];
     Time window = std::max<Time>(own, 1);
     for (int step = 0; step < most_steps; ++step) {
+      check(stop_);
       Time next = own;
       for (const std::uint32_t j : sharing_.at(subsystem.processor)) {
         const Subsystem& other = system_.subsystems[j];
@@ -89,14 +90,15 @@ class Responses {
   }
 
   const System& system_;
+  const StopAsked& stop_;
   std::map<int, std::vector<std::uint32_t>> sharing_;
   std::map<std::uint32_t, std::vector<Arrivals>> arrivals_;
 };
 
 }  // namespace
 
-std::vector<Response> responses_of(const System& system) {
-  Responses responses(system);
+std::vector<Response> responses_of(const System& system, const StopAsked& stop) {
+  Responses responses(system, stop);
   std::vector<Response> result;
   result.reserve(system.subsystems.size());
   for (std::uint32_t i = 0; i < system.subsystems.size(); ++i) result.push_back(responses.of(i));

@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "timing/patience.hpp"
 #include "timing/system.hpp"
 
 namespace tessera::timing {
@@ -14,6 +15,6 @@ struct Response {
 
 /// The response of each subsystem, under fixed priorities.
 /// Source: Joseph & Pandya, Computer Journal 29(5), 1986. Among equals, the busy period of their level.
-[[nodiscard]] std::vector<Response> responses_of(const System& system);
+[[nodiscard]] std::vector<Response> responses_of(const System& system, const StopAsked& stop = {});
 
 }  // namespace tessera::timing

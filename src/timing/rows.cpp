@@ -67,6 +67,7 @@ bool Rows::counts_are_fixed() {
     if (bounds_.system_.channels[event.channel].send_blocks &&
         bounds_.wait_of(bounds_.events_.acked(event.channel)) == Wait::strict)
       continue;
+    check(bounds_.stop_);
     count_tokens_to(write);
     if (tokens(y) != 1) return false;
   }
@@ -103,6 +104,7 @@ Time Rows::occurrence(EventId b, EventId y, EventId x, bool around) const {
 
 void Rows::find_row(EventId x, std::vector<Time>& row) {
   const Events& events = bounds_.events_;
+  check(bounds_.stop_);
   count_tokens_to(x);
   latest_.assign(component_.events.size(), {unbounded, unbounded});
   std::vector<bool> seen(component_.events.size());

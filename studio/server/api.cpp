@@ -64,7 +64,8 @@ Api::Api(const StudioOptions& options, Parts parts)
     : options_(options),
       parts_(parts),
       server_start_(random_token()),
-      language_(options.share / "spec.schema.json") {}
+      language_(options.share / "spec.schema.json"),
+      arrangement_(parts_.file.path()) {}
 
 void Api::serve_on(HttpServer& server) {
   serve_files(server);
@@ -72,6 +73,7 @@ void Api::serve_on(HttpServer& server) {
   serve_work(server);
   serve_sources(server);
   serve_layout(server);
+  serve_arrangement(server);
   serve_consent(server);
   serve_sweeps(server);
   server.Get("/api/events",

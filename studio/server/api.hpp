@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "server/analysis/analysis.hpp"
+#include "server/analysis/arrangement.hpp"
 #include "server/analysis/language_answers.hpp"
 #include "server/analysis/layout_file.hpp"
 #include "server/analysis/spec_file.hpp"
@@ -55,6 +56,7 @@ class Api {
   void start_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
   void get_timing(const Request& request, Response& response);
+  void get_changes_of_chain(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
   void serve_sweeps(HttpServer& server);
   void start_sweep(const Request& request, Response& response);
@@ -75,6 +77,8 @@ class Api {
   /// The positions of boxes that a user has moved.
   void serve_layout(HttpServer& server);
   void put_layout(const Request& request, Response& response);
+  /// How the user has arranged the page.
+  void serve_arrangement(HttpServer& server);
   /// Trust in the project, and the emergency stop.
   void serve_consent(HttpServer& server);
   [[nodiscard]] bool is_trusted() const;
@@ -93,6 +97,7 @@ class Api {
   Parts parts_;
   std::string server_start_;
   LanguageAnswers language_;
+  Arrangement arrangement_;
   std::atomic<bool> trusted_here_{false};  ///< until the server ends, since no note of it could be kept
 };
 

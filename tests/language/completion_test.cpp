@@ -111,6 +111,18 @@ TEST(Completion, PathsOfDriversAndProperties) {
   EXPECT_THAT(proposed(head + "deploy:\n  processes:\n    one: [‸]"), ElementsAre("boss", "robot[*]"));
 }
 
+TEST(Completion, ChainsOfTiming) {
+  const std::string chains = head + "timing:\n  latency: 1 us\n  chains:\n";
+  EXPECT_THAT(proposed(head + "timing:\n  ‸"), ElementsAre("chains", "latency"));
+  EXPECT_THAT(proposed(chains + "    - { ‸"), ElementsAre("name", "path", "age", "reaction"));
+  EXPECT_THAT(proposed(chains + "    - { path: [‸] }"),
+              IsSupersetOf({"boss.sensor", "boss.control", "robot[i].control"}));
+  EXPECT_THAT(proposed(chains + "    - { path: [boss.sensor, boss.‸] }"), ElementsAre("control", "sensor"));
+  EXPECT_THAT(proposed(chains + "    - { path: [boss.sensor, boss.control.‸] }"),
+              IsSupersetOf({"line", "motion"}));
+  EXPECT_THAT(proposed(chains + "    - { age: ‸ }"), Contains("200 ms"));
+}
+
 TEST(Completion, NamesThatAreStillEmptyAreNotOffered) {
   std::string text = head + "properties:\n  - never: robot.‸\n";
   const std::string named = "      sensor:";

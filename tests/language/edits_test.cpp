@@ -140,6 +140,25 @@ TEST(Edits, OfAliasesChangeWhatTheyStandForOrAreRefused) {
   refused(R"({"do": "rename", "at": ["agents", "c"], "text": "d"})", "the text has changed");
 }
 
+TEST(Edits, TheChainsOfASubsystemGoWithIt) {
+  const std::string text =
+      "agents:\n  a: { control: {}, receptors: { s: { outputs: { x: bool } }, t: {} }, effectors: { m: {} } "
+      "}\n"
+      "timing:\n  chains:\n    - { name: one, path: [a.s, a.control, a.m] }\n"
+      "    - { name: two, path: [a.t, a.control, a.m] }\n    - { name: three, path: [a.s.x, a.control, a.m] "
+      "}\n";
+  const auto rest = [&](const char* way) {
+    const Outcome now = after(text, way);
+    EXPECT_EQ(now.problem, std::nullopt);
+    return now.text.substr(now.text.find("timing:"));
+  };
+  EXPECT_EQ(rest(R"({"do": "remove", "at": ["agents", "a", "receptors", "s"]})"),
+            "timing:\n  chains:\n    - { name: two, path: [a.t, a.control, a.m] }\n");
+  EXPECT_EQ(rest(R"({"do": "remove", "at": ["agents", "a", "receptors", "s", "outputs", "x"]})"),
+            "timing:\n  chains:\n    - { name: one, path: [a.s, a.control, a.m] }\n"
+            "    - { name: two, path: [a.t, a.control, a.m] }\n");
+}
+
 TEST(Edits, FindANameByItsPathAndItsKind) {
   const Document document(
       "agents:\n  a: { control: { inputs: { x: bool }, behaviours: { x: {}, y: {} } } }\n", grammar());

@@ -63,6 +63,20 @@ TEST(Rename, NamesOfEveryExampleCanBeChangedAndChangedBack) {
   EXPECT_GT(renamed, share_of(100));
 }
 
+TEST(Rename, ChangesThePathsOfChains) {
+  const std::string text = read_text(TESSERA_SOURCE_DIR "/tests/golden/spec/valid/timing.yaml");
+  ASSERT_TRUE(codes(text).empty());
+  const Document document(text, grammar());
+  for (const char* word :
+       {"robot:\n", "sensor:\n", "motor:\n", "copy: float64", "tail: float64", "line: float64"}) {
+    SCOPED_TRACE(word);
+    const Renaming renaming =
+        rename(document, nullptr, document.lines().position(text.find(word)), {}, "quite_another");
+    ASSERT_EQ(renaming.problem, std::nullopt);
+    EXPECT_TRUE(codes(applied(text, renaming.edits, "")).empty());
+  }
+}
+
 TEST(Rename, ChangesTheCppOfTheProject) {
   const std::string text = read_text(example("01_line_follower") / "spec.yaml");
   const Document document(text, grammar());

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 
 #include "served.hpp"
+#include "server/analysis/arrangement.hpp"
 #include "server/analysis/layout_file.hpp"
 
 namespace tessera::server_test {
@@ -97,6 +98,40 @@ TEST_F(Layout, TakesNothingButPositions) {
         400)
         << boxes.dump().substr(0, 80);
   EXPECT_FALSE(fs::exists(file()));
+}
+
+TEST_F(Layout, OfThePanelsIsThereForTheNextServerAndForThisProjectAlone) {
+  serve();
+  EXPECT_TRUE(get("/api/arrangement").json().at("entries").empty());
+  const auto keep = [&](const json& name, const json& text) {
+    return put("/api/arrangement", {{"name", name}, {"text", text}});
+  };
+  EXPECT_EQ(keep("panels", "first").json().at("kept"), true);
+  EXPECT_EQ(keep("panels", "{\"closed\": [\"play\"]}").json().at("kept"), true);
+  EXPECT_EQ(keep("plots", "\xc3\xbc").json().at("kept"), true);
+  EXPECT_FALSE(fs::exists(spec().parent_path() / ".tessera")) << "it belongs to the user, not to the project";
+  const json kept{{"panels", "{\"closed\": [\"play\"]}"}, {"plots", "\xc3\xbc"}};
+  serve();
+  EXPECT_EQ(get("/api/arrangement").json().at("entries"), kept);
+  server::Arrangement other(spec().parent_path() / "other.yaml");
+  EXPECT_TRUE(other.read().empty());
+}
+
+TEST_F(Layout, OfThePanelsTakesNothingThatIsTooLarge) {
+  serve();
+  const auto status = [&](const json& name, const json& text) {
+    const std::string body = json{{"name", name}, {"text", text}}.dump();
+    return ask_with(own_headers(), "PUT", "/api/arrangement", body).status;
+  };
+  for (const json& name : {json(1), json(""), json("../x"), json(std::string(41, 'x'))})
+    EXPECT_EQ(status(name, "x"), 400) << name;
+  EXPECT_EQ(status("panels", std::string(65'537, 'x')), 400);
+  EXPECT_EQ(status("panels", nullptr), 400);
+  for (std::size_t count = 0; count < server::Arrangement::most_names; ++count)
+    EXPECT_EQ(
+        put("/api/arrangement", {{"name", std::string(count + 1, 'n')}, {"text", ""}}).json().at("kept"),
+        true);
+  EXPECT_EQ(put("/api/arrangement", {{"name", "one_more"}, {"text", ""}}).json().at("kept"), false);
 }
 
 }  // namespace tessera::server_test

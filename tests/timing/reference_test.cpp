@@ -7,6 +7,8 @@
 #include <cstdlib>
 #include <string>
 
+#include "timing/steps.hpp"
+
 namespace tessera::timing {
 namespace {
 
@@ -21,6 +23,15 @@ struct Drawn {
   ::timing::Case one;
   System system;
 };
+
+Time total_of(const std::vector<Step>& steps) {
+  Time all = 0;
+  for (const Step& step : steps) {
+    EXPECT_GT(step.time, 0);
+    all += step.time;
+  }
+  return all;
+}
 
 // TESSERA_TIMING_SYSTEMS=200000 compares so many.
 TEST(Reference, HasTheSameBounds) {
@@ -53,6 +64,11 @@ TEST(Reference, HasTheSameBounds) {
       const ::timing::ChainBound best = reference.bound(chain), sum = reference.bound(chain, false);
       const ChainBound found = bounds.chain(chain_of(chain)), summed = bounds.sum(chain_of(chain));
       ASSERT_EQ(found, (ChainBound{same(best.age), same(best.reaction), same(best.start), best.enumerated}));
+      if (found.reaction < unbounded) {
+        const ChainSteps steps = steps_of(bounds, chain_of(chain));
+        ASSERT_EQ(total_of(steps.age), found.age);
+        ASSERT_EQ(total_of(steps.reaction), found.reaction);
+      }
       ASSERT_EQ(summed, (ChainBound{same(sum.age), same(sum.reaction), same(sum.start), false}));
     }
   }

@@ -23,6 +23,7 @@ class Dependents {
 
   std::vector<Path> find() {
     items({"channels"});
+    items({"timing", "chains"});
     entries({"drivers"}, false);
     entries({"simulation", "drivers"}, true);
     entries({"simulation", "models"}, false);

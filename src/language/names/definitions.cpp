@@ -33,6 +33,7 @@ void IndexBuilder::build() {
   for (const Entry& placed : root_["simulation"]["models"].entries) paths(placed.extent, Place::agent);
   use_in_deployment();
   use_in_formulas();
+  use_in_chains();
   use_in_world(root_["simulation"]);
   share_names();
   sort_uses();

@@ -96,6 +96,7 @@ class IndexBuilder {
   void use_in_drivers(const Node& drivers);
   void use_in_deployment();
   void use_in_formulas();
+  void use_in_chains();
   /// Objects that are models placed in the world; others are bodies of its file.
   void use_in_world(const Node& simulation);
   void sort_uses();

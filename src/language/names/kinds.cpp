@@ -62,6 +62,7 @@ const NamesOf& members(const UnitNames& unit, Place place, std::string_view name
   if (place == Place::from) return unit.outputs;
   if (place == Place::to) return unit.inputs;
   if (place == Place::real) return unit.real;
+  if (place == Place::chain) return unit.outputs.contains(name) ? unit.outputs : unit.inputs;
   if (unit.behaviours.contains(name)) return unit.behaviours;
   return unit.inputs.contains(name)    ? unit.inputs
          : unit.outputs.contains(name) ? unit.outputs

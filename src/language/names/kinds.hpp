@@ -10,7 +10,7 @@
 namespace tessera::language {
 
 /// The kind of the third word of a path.
-enum class Place : std::uint8_t { agent, from, to, real, formula };
+enum class Place : std::uint8_t { agent, from, to, real, formula, chain };
 
 [[nodiscard]] bool is_nothing(const Node& node);
 
@@ -23,7 +23,7 @@ enum class Place : std::uint8_t { agent, from, to, real, formula };
 [[nodiscard]] std::string fleet_of(Kind kind, const Node& value, std::string_view type);
 
 /// The names of a subsystem among which the third word of a path is. A formula names behaviours, and buffers that have
-/// no behaviour of their name: `robot.control.line.full`.
+/// no behaviour of their name: `robot.control.line.full`. A chain names buffers.
 [[nodiscard]] const NamesOf& members(const UnitNames& unit, Place place, std::string_view name);
 
 }  // namespace tessera::language

@@ -1,4 +1,4 @@
-// The second walk of an index: paths in channels, drivers, properties and checks.
+// The second walk of an index: paths in channels, drivers, properties, chains and checks.
 
 #include <algorithm>
 #include <set>
@@ -106,6 +106,11 @@ void IndexBuilder::use_in_formulas() {
       paths(*entry.value, Place::formula);
       for (const Entry& item : entry.value->items) paths(*item.value, Place::formula);
     }
+}
+
+void IndexBuilder::use_in_chains() {
+  for (const Entry& chain : root_["timing"]["chains"].items)
+    for (const Entry& stop : (*chain.value)["path"].items) paths(*stop.value, Place::chain);
 }
 
 void IndexBuilder::use_in_world(const Node& simulation) {

@@ -20,7 +20,7 @@ class Completer {
  private:
   static constexpr std::size_t most_proposals = 1000;
   /// The element that a path in a text leads to.
-  enum class PathEnd : std::uint8_t { agent, output, input, real, behaviour };
+  enum class PathEnd : std::uint8_t { agent, subsystem, output, input, real, behaviour };
 
   void add(Proposal::Kind kind, const std::string& label, std::string detail = {}, std::string insert = {},
            std::string documentation = {});

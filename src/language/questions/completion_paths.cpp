@@ -31,14 +31,15 @@ void Completer::paths(PathEnd end, const std::string& fleet) {
   const DefinitionNames* definition = index_.definition_of(names[0]);
   if (definition == nullptr || end == PathEnd::agent) return;
   for (const UnitNames& unit : definition->units) {
-    if (names.size() == 1 && (end == PathEnd::behaviour || !ends(unit, end).empty()))
+    const bool any = end == PathEnd::behaviour || end == PathEnd::subsystem;
+    if (names.size() == 1 && (any || !ends(unit, end).empty()))
       add(Proposal::Kind::name, unit.name, "subsystem");
     if (names.size() == 2 && unit.name == names[1]) {
       if (end == PathEnd::real)
         add_names(ends(unit, end));
-      else
+      else if (end != PathEnd::subsystem)
         members_of_fleets(ends(unit, end), fleet);
-      if (end == PathEnd::behaviour) {
+      if (any) {
         members_of_fleets(unit.outputs, fleet);
         members_of_fleets(unit.inputs, fleet);
       }
@@ -107,14 +108,17 @@ void Completer::whole_paths(PathEnd end, const std::string& fleet) {
     }
     const DefinitionNames* definition = index_.definition_of(agent);
     if (definition == nullptr) continue;
-    for (const UnitNames& unit : definition->units)
-      for (const auto& [part, symbol] : ends(unit, end)) {
-        if (proposals_.size() >= most_proposals) return;
-        const std::string index = index_[symbol].fleet.empty() ? "" : fleet;
-        add_path(name + "." + unit.name + "." + part + index, index_[symbol].type);
-        if (end == PathEnd::behaviour && index_[symbol].is_group)
-          paths_in_group(unit, symbol, name + "." + unit.name + "." + part, 0);
-      }
+    if (end == PathEnd::subsystem)
+      for (const UnitNames& unit : definition->units) add_path(name + "." + unit.name, "subsystem");
+    else
+      for (const UnitNames& unit : definition->units)
+        for (const auto& [part, symbol] : ends(unit, end)) {
+          if (proposals_.size() >= most_proposals) return;
+          const std::string index = index_[symbol].fleet.empty() ? "" : fleet;
+          add_path(name + "." + unit.name + "." + part + index, index_[symbol].type);
+          if (end == PathEnd::behaviour && index_[symbol].is_group)
+            paths_in_group(unit, symbol, name + "." + unit.name + "." + part, 0);
+        }
   }
 }
 

@@ -18,6 +18,7 @@
 #include "project/verification/violation.hpp"
 #include "spec/model/former_routes.hpp"
 #include "spec/parser.hpp"
+#include "timing/declared.hpp"
 #include "verify/communication/model_soundness.hpp"
 
 namespace tessera::project {
@@ -79,6 +80,7 @@ Draft draft_of(diagnostics::Diagnostics& text, const fs::path& project) {
   draft.model = spec::parse(text);
   if (!draft.model) return draft;
   note_former_routes(*draft.model, text);
+  timing::note_missing(*draft.model, text);
   // A mistake in a driver does not change the net.
   if (!project.empty()) find_messages(*draft.model, project, text);
   judge_models(*draft.model, text);

@@ -16,6 +16,7 @@
 #include "spec/model/ids.hpp"
 #include "spec/model/panel.hpp"
 #include "spec/model/property.hpp"
+#include "spec/model/timing.hpp"
 #include "spec/model/types.hpp"
 #include "spec/model/world.hpp"
 #include "tessera/overrun.hpp"
@@ -345,6 +346,7 @@ struct Model {
   Numbered<ChannelId, Channel> channels;  ///< in the order of the file, fleets expanded agent by agent
   std::vector<Driver> drivers;            ///< of the real robot (`drivers:`)
   std::vector<Property> properties;
+  Timing timing;
   std::optional<Simulation> simulation;
   std::optional<Deployment> deployment;
 

@@ -1,4 +1,5 @@
 import { Api, hasToken, message, shareToken, takeToken } from "./api";
+import { Arrangement } from "./arrangement";
 import { Camera } from "./camera";
 import { Connection } from "./stream/connection";
 import { Coverages } from "./run/coverage";
@@ -81,12 +82,13 @@ export class Studio {
   readonly recordings = new Recordings(this.api, this.draft);
   readonly scene = new Scene(this.desk, this.runner, this.recordings);
   readonly sweeps = new Sweeps(this.api, this.connection);
-  readonly plots = new Plots();
+  readonly arrangement = new Arrangement(this.api);
+  readonly plots = new Plots(this.arrangement);
   readonly plotted = new PlottedRecordings(this.api, this.draft, this.scene, this.plots);
   readonly coverage = new Coverages(this.api, this.scene, this.runner);
   readonly camera = new Camera();
   readonly guide = new Guide(localStorage);
-  readonly dock = new Dock();
+  readonly dock = new Dock(this.arrangement);
   /** The seconds that timelines and curves show. */
   readonly watched = new Store({ seconds: 10 });
   readonly project = new Store<{ project: Project | null; problem: string }>({ project: null, problem: "" });
@@ -96,6 +98,7 @@ export class Studio {
     // In a narrow window, the drawing needs the space.
     text: innerWidth > 900,
     theme: matchMedia("(prefers-color-scheme: dark)").matches ? "dark" : "light",
+    map: null,
     ...keptView(),
     selected: null,
     ...linkedView(),
@@ -127,8 +130,8 @@ export class Studio {
     this.editor.saveOthers = () => this.sources.saveAll();
     this.draft.wrote = (files) => void this.sources.reread(files);
     this.view.subscribe(() => {
-      const { view, panel, text, theme } = this.view.get();
-      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme }));
+      const { view, panel, text, theme, map } = this.view.get();
+      if (this.linked) sessionStorage.setItem(kept, JSON.stringify({ view, panel, text, theme, map }));
       this.link();
     });
     let followed: Replay | undefined;
@@ -190,11 +193,12 @@ export class Studio {
   async open(): Promise<void> {
     try {
       const asked = this.api.project();
-      void asked.then(
-        (project) => this.beginDock(fileOf(project)),
+      const arranged = this.arrangement.load();
+      void Promise.all([asked, arranged]).then(
+        ([project]) => this.beginDock(fileOf(project)),
         () => this.beginDock(""),
       );
-      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf)), this.layoutFile.load()]);
+      const [project] = await Promise.all([asked, this.editor.load(asked.then(fileOf)), this.layoutFile.load(), arranged]);
       this.project.set({ project, problem: "" });
       this.sources.restore(project.folder);
       this.plots.restore(fileOf(project));
@@ -243,7 +247,7 @@ export class Studio {
     this.serverStart = start;
     if (known !== undefined) void this.layoutFile.load();
     if (!this.project.get().project) {
-      const project = await this.api.project();
+      const [project] = await Promise.all([this.api.project(), this.arrangement.load()]);
       this.project.set({ project, problem: "" });
       this.beginDock(fileOf(project));
       await this.editor.load(Promise.resolve(fileOf(project)));

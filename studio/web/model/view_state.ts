@@ -26,6 +26,8 @@ export interface ViewState {
   panel: PanelName;
   text: boolean;
   theme: "light" | "dark";
+  /** Whether a map is drawn while a part of the structure is out of sight; null: if there is much space. */
+  map: boolean | null;
   /** Path of the selected element. */
   selected: string | null;
   /** Line of the specification to show in the text pane, with a number that makes each request new. */

@@ -45,7 +45,8 @@ export function Problems() {
               <button className="problem" onClick={() => go(one.line)}>
                 <span className={`dot ${one.severity}`} />
                 <span className="where">
-                  {one.line}:{one.column}
+                  {/* The message names the line of an included file. */}
+                  {one.line > 0 && `${one.line}:${one.column}`}
                 </span>
                 <span className="what">
                   {one.message}

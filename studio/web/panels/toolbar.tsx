@@ -3,6 +3,7 @@ import { isUnsaved } from "../live/draft";
 import type { View } from "../model/view_state";
 import { About } from "./about";
 import { Icon, IconButton } from "./icons";
+import { PathText } from "../canvas/path_text";
 import { PanelsMenu } from "./panels_menu";
 import { Steps } from "./steps";
 
@@ -21,7 +22,9 @@ export function Toolbar() {
       <div className="toolbar-row">
         <About />
         <h1 className="project" title={project ? `${project.folder}/${project.file}` : ""}>
-          <span className="name">{project?.name ?? "…"}</span>
+          <span className="name">
+            <PathText of={project?.name ?? "…"} />
+          </span>
           {dirty && <span className="unsaved" title="Not saved yet" aria-label="not saved" role="img" />}
         </h1>
         <div className="segmented" role="tablist" aria-label="View">

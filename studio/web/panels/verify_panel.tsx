@@ -35,6 +35,7 @@ export function VerifyPanel() {
   const old = verifier.verdicts.length > 0 && verifier.text !== text;
   return (
     <div>
+      <h2 className="visually-hidden">Verify</h2>
       <div className="buttons" style={{ marginTop: 0 }}>
         {running ? (
           <button onClick={() => studio.verifier.stop()}>Stop</button>

@@ -1,5 +1,5 @@
 import type { Box } from "../../model/net/geometry";
-import { nameLines } from "../../model/net/labels";
+import { inMiddle, nameLines } from "../../model/net/labels";
 
 /** Widths in pixels of boxes with a cut name, and the space beside it. */
 const cutWidths = [40, 56, 76, 100, 130, 170, 220];
@@ -37,7 +37,7 @@ export function cutTo(name: string, room: number): string {
   if (name.length <= room) return name;
   const member = /\[\d+\]$/.exec(name)?.[0] ?? "";
   const end = member.length < room - 1 ? member : "";
-  return `${name.slice(0, room - 1 - end.length)}…${end}`;
+  return end ? `${name.slice(0, room - 1 - end.length)}…${end}` : inMiddle(name, room);
 }
 
 /**
@@ -52,7 +52,10 @@ export function closedName(name: string, box: Box): ClosedName {
     return { lines, size, more: largest / size };
   };
   const ways = [1, 2, 3].map((most) => fitting(nameLines(name, most)));
-  const { lines, size, more } = ways.reduce((best, one) => (one.size > best.size * 1.15 ? one : best));
+  // More lines are worth it if their letters are larger, or if the whole name is readable from farther away.
+  const isBetter = (one: (typeof ways)[number], best: (typeof ways)[number]) =>
+    one.size > best.size * 1.15 || (one.size > best.size * 0.85 && one.size * one.more > best.size * best.more * 1.15);
+  const { lines, size, more } = ways.reduce((best, one) => (isBetter(one, best) ? one : best));
   const y = box.y + box.height / 2;
   const below = y + size / 3 + ((lines.length - 1) * size * pitch) / 2;
   // The width in pixels at which the whole name becomes readable.

@@ -1,13 +1,4 @@
-import {
-  Background,
-  BackgroundVariant,
-  Controls,
-  Panel,
-  ReactFlow,
-  useReactFlow,
-  useStore as useFlow,
-  type ReactFlowState,
-} from "@xyflow/react";
+import { Background, BackgroundVariant, ReactFlow, useReactFlow, useStore as useFlow, type ReactFlowState } from "@xyflow/react";
 import {
   useEffect,
   useMemo,
@@ -31,6 +22,7 @@ import type { Placed, Sheets } from "../../model/net/sheets";
 import { canvasKey } from "./canvas_keys";
 import { currentPage } from "./current_page";
 import { steps } from "../detail";
+import { CanvasFoot } from "../canvas_foot";
 import { Legend } from "../legend";
 import { LensOverlay } from "../lens_overlay";
 import { useFlight } from "../flight";
@@ -144,49 +136,53 @@ export function Drawing({ pane, net, sheets, version, lead, label, legend, onCur
     if (canvasKey(event, { net, sheets, selected, current, studio, stage, flow })) event.preventDefault();
   };
   return (
-    <div
-      className="canvas-area"
-      role="application"
-      aria-label={`${label}. Arrow keys move, Enter opens, Escape goes up, F folds.`}
-      tabIndex={0}
-      style={{ "--zoom": steps(zoom) } as CSSProperties}
-      {...(painted ? { [paintedMark]: "" } : {})}
-      onPointerOver={point}
-      onPointerMove={painted ? point : undefined}
-      onClick={click}
-      onDoubleClick={doubleClick}
-      onKeyDown={keys}
-    >
-      <ReactFlow<SheetNode>
-        id={lead ? "net" : "net-beside"}
-        nodes={nodes}
-        edges={noEdges}
-        nodeTypes={nodeTypes}
-        minZoom={0.02}
-        maxZoom={60}
-        nodesDraggable={false}
-        nodesConnectable={false}
-        nodesFocusable={false}
-        elementsSelectable={false}
-        zoomOnDoubleClick={false}
-        disableKeyboardA11y
-        proOptions={{ hideAttribution: true }}
+    <>
+      <div
+        className="canvas-area"
+        role="application"
+        aria-label={`${label}. Arrow keys move, Enter opens, Escape goes up, F folds.`}
+        tabIndex={0}
+        style={{ "--zoom": steps(zoom) } as CSSProperties}
+        {...(painted ? { [paintedMark]: "" } : {})}
+        onPointerOver={point}
+        onPointerMove={painted ? point : undefined}
+        onClick={click}
+        onDoubleClick={doubleClick}
+        onKeyDown={keys}
       >
-        {painted && <NetLayer scene={scene} window={window} stage={stage} />}
-        <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
-        {root && (
-          <LensOverlay
-            net={net}
-            whole={{ x: 0, y: 0, width: root.width, height: root.height }}
-            boxOf={boxOf}
-            names={lens ? namesOf(net, sheets) : []}
-            version={sheets}
-          />
-        )}
-        <Panel position="bottom-left">{legend ?? (lead && <Legend of="net" />)}</Panel>
-        {lead && <Controls showInteractive={false} position="bottom-right" />}
-      </ReactFlow>
-    </div>
+        <ReactFlow<SheetNode>
+          id={lead ? "net" : "net-beside"}
+          nodes={nodes}
+          edges={noEdges}
+          nodeTypes={nodeTypes}
+          minZoom={0.02}
+          maxZoom={60}
+          nodesDraggable={false}
+          nodesConnectable={false}
+          nodesFocusable={false}
+          elementsSelectable={false}
+          zoomOnDoubleClick={false}
+          disableKeyboardA11y
+          proOptions={{ hideAttribution: true }}
+        >
+          {painted && <NetLayer scene={scene} window={window} stage={stage} />}
+          <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
+          {root && (
+            <LensOverlay
+              net={net}
+              whole={{ x: 0, y: 0, width: root.width, height: root.height }}
+              boxOf={boxOf}
+              names={lens ? namesOf(net, sheets) : []}
+              version={sheets}
+            />
+          )}
+        </ReactFlow>
+      </div>
+      <CanvasFoot zoom={lead ? "near, far and whole" : "none"}>
+        {lead && <Legend of="net" />}
+        {legend}
+      </CanvasFoot>
+    </>
   );
 }
 

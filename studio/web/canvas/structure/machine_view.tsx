@@ -59,7 +59,7 @@ export function MachineView({ subsystem, machine, selected, complaints, now }: S
             data-path={behaviour.path}
             aria-pressed={selected === behaviour.path}
             title={behaviour.for ? `${name}, for ${behaviour.for}` : name}
-            aria-label={`${what} ${name}${runs(behaviour) ? ", running" : ""}`}
+            aria-label={`${what} ${name}${behaviour.for ? "[i]" : ""}${runs(behaviour) ? ", running" : ""}`}
           >
             {chipText(behaviour)}
             <Flag of={complaints.get(behaviour.path)} />

@@ -1,9 +1,7 @@
 import {
   Background,
   BackgroundVariant,
-  Controls,
   MiniMap,
-  Panel,
   ReactFlow,
   ReactFlowProvider,
   useReactFlow,
@@ -35,11 +33,14 @@ import { leastPixels } from "../../model/structure/text_size";
 import { ChainOverlay } from "./chain_overlay";
 import { ChannelLayer, ChannelTip } from "./channel_layer";
 import { nothing, useDrawn, type Drawn } from "./drawn_structure";
+import { PathText } from "../path_text";
 import { useFocusInSight } from "../drawing_focus";
 import { ExportButtons } from "../export_button";
 import { LayoutProblem } from "../layout_problem";
+import { CanvasFoot } from "../canvas_foot";
 import { Legend } from "../legend";
 import { LensOverlay } from "../lens_overlay";
+import { mapClass, MapToggle, useMap } from "./map_toggle";
 import { useMoved } from "./moved_drawing";
 import { measured } from "./measured_text";
 import { useSteadyView } from "../steady_view";
@@ -152,19 +153,6 @@ const Notice = ({ first, problem }: { first: boolean; problem: string }) => (
   </p>
 );
 
-/** A small map with the visible part, while a part of the drawing is out of sight. */
-function Map({ whole }: { whole: Box }) {
-  const partly = useFlow(({ transform: [x, y, zoom], width, height }) => {
-    const margin = 4;
-    const inside =
-      x + whole.x * zoom >= -margin && y + whole.y * zoom >= -margin && x + (whole.x + whole.width) * zoom <= width + margin;
-    return !(inside && y + (whole.y + whole.height) * zoom <= height + margin) && width > 420;
-  });
-  if (!partly) return null;
-  const agents = (node: Node) => (node.type === "agent" ? "map-agent" : "map-part");
-  return <MiniMap position="top-right" pannable zoomable nodeClassName={agents} ariaLabel="Map of the whole system" />;
-}
-
 /** Agents in the form that robotics uses. Dragging from an output to an input makes a channel. */
 export function StructureCanvas() {
   return (
@@ -237,12 +225,13 @@ function Drawing() {
     moved.current = false;
     void flow.fitBounds(whole, { duration: still.matches ? 0 : 350, padding: 0.03 });
   };
+  const map = useMap(whole);
   const counts = zoom * mostBundleLetters >= leastPixels;
   return (
     <div className="canvas structure" data-testid="structure">
       <div className="breadcrumbs">
         <span className="crumb" aria-current="page">
-          {structure.system || "system"}
+          <PathText of={structure.system || "system"} />
         </span>
         <span className="layer-name">
           {detail === "all" ? "drag from an output to an input to connect them" : "double-click an agent to see what is in it"}
@@ -300,11 +289,9 @@ function Drawing() {
               version={drawing}
             />
             <Background variant={BackgroundVariant.Dots} gap={28} size={1} />
-            <Panel position="bottom-left">
-              <Legend of="structure" />
-            </Panel>
-            <Map whole={whole} />
-            <Controls showInteractive={false} showFitView={false} position="bottom-right" />
+            {map.shown && (
+              <MiniMap position="top-right" pannable zoomable nodeClassName={mapClass} ariaLabel="Map of the whole system" />
+            )}
             <StructureHands
               structure={structure}
               area={area}
@@ -321,6 +308,10 @@ function Drawing() {
         </SurroundingsContext.Provider>
         {(busy || problem) && <Notice first={drawn === nothing} problem={problem} />}
       </div>
+      <CanvasFoot zoom="near and far">
+        <Legend of="structure" />
+        <MapToggle map={map} />
+      </CanvasFoot>
     </div>
   );
 }

@@ -56,6 +56,7 @@ const addItems = (elements: ElementEdits, thing: Thing): Item[] => {
     case "agent":
     case "template": {
       const { of } = thing;
+      if (of.included) return [];
       const control = of.subsystems.some(({ kind }) => kind === "control");
       return [
         ...(control ? [] : [{ title: "Add control subsystem", act: () => elements.addSubsystem(of, "control") }]),

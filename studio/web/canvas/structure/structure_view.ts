@@ -23,6 +23,7 @@ export function useWholeUntilMoved(drawn: Drawn, whole: Box, near: (path: string
   const studio = useStudio();
   const size = useFlow((state) => `${state.width} ${state.height}`);
   const last = useRef<Box | null>(null);
+  const lastSize = useRef({ width: 0, height: 0 });
   useEffect(() => {
     const [across, down] = size.split(" ").map(Number) as [number, number];
     if (across === 0 || drawn === nothing || moved.current) return;
@@ -33,6 +34,11 @@ export function useWholeUntilMoved(drawn: Drawn, whole: Box, near: (path: string
     // The space around the drawing included.
     const fits = Math.min(across / least.width, down / least.height) * 0.94;
     const { selected } = studio.view.get();
+    // A list below the drawing, or a row above it, takes some of its height: that is no reason to draw less.
+    const { width: before, height: high } = lastSize.current;
+    lastSize.current = { width: across, height: down };
+    const isLower = across === before && down < high && down > 0.6 * high;
+    if (isLower && last.current === whole && fits < drawn.levels.all && flow.getZoom() >= drawn.levels.all) return;
     const isEdited = last.current !== null && last.current !== whole && flow.getZoom() >= drawn.levels.all;
     last.current = whole;
     if (isEdited && fits < drawn.levels.all && selected?.includes(".")) near(selected);

@@ -2,8 +2,8 @@ import { panelsIn, pruned, readTree, restored, seenIn, tabSets, withTabSet, type
 import {
   closedIn,
   layoutNames,
-  narrowBelow,
   readyLayout,
+  widthName,
   type LayoutName,
   type Places,
   type WidthName,
@@ -29,8 +29,6 @@ export interface DockState {
   /** The one that the user has chosen last. */
   chosen: string;
 }
-
-const widthName = (width: number): WidthName => (width < narrowBelow ? "narrow" : "wide");
 
 /**
  * The panels around the drawing: which are open and where they stand, kept for each project. A panel that has nothing to show

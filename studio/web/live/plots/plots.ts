@@ -63,15 +63,17 @@ export function plotsOf(text: string | null): PlotsState {
   return { plots: read, active: typeof active === "number" && read[active] ? active : 0, problem: "" };
 }
 
-/** The plots of the project. They are kept in this browser. */
+/** The plots of the project. They are kept for the user. */
 export class Plots {
   readonly store = new Store<PlotsState>(fresh);
   private key = "";
 
+  constructor(private readonly storage: Pick<Storage, "getItem" | "setItem"> = localStorage) {}
+
   /** project: its folder and file. */
   restore(project: string): void {
     this.key = `tessera.plots:${project}`;
-    this.store.set(plotsOf(localStorage.getItem(this.key)));
+    this.store.set(plotsOf(this.storage.getItem(this.key)));
   }
 
   get shown(): PlotKept {
@@ -129,7 +131,7 @@ export class Plots {
   private keep(next: Pick<PlotsState, "plots" | "active">): void {
     let problem = "";
     try {
-      if (this.key) localStorage.setItem(this.key, JSON.stringify(next));
+      if (this.key) this.storage.setItem(this.key, JSON.stringify(next));
     } catch {
       problem = "This browser does not keep the plots: its storage is full or switched off.";
     }

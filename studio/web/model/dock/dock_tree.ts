@@ -128,7 +128,10 @@ function beside(tree: Row, whole: Row, home: TabSet, panel: string): Row {
         .map(({ id }) => id)
         .filter((id) => present.has(id));
       if (ids.length === 0) continue;
-      const share = row.children[at]!.weight / (weightOf(row.children) || 1);
+      // Its other cells that are missing come later, and take their shares then.
+      const there = row.children.filter((cell) => tabSets(cell).some(({ id }) => present.has(id)));
+      const mine = row.children[at]!.weight;
+      const share = mine / (mine + weightOf(there));
       return inserted(tree, smallest(tree, ids), { added, share, vertical: depth % 2 === 0, after: at > one });
     }
   }

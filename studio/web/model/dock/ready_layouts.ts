@@ -6,14 +6,18 @@ export type LayoutName = (typeof layoutNames)[number];
 
 export const layoutTitles: Record<LayoutName, string> = { edit: "Edit", debug: "Debug", operate: "Operate" };
 
-/** The panel that is in front of its tab set. */
-const fronts: Record<LayoutName, string> = { edit: "inspect", debug: "run", operate: "run" };
+/** The panels that are in front of their tab sets. */
+const fronts: Record<LayoutName, readonly string[]> = {
+  edit: ["inspect"],
+  debug: ["run", "timeline", "events"],
+  operate: ["run"],
+};
 
-/** The widths of windows that have layouts of their own: beside each other, or below each other. */
-export type WidthName = "wide" | "narrow";
+/** The widths of windows that have layouts of their own: panels on both sides of the drawing, on one side, or below it. */
+export type WidthName = "wide" | "medium" | "narrow";
 
-/** Windows of fewer pixels are narrow. */
-export const narrowBelow = 900;
+/** The name of a width of so many pixels. */
+export const widthName = (pixels: number): WidthName => (pixels < 900 ? "narrow" : pixels < 1240 ? "medium" : "wide");
 
 /** The places of a layout where panels stand. */
 export type Slot = "left" | "centre" | "right" | "corner" | "below" | "middle" | "end";
@@ -33,11 +37,13 @@ export interface Places {
 const tabs = (id: Slot, weight: number): Cell => ({ kind: "tabs", id, weight, tabs: [], front: "" });
 const row = (id: string, weight: number, ...children: Cell[]): Row => ({ kind: "row", id, weight, children });
 
-/** A window of 1024 pixels leaves 400 to the drawing; a larger one gives it what is more. */
+/** The tabs at the right stand in one row. */
+const rightPixels = 386;
+
+/** The drawing gets what the text and the forms leave. */
 function shares(width: number): { left: number; right: number } {
-  const left = Math.min(420, Math.max(220, width - 780));
-  const right = Math.min(360, width * 0.32);
-  return { left: (100 * left) / width, right: (100 * right) / width };
+  const left = Math.min(400, Math.max(300, width - 1080));
+  return { left: (100 * left) / width, right: (100 * rightPixels) / width };
 }
 
 const skeletons: Record<LayoutName, (width: number) => Row> = {
@@ -61,7 +67,7 @@ const skeletons: Record<LayoutName, (width: number) => Row> = {
     return row(
       "root",
       100,
-      row("top", 62, tabs("left", 26), tabs("centre", 46), row("side", Math.max(right, 28), tabs("end", 45), tabs("right", 55))),
+      row("top", 62, tabs("left", 26), tabs("centre", 74 - right), row("side", right, tabs("end", 45), tabs("right", 55))),
       row("bottom", 38, tabs("below", 50), tabs("middle", 27), tabs("corner", 23)),
     );
   },
@@ -79,18 +85,37 @@ const skeletons: Record<LayoutName, (width: number) => Row> = {
     ),
 };
 
+/** In a window of medium width, panels stand in two columns: those at the left of a wide window below the drawing. */
+function mediumLayout(layout: LayoutName, width: number): Row {
+  if (layout === "operate") return skeletons.operate(width);
+  const right = (100 * rightPixels) / width;
+  const side =
+    layout === "edit"
+      ? row("side", right, tabs("right", 62), tabs("middle", 38))
+      : row("side", right, tabs("end", 34), tabs("right", 36), tabs("middle", 30));
+  return row("root", 100, row("top", 100, row("inner", 100 - right, tabs("centre", 60), tabs("below", 40)), side));
+}
+
+/** The places of a medium window that stand for others. */
+const mediumSlots: Record<LayoutName, Partial<Record<Slot, Slot>>> = {
+  edit: { left: "below", end: "middle", corner: "middle" },
+  debug: { left: "below", corner: "middle" },
+  operate: {},
+};
+
 /** In a narrow window, the panels are a stack of tabs below the drawing. */
 const stack = row("root", 100, tabs("centre", 46), tabs("right", 54));
 
 /** A layout as it comes with the page, for a window of so many pixels. */
 export function readyLayout(layout: LayoutName, panels: readonly Places[], width: number): Row {
-  const narrow = width < narrowBelow;
-  const whole = narrow ? stack : skeletons[layout](width);
-  const slotOf = (one: Places): Slot => (narrow && one[layout] !== "centre" ? "right" : one[layout]);
+  const name = widthName(width);
+  const whole = { narrow: () => stack, medium: () => mediumLayout(layout, width), wide: () => skeletons[layout](width) }[name]();
+  const slotOf = ({ [layout]: slot }: Places): Slot =>
+    name === "narrow" && slot !== "centre" ? "right" : (name === "medium" && mediumSlots[layout][slot]) || slot;
   const walk = (cell: Cell): Cell => {
     if (cell.kind === "row") return { ...cell, children: cell.children.map(walk) };
     const mine = panels.filter((one) => slotOf(one) === cell.id).map(({ name }) => name);
-    return { ...cell, tabs: mine, front: mine.find((name) => name === fronts[layout]) ?? mine[0] ?? "" };
+    return { ...cell, tabs: mine, front: fronts[layout].find((name) => mine.includes(name)) ?? mine[0] ?? "" };
   };
   return pruned(walk(whole) as Row, () => true);
 }

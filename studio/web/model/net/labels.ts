@@ -48,6 +48,13 @@ export function nameLines(name: string, most: number): string[] {
   return lines;
 }
 
+/** A name of so many letters, with its begin and its end: the names of a system often have the same begin or the same end. */
+export function inMiddle(name: string, letters: number): string {
+  if (name.length <= letters) return name;
+  const end = letters < 9 ? 0 : Math.floor((letters - 1) / 2);
+  return `${name.slice(0, Math.max(1, letters - 1 - end))}…${name.slice(name.length - end)}`;
+}
+
 /** The text of a screen reader for an element. */
 export function spoken(net: NetModel, path: string): string {
   const asPage = net.pageByPath.get(path);

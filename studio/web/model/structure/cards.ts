@@ -32,7 +32,8 @@ export const deviceTitle = ({ kind }: Subsystem) => (kind === "effector" ? "real
 export const rateText = ({ yaml }: Structure, { yaml: at }: Subsystem) => yaml.followedText([...at, "rate"]) ?? "";
 
 /** The text behind the name of an agent: " × 3 uses carrier". */
-export const agentNote = ({ count, template }: Agent) => `${count ? ` × ${count}` : ""}${template ? ` uses ${template}` : ""}`;
+export const agentNote = ({ count, template, included }: Agent) =>
+  `${count ? ` × ${count}` : ""}${template ? ` uses ${template}` : ""}${included ? " of an included file" : ""}`;
 
 /** Letters on the screen are rounded to pixels, so texts may be a little wider than measured. */
 const safe = (width: number) => width * 1.03 + 1;

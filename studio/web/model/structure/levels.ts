@@ -76,8 +76,9 @@ export function sizeOfFilled({ lines, size, notes }: FilledBox, font: "agent" | 
 const counted = (count: number, one: string) => `${count} ${one}${count === 1 ? "" : "s"}`;
 
 /** The name of an agent that fills its box; undefined: there is no room. */
-export function agentFilled({ name, count, subsystems }: Agent, box: Box, zoom: number, measure: Measure) {
-  const notes = [...(count ? [`× ${count}`] : []), counted(subsystems.length, "subsystem")];
+export function agentFilled({ name, count, included, subsystems }: Agent, box: Box, zoom: number, measure: Measure) {
+  const inside = included ? "in an included file" : counted(subsystems.length, "subsystem");
+  const notes = [...(count ? [`× ${count}`] : []), inside];
   return filled(name, notes, inner(box, zoom, 14, 8), "agent", measure);
 }
 

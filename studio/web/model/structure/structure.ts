@@ -64,6 +64,8 @@ export interface Agent {
   /** The part of the file with its subsystems: at the agent or at its template. */
   body: YamlPath;
   template: string;
+  /** Whether the template is in an included file: the text does not have its subsystems then. */
+  included: boolean;
   count: string;
   line: number;
   subsystems: Subsystem[];
@@ -134,7 +136,9 @@ function readAgent(yaml: YamlText, at: YamlPath, name: string): Agent {
       yaml.keys([...body, `${kind}s`]).map((own) => readSubsystem(yaml, name, kind, [...body, `${kind}s`, own])),
     ),
   ];
-  return { name, yaml: at, body, template, count: yaml.valueText([...at, "count"]) ?? "", line: yaml.line(at), subsystems };
+  const included = template !== "" && !yaml.pair(body) && yaml.pair(["include"]) !== undefined;
+  const count = yaml.valueText([...at, "count"]) ?? "";
+  return { name, yaml: at, body, template, included, count, line: yaml.line(at), subsystems };
 }
 
 /** A template may refer to another template. */

@@ -89,7 +89,7 @@ function Log({ pane, track }: { pane: Pane; track: Track }) {
         <input
           type="text"
           aria-label="Agent or subsystem"
-          placeholder="agent or subsystem"
+          placeholder="subsystem"
           list={`paths-${track.id}`}
           value={of}
           onChange={(event) => setOf(event.target.value)}

@@ -80,7 +80,9 @@ function FilmDialog({ replay, pane, close }: { replay: Replay | null; pane: numb
       const picture = await withVectors([area], () => takeFirstPicture(area));
       const plots = replay ? filmedPlots(studio, structure, begin, last) : null;
       const system = studio.project.get().project?.name;
-      const run = system ? `${system}, ${scenes.title}` : scenes.title;
+      // The name that the user has given to the recording.
+      const given = replay && studio.recordings.store.get().list.find(({ name }) => name === replay.name)?.notes?.title;
+      const run = system ? `${system}, ${given || scenes.title}` : given || scenes.title;
       const title = replay ? `${run}, ${seconds(begin)} s to ${seconds(last)} s` : run;
       const film = filmOf({ ...scenes, title }, net, drawnIn(picture.text), {
         ...(replay ? { length: (last - begin) / 1e9 } : {}),

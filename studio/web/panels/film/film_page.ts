@@ -36,6 +36,7 @@ ${styleOf(colours)}
 </style>
 </head>
 <body>
+<main>
 <h1>${escaped(film.title)}</h1>
 <p id="turn"></p>
 <p id="last"></p>
@@ -53,6 +54,7 @@ ${world ?? ""}
 ${plots ?? ""}
 </div>
 <p class="keys">Space plays and pauses. ← and → go by one firing, ↑ and ↓ by one second, Home and End to the ends.</p>
+</main>
 <script type="application/json" id="film">${data}</script>
 <script>
 ${player}
@@ -94,5 +96,6 @@ button, select { font: inherit; color: inherit; min-width: 44px; padding: 4px 10
 .keys { color: ${soft}; font-size: 13px; margin: 10px 0 0; }
 .bar.fired > .shape { fill: ${accent}; }
 .page.occupied > .shape { stroke: ${accent}; fill: ${runs}; }
+.before-end :is(.lens-wait, .lens-stuck, .lens-awaited) { display: none; }
 .page .token.inside { display: none; }
 .page.folded.occupied > .token.inside { display: inline; }`;

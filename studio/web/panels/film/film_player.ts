@@ -50,6 +50,8 @@ const draw = (fired) => {
   // Firings follow each other too fast to be read; the last change of a behaviour stays.
   const turn = turnBefore(position);
   byId("turn").textContent = turn > 0 ? film.sentences[film.told[turn - 1]] + (film.times === null ? "" : " (" + (film.begin + secondsOf(turn)).toFixed(2) + " s)") : "";
+  // The subsystems that wait for each other do so at the end of the steps.
+  document.body.classList.toggle("before-end", film.times === null && position < length);
   drawWorld();
   const cursor = byId("cursor");
   if (cursor && end > 0) cursor.style.left = 100 * (film.plots.left + (film.plots.right - film.plots.left) * (time / end)) + "%";

@@ -88,11 +88,20 @@ function AgentForm({ structure, agent }: { structure: Structure; agent: Agent })
           onChange={(text) => edit(edits.set(agent.yaml, "ring", text))}
         />
       )}
-      <OnErrorField structure={structure} at={agent.body} behaviours={agent.subsystems.flatMap((one) => targetsIn(one))} />
-      <SharedNote structure={structure} agent={agent} />
-      {agent.template && <TemplateLink name={agent.template} />}
+      {agent.included ? (
+        <p className="faint">
+          The template {agent.template} is in an included file, which the studio does not change. The net shows its subsystems and
+          their channels.
+        </p>
+      ) : (
+        <>
+          <OnErrorField structure={structure} at={agent.body} behaviours={agent.subsystems.flatMap((one) => targetsIn(one))} />
+          <SharedNote structure={structure} agent={agent} />
+          {agent.template && <TemplateLink name={agent.template} />}
+        </>
+      )}
       <div className="buttons">
-        <AddSubsystem agent={agent} />
+        {!agent.included && <AddSubsystem agent={agent} />}
         {!agent.template && <button onClick={() => void edit(edits.makeTemplate(agent), agent.name)}>Make it a template</button>}
       </div>
       <Remove what="agent" at={agent.yaml} select={null} />

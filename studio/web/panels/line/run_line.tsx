@@ -61,9 +61,13 @@ function Controls() {
           <Icon name={paused ? "play" : "pause"} /> {paused ? "Resume" : "Pause"}
         </button>
       )}
-      <button title={watched ? "The controller runs on" : "Ends the run"} onClick={() => void control({ command: "stop" })}>
-        <Icon name="stop" /> {watched ? "Stop watching" : "Stop"}
-      </button>
+      {/* The word stands on the button of the step, which does the same. */}
+      <IconButton
+        name="stop"
+        label={watched ? "Stop watching" : "Stop"}
+        title={watched ? "Stop watching: the controller runs on" : "Stop: ends the run"}
+        onClick={() => void control({ command: "stop" })}
+      />
       {paced && state !== "building" && (
         <>
           <Steps paused={paused} />

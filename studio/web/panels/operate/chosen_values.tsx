@@ -9,9 +9,9 @@ import { useTrack } from "./seen_world";
 const most = 60;
 const keptFor = (folder: string) => `tessera.operate.values.${folder}`;
 
-function kept(folder: string): readonly string[] {
+function kept(storage: Pick<Storage, "getItem">, folder: string): readonly string[] {
   try {
-    const read: unknown = JSON.parse(localStorage.getItem(keptFor(folder)) ?? "[]");
+    const read: unknown = JSON.parse(storage.getItem(keptFor(folder)) ?? "[]");
     return Array.isArray(read) ? read.filter((one) => typeof one === "string") : [];
   } catch {
     return [];
@@ -40,7 +40,7 @@ export function ChosenValues() {
   const [chosen, setChosen] = useState<readonly string[]>([]);
   const [wanted, setWanted] = useState("");
   const [, look] = useState(0);
-  useEffect(() => setChosen(kept(folder)), [folder]);
+  useEffect(() => setChosen(kept(studio.arrangement, folder)), [studio, folder]);
   useEffect(() => {
     const timer = setInterval(() => look((at) => at + 1), 150);
     return () => clearInterval(timer);
@@ -50,7 +50,7 @@ export function ChosenValues() {
     const next = chosen.includes(path) ? chosen.filter((one) => one !== path) : [...chosen, path];
     setChosen(next);
     try {
-      localStorage.setItem(keptFor(folder), JSON.stringify(next));
+      studio.arrangement.setItem(keptFor(folder), JSON.stringify(next));
     } catch {
       // Without storage the choice counts until the page is closed.
     }

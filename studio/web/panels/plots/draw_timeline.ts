@@ -1,10 +1,31 @@
 import type { Track } from "../../live/run/track";
+import { inMiddle } from "../../model/net/labels";
 import { Timeline } from "../../model/run/timeline";
 import type { Colours, Size } from "../world/painted";
 
 const axis = 18;
-const names = 108;
 const last = 4;
+/** Pixels of a lane: in a lower one, its texts would touch those of its neighbours. */
+const lanes = { least: 20, most: 34 };
+/** Pixels of a letter, about. */
+const letter = 6.3;
+
+/** The width of the names of lanes: as long as they are, and a third of the picture at most. */
+function namesWidth({ timeline }: Track, width: number): number {
+  const longest = timeline.lanes.reduce((most, { path }) => Math.max(most, path.length), 0);
+  return Math.max(70, Math.min(longest * letter + 14, width * 0.34));
+}
+
+/** The height that all lanes need. */
+export const heightOfAll = ({ timeline }: Track) => timeline.lanes.length * lanes.least + axis;
+
+const laneHeight = ({ timeline }: Track, height: number) =>
+  Math.min(lanes.most, Math.max(lanes.least, (height - axis) / Math.max(1, timeline.lanes.length)));
+
+/** The lane at a distance from the upper edge of the picture, of which so many pixels are scrolled away. */
+export function laneAt(track: Track, y: number, height: number, scrolled: number): Timeline["lanes"][number] | undefined {
+  return y < height - axis ? track.timeline.lanes[Math.floor((y + scrolled) / laneHeight(track, height))] : undefined;
+}
 
 /**
  * The shown time span: the last seconds; in a recording, the span around the shown time.
@@ -18,6 +39,7 @@ function shownTime(track: Track, seconds: number): { start: number; end: number 
 /** The time at a distance from the left edge of the timeline. */
 export function timeAt(track: Track, seconds: number, x: number, width: number): number {
   const { start, end } = shownTime(track, seconds);
+  const names = namesWidth(track, width);
   return start + Math.min(1, Math.max(0, (x - names) / (width - names - last))) * (end - start);
 }
 
@@ -26,30 +48,45 @@ export function drawTimeline(
   context: CanvasRenderingContext2D,
   size: Size,
   colours: Colours,
-  track: Track,
-  seconds: number,
+  { track, seconds, scrolled }: { track: Track; seconds: number; scrolled: number },
 ): void {
   const { timeline } = track;
   const { start, end } = shownTime(track, seconds);
+  const names = namesWidth(track, size.width);
   const x = (time: number) => names + ((time - start) / (end - start)) * (size.width - names - last);
-  const height = Math.min(34, Math.max(14, (size.height - axis) / Math.max(1, timeline.lanes.length)));
+  const height = laneHeight(track, size.height);
   context.font = "11px system-ui, 'DejaVu Sans', sans-serif";
   context.textBaseline = "middle";
-  drawAxis(context, size, colours, start, end, x);
-  timeline.lanes.forEach((lane, at) => {
-    const y = at * height;
-    if (y > size.height - axis) return;
+  drawAxis(context, size, colours, start, end, { x, names });
+  context.save();
+  context.beginPath();
+  context.rect(0, 0, size.width, size.height - axis);
+  context.clip();
+  const first = Math.floor(scrolled / height);
+  const seen = timeline.lanes.slice(first, first + Math.ceil(size.height / height) + 1);
+  seen.forEach((lane, at) => {
+    const y = (first + at) * height - scrolled;
     context.fillStyle = colours.text;
-    context.fillText(clip(lane.path, 17), 6, y + height / 2, names - 10);
+    context.fillText(shortened(lane.path, Math.floor((names - 12) / letter)), 6, y + height / 2, names - 10);
     drawBands(context, colours, lane, Math.min(end, track.end), start, x, y, height);
     drawTicks(context, colours, lane.firings, start, x, y + height - 5, size.width);
   });
+  context.restore();
   if (track.end <= track.now) return;
   context.fillStyle = colours.text;
   context.fillRect(x(track.now) - 0.75, 0, 1.5, size.height - axis);
 }
 
-const clip = (text: string, length: number) => (text.length > length ? `…${text.slice(1 - length)}` : text);
+/** A path of so many letters, in which the agent and the subsystem can both be recognised. */
+export function shortened(path: string, letters: number): string {
+  if (path.length <= letters) return path;
+  const dot = path.indexOf(".");
+  if (dot < 0) return inMiddle(path, letters);
+  const [agent, rest] = [path.slice(0, dot), path.slice(dot + 1)];
+  const half = Math.floor((letters - 1) / 2);
+  const forRest = Math.min(rest.length, Math.max(half, letters - 1 - agent.length));
+  return `${inMiddle(agent, letters - 1 - forRest)}.${inMiddle(rest, forRest)}`;
+}
 
 function drawAxis(
   context: CanvasRenderingContext2D,
@@ -57,7 +94,7 @@ function drawAxis(
   colours: Colours,
   start: number,
   end: number,
-  x: (time: number) => number,
+  { x, names }: { x: (time: number) => number; names: number },
 ): void {
   const step = stepFor((end - start) / 1e9, size.width - names - last, 6);
   context.strokeStyle = colours.line;

@@ -7,6 +7,7 @@ import { valueAt } from "../../model/plots/statistics";
 import { csvOf } from "../../model/run/csv";
 import { shown, type Samples } from "../../model/run/series";
 import { count } from "../../model/sorted";
+import { PathText } from "../../canvas/path_text";
 import { Painted, type Colours, type Size } from "../world/painted";
 import { dragged } from "./plot_panel";
 import { save } from "./save_plot";
@@ -79,7 +80,7 @@ export function ValueList({ track, seconds, none }: ValueListProps) {
         <input
           type="text"
           aria-label="Values whose path contains"
-          placeholder="filter: part of a path, age, rate"
+          placeholder="filter"
           value={wanted}
           onChange={(event) => setWanted(event.target.value)}
         />
@@ -123,7 +124,9 @@ function ValueRow({ signal, track, seconds, plotted }: { signal: Signal; track: 
           event.dataTransfer.effectAllowed = "copy";
         }}
       >
-        <span className="path">{title}</span>
+        <span className="path">
+          <PathText of={title} />
+        </span>
         <span className="now">{nowOf(signal, track, curve?.samples)}</span>
         <span className="spark">
           {curve && (

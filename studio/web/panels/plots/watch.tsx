@@ -1,8 +1,7 @@
 import { useLayoutEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import type { Track } from "../../live/run/track";
-import { drawTimeline, timeAt } from "./draw_timeline";
-import { Painted } from "../world/painted";
+import { TimelineLanes } from "./timeline_lanes";
 import { usePaneTitle } from "../pane_title";
 import { ValueList } from "./value_list";
 import { WorldPane } from "../world/world_pane";
@@ -50,12 +49,7 @@ export function Timelines() {
               ))}
             </select>
           </div>
-          <Painted
-            label="Behaviours and firings of each subsystem over time"
-            draw={(context, size, colours) => drawTimeline(context, size, colours, track, seconds)}
-            of={() => `${track.id} ${track.now} ${track.firings} ${seconds}`}
-            onPick={replay && !fixed ? (x, width) => replay.seek(timeAt(track, seconds, x, width)) : undefined}
-          />
+          <TimelineLanes track={track} seconds={seconds} onSeek={replay && !fixed ? (time) => replay.seek(time) : undefined} />
         </section>
       ))}
     </div>

@@ -83,7 +83,7 @@ export function OperatorPanel({ panel, pageKeys = null }: OperatorPanelProps) {
           {operated ? "Stop operating" : "Operate"}
         </button>
       </div>
-      <p className="faint" role="status">
+      <p className={others.has(panel.path) ? "faint by-other" : "faint"} role="status">
         {operated ? "You operate it. It is neutral when this page is hidden or closed." : notOperated(others.get(panel.path))}
       </p>
       {problem && (

@@ -5,6 +5,7 @@ import { goesOn } from "../../live/run/runner_state";
 import { sentence } from "../../model/net/labels";
 import { Again } from "./again";
 import { IconButton } from "../icons";
+import { PathText } from "../../canvas/path_text";
 import { OtherRuns } from "./other_runs";
 import { OperatorPanels } from "./operator_panel";
 import { OutcomeOf } from "./outcome";
@@ -93,8 +94,12 @@ function RunningNow() {
         {[...running].slice(0, 60).map(([path, behaviour]) => (
           <li key={path}>
             <button className="choice" onClick={() => studio.flyTo(`${path}.${behaviour}`)}>
-              <span className="path">{path}</span>
-              <span className="chip running">{behaviour}</span>
+              <span className="path">
+                <PathText of={path} />
+              </span>
+              <span className="chip running">
+                <PathText of={behaviour} />
+              </span>
             </button>
           </li>
         ))}

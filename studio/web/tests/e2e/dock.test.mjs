@@ -1,7 +1,7 @@
 // The panels around the drawing: moved, sized, maximised, closed, and kept for the project.
 import assert from "node:assert/strict";
 import { test } from "node:test";
-import { button, drawn, example, judges, middleOf, onBuilt, onPage, tab, until } from "./page.mjs";
+import { button, drawn, example, judges, middleOf, onBuilt, onPage, serve, tab, until } from "./page.mjs";
 
 const panel = (page, name) => page.getByRole("tabpanel", { name, exact: true });
 const tabsBeside = (page, name) =>
@@ -46,8 +46,8 @@ const faults = (page) =>
     return found;
   });
 
-test("a panel is moved, sized, maximised and closed, by the keyboard too, and a reload keeps it", () =>
-  onPage(example("01_line_follower"), async (page) => {
+test("a panel is moved, sized, maximised and closed, by the keyboard too, and a reload and another port keep it", () =>
+  onPage(example("01_line_follower"), async (page, server, open) => {
     await tab(page, "Run").waitFor();
     assert.deepEqual(await tabsBeside(page, "Run"), ["Element", "Verify", "Play", "Run", "Recordings"]);
     await dragTo(page, tab(page, "Run"), panel(page, "Text"));
@@ -82,15 +82,27 @@ test("a panel is moved, sized, maximised and closed, by the keyboard too, and a 
     await until(page, async () => (await tabsBeside(page, "Run")).includes("Text"), "it is as it was");
     assert.ok(Math.abs((await width()) - kept) < 3);
     assert.equal(await tab(page, "Play").count(), 0);
+
+    // Another server for the project has another port, for which the browser itself has kept nothing.
+    const next = await serve(server.root, { copy: false });
+    const other = await open(next);
+    await other.goto(next.url);
+    await until(other, async () => (await tabsBeside(other, "Run")).includes("Text"), "it is the same on another port");
+    assert.equal(await tab(other, "Play").count(), 0);
+    await other.close();
+    await next.close();
+
     await fromMenu(page, "menuitemcheckbox", "Play");
     assert.deepEqual(await tabsBeside(page, "Element"), ["Element", "Verify", "Play", "Recordings"]);
     await fromMenu(page, "menuitem", "Reset layout");
     assert.deepEqual(await tabsBeside(page, "Run"), ["Element", "Verify", "Play", "Run", "Recordings"]);
 
     // A layout that another version has kept, or that is damaged, gives the ready one and no blank page.
-    await page.evaluate(() => {
-      const key = Object.keys(localStorage).find((one) => one.startsWith("tessera.panels"));
-      localStorage.setItem(key, localStorage.getItem(key).slice(0, 40));
+    const damaged = { name: "panels", text: '{"layout":"edit","layouts":{"edit wide":{"tre' };
+    await fetch(`${server.address}/api/arrangement`, {
+      method: "PUT",
+      headers: { Authorization: `Bearer ${server.token}` },
+      body: JSON.stringify(damaged),
     });
     await page.reload();
     await panel(page, "Drawing").waitFor();
@@ -114,6 +126,9 @@ test("a run opens its panels in three layouts at three widths: none covers anoth
         for (const name of ["Timeline", "Values", "World", "Run"]) {
           await tab(page, name).click();
           await panel(page, name).waitFor();
+          if (name !== "Timeline") continue;
+          const high = async () => (await panel(page, name).locator("canvas").boundingBox()).height;
+          await until(page, async () => (await high()) > 50, `the lanes have room: ${layout} at ${width}`);
         }
         if (layout === "Debug" && width !== 1024) await judge(`${layout} at ${width}`);
       }

@@ -30,6 +30,8 @@ function build(root) {
 /** A copy of the project's source; the build of an earlier copy is kept, because building takes long. */
 function copyOf(folder, parent = world) {
   const root = join(parent, basename(folder));
+  // How an earlier test has arranged the page.
+  rmSync(join(world, "state", "tessera", "pages"), { recursive: true, force: true });
   removeAll(root, [".tessera"]);
   removeAll(join(root, ".tessera"), buildFolders);
   // Without the dates of the source, everything would be built again.

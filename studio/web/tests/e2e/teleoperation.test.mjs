@@ -298,6 +298,17 @@ test("on the page for operators, fingers, keys and a gamepad move the robot, and
           const least = one.matches(".stick") ? 160 : 44;
           return one.checkVisibility() && (width < least || height < least);
         });
+        // The stop is seen however long a message is, and wherever it is scrolled to.
+        const [bar, stop, message] = [".operate-bar", ".emergency-stop", ".operate-state"].map((one) =>
+          document.querySelector(one),
+        );
+        const long = document.createElement("p");
+        long.textContent = "a long message of a controller ".repeat(40);
+        message.append(long);
+        bar.scrollTo(0, bar.scrollHeight);
+        const place = stop.getBoundingClientRect();
+        if (!stop.contains(document.elementFromPoint(place.x + place.width / 2, place.y + place.height / 2))) small.push(stop);
+        long.remove();
         return [...small.map((one) => one.outerHTML), ...(document.documentElement.scrollWidth > innerWidth ? ["too wide"] : [])];
       });
       objections.push(...wrong.map((one) => `${width}: ${one}`));

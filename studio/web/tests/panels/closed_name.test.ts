@@ -9,6 +9,15 @@ describe("a cut name", () => {
     expect(cutTo("robot[536]", 6)).toBe("robot…");
     expect(cutTo("dispatcher", 6)).toBe("dispa…");
   });
+  it("keeps its begin and its end, since names of a system often begin alike", () => {
+    expect(cutTo("autonomous_manipulator_01", 16)).toBe("autonomo…ator_01");
+    expect(cutTo("autonomous_manipulator_01", 25)).toBe("autonomous_manipulator_01");
+  });
+  it("has more lines if the whole name is readable from farther away then", () => {
+    const name = "autonomous_mobile_manipulator_for_cleanroom_logistics_01";
+    expect(closedName(name, { x: 0, y: 0, width: 420, height: 140 }).lines.length).toBe(3);
+    expect(closedName("robot", { x: 0, y: 0, width: 420, height: 140 }).lines.length).toBe(1);
+  });
   it("has one text at a time for every size of its box", () => {
     const { cuts } = closedName("transportation_vehicle[12]", { x: 0, y: 0, width: 420, height: 290 });
     expect(cuts.length).toBeGreaterThan(2);

@@ -16,6 +16,7 @@ const panels: Places[] = [
   at("inspect", "right"),
   at("run", "right"),
   at("timeline", "below"),
+  at("values", "middle"),
   at("world", "end"),
 ];
 const idle = ["drawing", "text", "inspect", "run"];
@@ -46,6 +47,34 @@ test("a narrow window has the drawing above a stack of tabs", () => {
   const sets = tabSets(readyLayout("debug", panels, 640));
   expect(sets.map(({ tabs }) => tabs[0])).toEqual(["drawing", "text"]);
   expect(sets[1]!.front).toBe("run");
+});
+
+test("a window of medium width has two columns, with the text below the drawing", () => {
+  const [top] = readyLayout("edit", panels, 1024).children;
+  expect(top).toMatchObject({
+    children: [
+      { kind: "row", children: [{ tabs: ["drawing"] }, { tabs: ["text", "timeline"] }] },
+      { kind: "row", children: [{ tabs: ["inspect", "run"] }, { tabs: ["values", "world"] }] },
+    ],
+  });
+});
+
+test("panels that go and come back keep their shares, however often the user chooses a tab meanwhile", () => {
+  const shares = (cell: Cell): string[] => {
+    if (cell.kind === "tabs") return [];
+    const sum = cell.children.reduce((all, { weight }) => all + weight, 0);
+    const mine = cell.children.map(({ weight }) => Math.round((100 * weight) / sum)).join();
+    return [mine, ...cell.children.flatMap(shares)];
+  };
+  const dock = opened(new Kept(), all);
+  const before = shares(dock.store.get().shown!);
+  for (let run = 0; run < 4; run += 1) {
+    dock.offer(idle);
+    dock.arrange(dock.store.get().shown!);
+    dock.offer(all);
+    dock.arrange(dock.store.get().shown!);
+  }
+  expect(shares(dock.store.get().shown!)).toEqual(before);
 });
 
 test("a panel without content takes no room, and comes back to its place", () => {

@@ -1,4 +1,5 @@
 import { describe, expect, it } from "vitest";
+import { agentNote } from "../../../model/structure/cards";
 import { exampleOf } from "../../../model/structure/kept_cells";
 import { groupTemplates, takenBy } from "../../../model/structure/group_templates";
 import { behavioursIn, findThing, leadsFailures, readStructure, targetsIn, thingAt } from "../../../model/structure/structure";
@@ -117,5 +118,21 @@ agents:
     expect(groupTemplates(structure.yaml)).toEqual(["docking", "round"]);
     expect(takenBy(structure.yaml, "docking")).toEqual(["grant"]);
     expect(takenBy(structure.yaml, "round")).toEqual([]);
+  });
+});
+
+describe("an agent whose template is in an included file", () => {
+  const agentsOf = (text: string) => readStructure(text).agents.map(({ name, included }) => [name, included]);
+  it("is no agent without subsystems", () => {
+    const rest = "templates: { own: { control: {} } }\nagents: { a: { use: carrier }, b: { use: own }, c: { control: {} } }\n";
+    expect(agentsOf(`include: carrier.yaml\n${rest}`)).toEqual([
+      ["a", true],
+      ["b", false],
+      ["c", false],
+    ]);
+    // Without included files, the name of the template is a mistake.
+    expect(agentsOf(rest)[0]).toEqual(["a", false]);
+    const drawn = readStructure(`include: carrier.yaml\n${rest}`).agents[0]!;
+    expect(agentNote(drawn)).toBe(" uses carrier of an included file");
   });
 });

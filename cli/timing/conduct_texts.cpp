@@ -1,0 +1,128 @@
+#include "cli/timing/conduct_texts.hpp"
+
+#include <fmt/format.h>
+
+#include "cli/timing/time_texts.hpp"
+
+namespace tessera::cli {
+namespace {
+
+using nlohmann::json;
+
+json time_json(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
+const char* fires_word(timing::Fires fires) { return fires == timing::Fires::never ? "never" : "may"; }
+std::string at_most_text(timing::Time time) {
+  return time >= timing::unbounded ? "without a bound" : "at most " + time_text(time);
+}
+
+class ConductWords {
+ public:
+  ConductWords(const timing::Declared& declared, const spec::Model& model)
+      : declared_(declared), model_(model) {}
+
+  [[nodiscard]] std::string path(std::uint32_t subsystem) const {
+    return model_.instance_path(spec::InstanceId{subsystem});
+  }
+  [[nodiscard]] std::string channel(std::uint32_t channel) const {
+    return model_.channel_name(model_.channels[spec::ChannelId{channel}]);
+  }
+  [[nodiscard]] bool is_known(std::uint32_t subsystem) const { return declared_.missing[subsystem].empty(); }
+  [[nodiscard]] bool is_channel_known(std::uint32_t channel) const {
+    const timing::Channel& one = declared_.system.channels[channel];
+    return is_known(one.from) && is_known(one.to);
+  }
+
+  [[nodiscard]] ConductLine line(const timing::RateVerdict& rate) const {
+    const std::string name = path(rate.subsystem);
+    const std::string every = "every " + time_text(rate.period);
+    if (rate.keeps) return {name, "begins " + every + ": it keeps its rate", false};
+    if (rate.may_overrun)
+      return {name,
+              fmt::format("may overrun its period of {}: a call takes up to {}", time_text(rate.period),
+                          time_text(declared_.system.subsystems[rate.subsystem].longest)),
+              true};
+    const std::string why = rate.waits_for == rate.subsystem ? "" : ": it waits for " + path(rate.waits_for);
+    if (rate.longest >= timing::unbounded)
+      return {name, "begins " + every + " or later, without a bound" + why, false};
+    if (rate.longest <= rate.period) return {name, "begins " + every + why, false};
+    return {name,
+            fmt::format("begins every {} to {}{}", time_text(rate.period), time_text(rate.longest), why),
+            true};
+  }
+
+  [[nodiscard]] ConductLine line(const timing::WaitVerdict& wait) const {
+    const timing::Channel& ends = declared_.system.channels[wait.channel];
+    const std::string other = path(wait.receives ? ends.from : ends.to);
+    std::string text = fmt::format("its {} waits {} for {} ({})", wait.receives ? "receive" : "send",
+                                   at_most_text(wait.longest), other, channel(wait.channel));
+    if (wait.timeout > 0)
+      text += fmt::format(": its timeout of {} {}", time_text(wait.timeout),
+                          wait.fires == timing::Fires::never ? "never fires" : "may fire");
+    return {path(wait.subsystem), text, wait.timeout > 0 && wait.fires == timing::Fires::may};
+  }
+
+  [[nodiscard]] ConductLine line(const timing::StaleVerdict& stale) const {
+    return {path(stale.subsystem),
+            fmt::format("the value of {} gets {} old: `stale` ({}) {}", channel(stale.channel),
+                        at_most_text(stale.oldest), time_text(stale.stale),
+                        stale.fires == timing::Fires::never ? "never fires" : "may fire"),
+            stale.fires == timing::Fires::may};
+  }
+
+ private:
+  const timing::Declared& declared_;
+  const spec::Model& model_;
+};
+
+}  // namespace
+
+std::vector<ConductLine> lines_of(const timing::Conduct& conduct, const timing::Declared& declared,
+                                  const spec::Model& model) {
+  const ConductWords words(declared, model);
+  std::vector<ConductLine> lines;
+  for (const timing::RateVerdict& rate : conduct.rates)
+    if (words.is_known(rate.subsystem)) lines.push_back(words.line(rate));
+  for (const timing::WaitVerdict& wait : conduct.waits)
+    if (words.is_channel_known(wait.channel)) lines.push_back(words.line(wait));
+  for (const timing::StaleVerdict& stale : conduct.stale)
+    if (words.is_channel_known(stale.channel)) lines.push_back(words.line(stale));
+  return lines;
+}
+
+json conduct_json(const timing::Conduct& conduct, const timing::Declared& declared,
+                  const spec::Model& model) {
+  const ConductWords words(declared, model);
+  json rates = json::array(), waits = json::array(), stale = json::array();
+  for (const timing::RateVerdict& rate : conduct.rates) {
+    if (!words.is_known(rate.subsystem)) {
+      rates.push_back({{"subsystem", words.path(rate.subsystem)},
+                       {"period_ns", rate.period},
+                       {"why", declared.missing[rate.subsystem]}});
+      continue;
+    }
+    json one{{"subsystem", words.path(rate.subsystem)},
+             {"period_ns", rate.period},
+             {"keeps", rate.keeps},
+             {"longest_ns", time_json(rate.longest)},
+             {"may_overrun", rate.may_overrun}};
+    if (rate.waits_for != rate.subsystem) one["waits_for"] = words.path(rate.waits_for);
+    rates.push_back(std::move(one));
+  }
+  for (const timing::WaitVerdict& wait : conduct.waits) {
+    json one{{"subsystem", words.path(wait.subsystem)},
+             {"channel", words.channel(wait.channel)},
+             {"of", wait.receives ? "receive" : "send"},
+             {"longest_ns", time_json(wait.longest)}};
+    if (wait.timeout > 0) one.update({{"timeout_ns", wait.timeout}, {"fires", fires_word(wait.fires)}});
+    waits.push_back(std::move(one));
+  }
+  for (const timing::StaleVerdict& one : conduct.stale)
+    stale.push_back({{"subsystem", words.path(one.subsystem)},
+                     {"channel", words.channel(one.channel)},
+                     {"stale_ns", one.stale},
+                     {"oldest_ns", time_json(one.oldest)},
+                     {"fires", fires_word(one.fires)}});
+  return {{"rates", std::move(rates)}, {"waits", std::move(waits)}, {"stale", std::move(stale)}};
+}
+
+}  // namespace tessera::cli

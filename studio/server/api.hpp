@@ -56,6 +56,7 @@ class Api {
   void start_verify(const Request& request, Response& response);
   void get_waits(const Request& request, Response& response);
   void get_timing(const Request& request, Response& response);
+  void get_changes_of_chain(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
   void serve_sweeps(HttpServer& server);
   void start_sweep(const Request& request, Response& response);

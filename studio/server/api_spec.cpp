@@ -23,6 +23,12 @@ void answer_with_analysis(const httplib::Request& request, httplib::Response& re
                 {std::make_shared<const std::string>("{" + members + ",\"analysis\":"), analysis.json, end});
 }
 
+/// The answer, or why there is none.
+void answer_found(httplib::Response& response, const std::variant<json, std::string>& found) {
+  if (const auto* const why = std::get_if<std::string>(&found)) return answer_error(response, 422, *why);
+  answer(response, text_of(std::get<json>(found)));
+}
+
 /// nullopt: it is not understood.
 std::optional<OtherTimes> other_times(const json& given) {
   OtherTimes result;
@@ -57,11 +63,12 @@ void Api::serve_spec(HttpServer& server) {
     if (body.good()) answer_packed(request, response, {parts_.analyses.of(text)->json});
   });
   server.Post("/api/timing", by(&Api::get_timing));
+  server.Post("/api/timing/changes", by(&Api::get_changes_of_chain));
 }
 
 void Api::get_timing(const Request& request, Response& response) {
   RequestBody body(request, response);
-  const std::string text = body.text("text");
+  const std::string text = body.text("text"), explained = body.text_or("chain", "");
   std::vector<OtherTimes> others;
   for (const json& one : body.objects("what_if")) {
     const std::optional<OtherTimes> other = other_times(one);
@@ -73,9 +80,16 @@ void Api::get_timing(const Request& request, Response& response) {
   if (!body.good()) return;
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
   if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
-  const std::variant<json, std::string> found = chain_bounds(*analysis->model, others);
-  if (const auto* const why = std::get_if<std::string>(&found)) return answer_error(response, 422, *why);
-  answer(response, text_of(std::get<json>(found)));
+  answer_found(response, chain_bounds(*analysis->model, others, explained));
+}
+
+void Api::get_changes_of_chain(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string text = body.text("text"), chain = body.text("chain");
+  if (!body.good()) return;
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+  if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
+  answer_found(response, chain_changes(*analysis->model, chain));
 }
 
 void Api::get_spec(const Request& request, Response& response) {

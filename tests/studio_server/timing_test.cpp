@@ -1,5 +1,8 @@
 #include <gmock/gmock.h>
 
+#include <algorithm>
+#include <vector>
+
 #include "served.hpp"
 
 namespace tessera::server_test {
@@ -48,13 +51,13 @@ channels:
     EXPECT_EQ(reply.status, 200) << reply.body;
     return reply.json();
   }
+  const std::string chain_ = "robot.sensor -> robot.control -> robot.motor";
   const std::string single_ = with(robot("{ use: follower }"), "robot");
 };
 
 TEST_F(Timing, TheChainOfTheLineFollowerHasItsBounds) {
   serve();
   const json told = bounds(single_);
-  EXPECT_EQ(told.at("says_times"), true);
   ASSERT_EQ(told.at("chains").size(), 1U) << told;
   const json& chain = told.at("chains")[0];
   EXPECT_EQ(chain.at("path"), json({"robot.sensor", "robot.control", "robot.motor"}));
@@ -107,6 +110,54 @@ TEST_F(Timing, AChainWithoutABoundSaysWhy) {
   const Reply guessed = post(
       "/api/timing", {{"text", text}, {"what_if", {{{"path", "robot.control"}, {"longest_ns", 9'000'000}}}}});
   EXPECT_EQ(guessed.status, 422);
+}
+
+TEST_F(Timing, ThePartsOfATimeAddUpToIt) {
+  serve();
+  const auto explained = [&](const json& what_if) {
+    const Reply reply = post("/api/timing", {{"text", single_}, {"what_if", what_if}, {"chain", chain_}});
+    EXPECT_EQ(reply.status, 200) << reply.body;
+    return reply.json();
+  };
+  const std::vector<json> questions{json::array(), {{{"path", "robot.control"}, {"period_ns", 20'000'000}}}};
+  for (const json& what_if : questions) {
+    const json told = explained(what_if);
+    for (const char* const name : {"age", "reaction"}) {
+      std::int64_t sum = 0;
+      for (const json& step : told.at("steps").at(name)) sum += step.at("ns").get<std::int64_t>();
+      EXPECT_EQ(sum, told.at("chains")[0].at(name).at("at_most_ns")) << name << told;
+    }
+  }
+  EXPECT_EQ(bounds(single_).at("steps"), nullptr);
+}
+
+TEST_F(Timing, AChangeThatHelpsHasTheBoundsOfATextWithIt) {
+  serve();
+  const Reply reply = post("/api/timing/changes", {{"text", single_}, {"chain", chain_}});
+  ASSERT_EQ(reply.status, 200) << reply.body;
+  const json changes = reply.json().at("changes");
+  const auto driven = std::ranges::find_if(changes, [](const json& change) {
+    return change.at("kind") == "event_driven" && change.at("subsystem") == "robot.motor";
+  });
+  ASSERT_NE(driven, changes.end()) << changes;
+  EXPECT_EQ(driven->at("channel"), "robot.control.motion->robot.motor.velocity");
+  EXPECT_EQ(driven->at("age_ns"), 80'000'000);
+  EXPECT_EQ(driven->at("reaction_ns"), 130'000'000);
+  EXPECT_EQ(post("/api/timing/changes", {{"text", single_}, {"chain", "robot"}}).status, 422);
+  EXPECT_EQ(post("/api/timing/changes", {{"text", "agents: ["}, {"chain", chain_}}).status, 422);
+}
+
+TEST_F(Timing, WhatIsAskedHasAnAnswer) {
+  serve();
+  const std::string asks = single_ +
+                           "timing: { chains: [{ name: quick, path: [robot.sensor, robot.control, "
+                           "robot.motor], reaction: 100 ms }] }\n";
+  const json chain = bounds(asks).at("chains")[0];
+  EXPECT_EQ(chain.at("name"), "quick");
+  EXPECT_EQ(chain.at("named"), true);
+  EXPECT_EQ(chain.at("age").at("answer"), "not_asked");
+  EXPECT_EQ(chain.at("reaction"),
+            json({{"at_most_ns", 142'000'000}, {"asked_ns", 100'000'000}, {"answer", "unknown"}}));
 }
 
 TEST_F(Timing, WhatIsNotUnderstoodIsRefused) {

@@ -3,13 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <optional>
 #include <set>
 #include <tuple>
 
+#include "timing/changes.hpp"
 #include "timing/declared.hpp"
+#include "timing/steps.hpp"
 
 namespace tessera::server {
 namespace {
@@ -61,18 +62,102 @@ std::string change(timing::Declared& declared, const spec::Model& model, const O
 
 json time_of(Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
 
+const char* word_of(timing::Answer answer) {
+  switch (answer) {
+    case timing::Answer::holds:
+      return "holds";
+    case timing::Answer::violated:
+      return "violated";
+    case timing::Answer::unknown:
+      return "unknown";
+    case timing::Answer::none:
+      return "none";
+    case timing::Answer::not_asked:
+      break;
+  }
+  return "not_asked";
+}
+
+const char* word_of(timing::Step::Kind kind) {
+  using Kind = timing::Step::Kind;
+  switch (kind) {
+    case Kind::next_reading:
+      return "next_reading";
+    case Kind::until_read:
+      return "until_read";
+    case Kind::until_begin:
+      return "until_begin";
+    case Kind::latency:
+      return "latency";
+    case Kind::processor:
+      return "processor";
+    case Kind::takes:
+      return "takes";
+    case Kind::until_sent:
+      break;
+  }
+  return "until_sent";
+}
+
+const char* word_of(timing::Change::Kind kind) {
+  using Kind = timing::Change::Kind;
+  switch (kind) {
+    case Kind::twice_the_rate:
+      return "twice_the_rate";
+    case Kind::event_driven:
+      return "event_driven";
+    case Kind::receive_waits:
+      return "receive_blocking";
+    case Kind::receive_goes_on:
+      return "receive_non_blocking";
+    case Kind::send_waits:
+      return "send_blocking";
+    case Kind::send_goes_on:
+      return "send_non_blocking";
+    case Kind::own_processor:
+      break;
+  }
+  return "own_processor";
+}
+
 json bound_of(const timing::ChainVerdict& verdict, Time time, const std::optional<Time>& asked,
               timing::Answer answer) {
-  constexpr std::array words{"not_asked", "holds", "violated", "unknown", "none"};
   return {{"at_most_ns", verdict.why.empty() ? time_of(time) : json(nullptr)},
           {"asked_ns", asked ? json(*asked) : json(nullptr)},
-          {"answer", words.at(static_cast<std::size_t>(answer))}};
+          {"answer", word_of(answer)}};
+}
+
+std::string channel_name(const spec::Model& model, std::uint32_t channel) {
+  return model.channel_name(model.channels[spec::ChannelId{channel}]);
+}
+
+json steps_json(const std::vector<timing::Step>& steps, const spec::Model& model) {
+  json all = json::array();
+  for (const timing::Step& step : steps)
+    all.push_back(
+        {{"kind", word_of(step.kind)},
+         {"subsystem", model.instance_path(InstanceId{step.subsystem})},
+         {"channel", step.kind == timing::Step::Kind::until_read ? json(channel_name(model, step.channel))
+                                                                 : json(nullptr)},
+         {"ns", step.time}});
+  return all;
+}
+
+/// The parts of the age and the reaction of those ways that have the largest ones.
+json steps_of(const timing::DeclaredChain& chain, const timing::Bounds& bounds, const spec::Model& model) {
+  const timing::Chain *oldest = &chain.ways.front(), *slowest = oldest;
+  for (const timing::Chain& way : chain.ways) {
+    if (bounds.chain(way).age > bounds.chain(*oldest).age) oldest = &way;
+    if (bounds.chain(way).reaction > bounds.chain(*slowest).reaction) slowest = &way;
+  }
+  return {{"age", steps_json(timing::steps_of(bounds, *oldest).age, model)},
+          {"reaction", steps_json(timing::steps_of(bounds, *slowest).reaction, model)}};
 }
 
 }  // namespace
 
-std::variant<json, std::string> chain_bounds(const spec::Model& model,
-                                             const std::vector<OtherTimes>& others) {
+std::variant<json, std::string> chain_bounds(const spec::Model& model, const std::vector<OtherTimes>& others,
+                                             const std::string& explained) {
   timing::Declared declared = timing::declared(model);
   for (const OtherTimes& other : others)
     if (std::string why = change(declared, model, other); !why.empty()) return why;
@@ -82,15 +167,17 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
   const auto receive_blocks = [&](std::uint32_t channel) {
     return declared.system.channels[channel].receive_blocks;
   };
+  json steps = nullptr;
   // Members of a fleet whose chains have equal verdicts are one entry.
   std::map<std::tuple<std::string, Time, Time, bool, std::string>, std::size_t> entries;
   for (const timing::DeclaredChain& chain : declared.chains) {
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
-    std::string name = chain.is_named ? without_member(chain.name) + " " : "";
+    if (chain.name == explained && verdict.why.empty()) steps = steps_of(chain, bounds, model);
+    std::string name = chain.is_named ? without_member(chain.name) + ":" : "";
     json path = json::array();
     for (const InstanceId instance : chain.path) {
       path.push_back(model.instance_path(instance));
-      name += without_member(path.back()) + " ";
+      name += " " + without_member(path.back());
     }
     const auto [at, is_new] = entries.try_emplace(
         {name, verdict.bound.age, verdict.bound.reaction, verdict.exact, without_member(verdict.why)},
@@ -103,10 +190,10 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
     std::set<std::uint32_t> channels;
     for (const timing::Chain& way : chain.ways) channels.insert(way.begin(), way.end());
     json ends = json::array();
-    for (const std::uint32_t channel : channels)
-      ends.push_back(model.channel_name(model.channels[spec::ChannelId{channel}]));
+    for (const std::uint32_t channel : channels) ends.push_back(channel_name(model, channel));
     chains.push_back(
         {{"name", chain.name},
+         {"named", chain.is_named},
          {"path", std::move(path)},
          {"channels", std::move(ends)},
          {"agents", 1},
@@ -125,9 +212,25 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model,
                             {"missing", declared.missing[instance.value]}});
     }
   }
-  return json{{"says_times", timing::says_times(model)},
-              {"chains", std::move(chains)},
-              {"subsystems", std::move(subsystems)}};
+  return json{
+      {"chains", std::move(chains)}, {"subsystems", std::move(subsystems)}, {"steps", std::move(steps)}};
+}
+
+std::variant<json, std::string> chain_changes(const spec::Model& model, const std::string& name) {
+  const timing::Declared declared = timing::declared(model);
+  const auto chain = std::ranges::find(declared.chains, name, &timing::DeclaredChain::name);
+  if (chain == declared.chains.end()) return fmt::format("there is no chain {}", name);
+  json changes = json::array();
+  for (const timing::Change& change : timing::changes_for(declared, *chain)) {
+    const bool of_channel = change.kind != timing::Change::Kind::twice_the_rate &&
+                            change.kind != timing::Change::Kind::own_processor;
+    changes.push_back({{"kind", word_of(change.kind)},
+                       {"subsystem", model.instance_path(InstanceId{change.subsystem})},
+                       {"channel", of_channel ? json(channel_name(model, change.channel)) : json(nullptr)},
+                       {"age_ns", time_of(change.age)},
+                       {"reaction_ns", time_of(change.reaction)}});
+  }
+  return json{{"changes", std::move(changes)}};
 }
 
 }  // namespace tessera::server

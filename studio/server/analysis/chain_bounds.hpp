@@ -19,9 +19,18 @@ struct OtherTimes {
 /// How old a command can be: all chains of the specification, with the bounds that `tessera verify` tells
 /// (docs/theory/timing.md), for the times that it says and `others`.
 ///
+/// explained: the name of the chain whose parts are told; empty: none.
 /// Returns the answer of POST /api/timing, or why there is none.
 /// Threads: pure.
 [[nodiscard]] std::variant<nlohmann::json, std::string> chain_bounds(const spec::Model& model,
-                                                                     const std::vector<OtherTimes>& others);
+                                                                     const std::vector<OtherTimes>& others,
+                                                                     const std::string& explained);
+
+/// The single changes of the specification that make a time of a chain smaller, the best one first.
+///
+/// Returns the answer of POST /api/timing/changes, or why there is none.
+/// Threads: pure.
+[[nodiscard]] std::variant<nlohmann::json, std::string> chain_changes(const spec::Model& model,
+                                                                      const std::string& name);
 
 }  // namespace tessera::server

@@ -131,8 +131,11 @@ export class Api {
   /** The subsystems that cannot fire in a marking. */
   waits = (text: string, marking: { place: number }[]) => this.ask("POST /api/waits", { body: { text, marking } });
   /** The bounds of all chains; `tried`: with these periods of subsystems instead of those of the text. */
-  timing = (text: string, tried: ReadonlyMap<string, number> = new Map()) =>
-    this.ask("POST /api/timing", { body: { text, what_if: [...tried].map(([path, period_ns]) => ({ path, period_ns })) } });
+  timing = (text: string, tried: ReadonlyMap<string, number> = new Map(), chain = "") =>
+    this.ask("POST /api/timing", {
+      body: { text, what_if: [...tried].map(([path, period_ns]) => ({ path, period_ns })), chain },
+    });
+  timingChanges = (text: string, chain: string) => this.ask("POST /api/timing/changes", { body: { text, chain } });
   functions = (text: string) => this.ask("POST /api/functions", { body: { text } });
   addFunction = (text: string, subsystem: string, name: string) =>
     this.ask("POST /api/functions/add", { body: { text, subsystem, function: name } });

@@ -1,4 +1,5 @@
-import type { Timing as Bounds } from "../model/protocol";
+import type { TimedChange, Timing as Bounds } from "../model/protocol";
+import { shownChain } from "../model/timing";
 import { type Api, ApiError, message } from "./api";
 import type { Draft } from "./draft";
 import { Store } from "./store";
@@ -19,6 +20,9 @@ export interface TimingState {
   problem: string;
   /** The bounds of the text that was verified last. */
   verified: Bounds | null;
+  /** The changes that help, and the chain and the text that they are for. */
+  changes: { chain: string; text: string; found: readonly TimedChange[] } | null;
+  seeking: boolean;
 }
 
 /** How old commands can be: the bounds of all chains of the text, and those with other rates. */
@@ -32,9 +36,13 @@ export class Timing {
     busy: false,
     problem: "",
     verified: null,
+    changes: null,
+    seeking: false,
   });
   private asking = false;
   private stale = false;
+  /** The chain whose parts `found` tells. */
+  private told = "";
 
   constructor(
     private readonly api: Api,
@@ -50,6 +58,20 @@ export class Timing {
 
   choose(chain: string | null): void {
     this.store.set({ chosen: chain });
+    if (this.store.get().found) this.update();
+  }
+
+  /** Asks which single change helps a chain most. */
+  async seek(chain: string): Promise<void> {
+    const { text } = this.draft;
+    this.store.set({ seeking: true, changes: null });
+    try {
+      const { changes } = await this.api.timingChanges(text, chain);
+      this.store.set({ changes: { chain, text, found: changes } });
+    } catch (error) {
+      this.store.set({ problem: message(error) });
+    }
+    this.store.set({ seeking: false });
   }
 
   /** Asks for the bounds with another period of a subsystem; undefined: with its own one. */
@@ -82,6 +104,12 @@ export class Timing {
     if (!this.asking) void this.ask();
   }
 
+  /** The name of the chain whose parts are shown. */
+  private explained(): string {
+    const { found, chosen } = this.store.get();
+    return shownChain(found, chosen)?.name ?? "";
+  }
+
   private async ask(): Promise<void> {
     this.asking = true;
     this.store.set({ busy: true });
@@ -89,13 +117,18 @@ export class Timing {
       this.stale = false;
       const { text } = this.draft;
       try {
-        if (this.store.get().text !== text || !this.store.get().found) {
-          const found = await this.api.timing(text);
+        const asked = this.explained();
+        if (this.store.get().text !== text || !this.store.get().found || asked !== this.told) {
+          let found = await this.api.timing(text, new Map(), asked);
+          const named = shownChain(found, this.store.get().chosen)?.name ?? "";
+          // The first answer tells which chains there are.
+          if (named !== asked) found = await this.api.timing(text, new Map(), named);
+          this.told = named;
           this.store.set({ found, text, problem: "" });
         }
         const { tried } = this.store.get();
         if (tried.size > 0) {
-          const other = await this.api.timing(text, tried);
+          const other = await this.api.timing(text, tried, this.explained());
           // A slider that was put back meanwhile asks for nothing.
           if (this.store.get().tried.size > 0) this.store.set({ other, problem: "" });
         } else this.store.set({ other: null, problem: "" });

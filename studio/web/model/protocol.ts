@@ -75,7 +75,32 @@ export interface Requests {
    * How old a command can be: the bounds of all chains, for the times of the text or others. 422: the text has
    * errors, or there is no such subsystem.
    */
-  "POST /api/timing": { body: { text: string; what_if?: OtherTimes[] }; status: 200; answer: Timing };
+  "POST /api/timing": {
+    body: {
+      text: string;
+      what_if?: OtherTimes[];
+      /** The name of the chain whose parts are told. */
+      chain?: string;
+    };
+    status: 200;
+    answer: Timing;
+  };
+  /**
+   * The single changes of rates, modes and processors that make a time of a chain smaller. 422: there is no such
+   * chain.
+   */
+  "POST /api/timing/changes": {
+    body: {
+      text: string;
+      /** Its name. */
+      chain: string;
+    };
+    status: 200;
+    answer: {
+      /** The one that helps most comes first. */
+      changes: TimedChange[];
+    };
+  };
   /** The subsystems that cannot fire in a marking. */
   "POST /api/waits": { body: { text: string; marking: { place: number }[] }; status: 200; answer: { at_end: SubsystemAtEnd[] } };
   /** The C++ functions of the behaviours. */
@@ -423,8 +448,8 @@ export interface Verdict {
   at_end: SubsystemAtEnd[];
   /** Transitions of the run; one beyond the net's says that no initial condition holds. */
   steps: number[] | null;
-  /** The run in words. */
-  narrative: string | null;
+  /** The run in plain words; empty: the property is violated from the start. */
+  narrative: null | Act[];
 }
 export interface TracedFiring {
   transition: string;
@@ -451,6 +476,18 @@ export interface SubsystemAtEnd {
   /** All of it in words. */
   text: string;
 }
+/** A stretch of a run in which one subsystem acts on its own. */
+export interface Act {
+  /** The number of a firing of the run, counted from 1. */
+  first: number;
+  last: number;
+  /** The path of the subsystem; empty: the system and its agents. */
+  who: string;
+  text: string;
+  line: number;
+  /** A line of an included file, such as parts/docking.yaml:3; line is 0 then. */
+  included?: string;
+}
 /** The verification itself failed. */
 export interface VerifyProblem {
   error: string;
@@ -466,15 +503,17 @@ export interface OtherTimes {
   longest_ns?: number;
 }
 export interface Timing {
-  /** Some behaviour says what it takes. */
-  says_times: boolean;
   chains: TimedChain[];
   subsystems: TimedSubsystem[];
+  /** The parts of the times of the chain that was named; null: none was, or it has no bound. */
+  steps: { age: TimedStep[]; reaction: TimedStep[] } | null;
 }
 /** A chain of subsystems from a device to another one. */
 export interface TimedChain {
-  /** robot.sensor -> robot.control -> robot.motor */
+  /** As the specification names it, or robot.sensor -> robot.control -> robot.motor. */
   name: string;
+  /** The specification names it. */
+  named: boolean;
   /** Its subsystems in order. */
   path: string[];
   /** FROM->TO, those of all its ways. */
@@ -508,6 +547,37 @@ export interface TimedSubsystem {
   waits: boolean;
   /** Why nothing bounds its calls; empty: they are bounded. */
   missing: string;
+}
+/** A part of an age or a reaction. The parts follow one another, and add up to the bound. */
+export interface TimedStep {
+  /**
+   * next_reading: an event comes just after a reading. until_read: the value stands in the channel. until_begin:
+   * until the next iteration begins. latency: the thread goes on later than it may. processor: others go first on
+   * it. takes: the transition function. until_sent: other sends come first.
+   */
+  kind: "next_reading" | "until_read" | "until_begin" | "latency" | "processor" | "takes" | "until_sent";
+  subsystem: string;
+  /** until_read: FROM->TO; else null. */
+  channel: string | null;
+  ns: number;
+}
+/** A change of the specification, and the bounds of the chain with it. Other chains may get worse. */
+export interface TimedChange {
+  /** event_driven: no rate, and a receive over the channel that waits. */
+  kind:
+    | "twice_the_rate"
+    | "event_driven"
+    | "receive_blocking"
+    | "receive_non_blocking"
+    | "send_blocking"
+    | "send_non_blocking"
+    | "own_processor";
+  subsystem: string;
+  /** FROM->TO; null: it changes none. */
+  channel: string | null;
+  /** Null: no bound. */
+  age_ns: number | null;
+  reaction_ns: number | null;
 }
 export interface FunctionShown {
   /** The path of an agent or a template: "walker.control". */

@@ -1,4 +1,4 @@
-import type { TimedBound, TimedChain, Timing } from "./protocol";
+import type { TimedBound, TimedChain, TimedStep, Timing } from "./protocol";
 import { withoutIndex } from "./structure/structure";
 
 /** Chains and their times in words. */
@@ -36,9 +36,16 @@ export function chainTitle(path: readonly string[]): string {
   return agents.size === 1 ? `${[...agents][0]}: ${names}` : names;
 }
 
+/** The name that the specification gives it, or its subsystems. */
+export const chainName = ({ named, name, path }: TimedChain): string => (named ? name : chainTitle(path));
+
+/** No behaviour says what it takes, and nothing is asked. */
+export const isSilent = ({ chains }: Timing): boolean =>
+  chains.every((one) => one.why !== "" && one.age.asked_ns === null && one.reaction.asked_ns === null);
+
 /** Names a chain also after an edit, and whichever member of a fleet stands for it. */
-export const chainKey = ({ path, name }: Pick<TimedChain, "path" | "name">): string =>
-  `${withoutIndex(name)} ${path.map(withoutIndex).join(" ")}`;
+export const chainKey = ({ path, name, named }: Pick<TimedChain, "path" | "name" | "named">): string =>
+  named ? withoutIndex(name) : path.map(withoutIndex).join(" ");
 
 export type Verdict = "holds" | "violated" | "unknown" | "none";
 
@@ -48,6 +55,14 @@ export function verdictOf({ age, reaction, why }: TimedChain): Verdict {
   if (answers.includes("violated")) return "violated";
   if (answers.includes("unknown") || answers.includes("none") || why !== "") return "unknown";
   return answers.includes("holds") ? "holds" : "none";
+}
+
+/** How many chains take longer than was asked, and of how many that is not known. */
+export function timesOf(timing: Timing | null): { late: number; unproved: number } {
+  const asked = (timing?.chains ?? []).filter(({ age, reaction }) => age.asked_ns !== null || reaction.asked_ns !== null);
+  const count = (verdict: Verdict) =>
+    asked.filter((one) => verdictOf(one) === verdict).reduce((sum, { agents }) => sum + agents, 0);
+  return { late: count("violated"), unproved: count("unknown") };
 }
 
 /** "at most 142 ms", "142 ms" if some run takes so long, "no bound". */
@@ -63,6 +78,48 @@ export function saidChain({ age, reaction, exact, why }: TimedChain): string {
     reaction,
     false,
   ).replace("at most ", "")}${asked("a reaction", reaction)}.`;
+}
+
+const last = (path: string) => path.slice(path.indexOf(".") + 1);
+
+/** A part of an age or a reaction in words. */
+export function saidStep({ kind, subsystem, channel }: TimedStep, isAge: boolean): string {
+  const who = last(subsystem);
+  switch (kind) {
+    case "next_reading":
+      return `${who} has just read its device: until it reads again`;
+    case "until_read":
+      return `the value waits in the channel${channel ? ` to ${last(channel.split("->")[1] ?? "")}` : ""} until ${who} receives it${isAge ? " for the last time" : ""}`;
+    case "until_begin":
+      return `until the next iteration of ${who} begins, which uses the value`;
+    case "latency":
+      return `${who} goes on later than it may (latency)`;
+    case "processor":
+      return `${who} waits for its processor`;
+    case "takes":
+      return `${who} computes`;
+    case "until_sent":
+      return `${who} waits in other sends`;
+  }
+}
+
+/** The subsystems of a chain with their shares of a time, and the parts of each. */
+export interface Share {
+  subsystem: string;
+  ns: number;
+  parts: readonly TimedStep[];
+}
+
+/** Parts of one subsystem that follow one another are its share. */
+export function sharesOf(steps: readonly TimedStep[]): Share[] {
+  const shares: { subsystem: string; ns: number; parts: TimedStep[] }[] = [];
+  for (const step of steps) {
+    let mine = shares.at(-1);
+    if (mine?.subsystem !== step.subsystem) shares.push((mine = { subsystem: step.subsystem, ns: 0, parts: [] }));
+    mine.ns += step.ns;
+    mine.parts.push(step);
+  }
+  return shares;
 }
 
 /** The chain to show: the chosen one, or else the first that breaks what was asked. */

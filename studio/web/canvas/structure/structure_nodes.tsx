@@ -76,6 +76,11 @@ export function AgentNode({ data, width = 0, height = 0 }: NodeProps) {
         {step === 0 && note && <span className="faint">{note}</span>}
         <Flag of={complaint} />
       </button>
+      {agent.included && step > 0 && !far && (
+        <span className="included-note" style={{ fontSize: (leastPixels + 1) / step }}>
+          in an included file
+        </span>
+      )}
     </div>
   );
 }

@@ -2,7 +2,10 @@ import { useStore, useStudio } from "../../hooks/use";
 import type { TimedChain, TimedSubsystem, Timing } from "../../model/protocol";
 import { findThing, sharersOf, withoutIndex, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
 import { set } from "../../model/text/edits";
-import { chainKey, chainTitle, saidChain, shownRate } from "../../model/timing";
+import { chainKey, chainName, chainTitle, saidChain, shownRate } from "../../model/timing";
+import { Budget } from "./budget";
+import { HelpfulChanges } from "./helpful_changes";
+import { LimitFields } from "./limit_fields";
 import { RateSlider } from "./rate_slider";
 import { TakesFields } from "./takes_fields";
 
@@ -30,6 +33,8 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
     const thing = findThing(structure, withoutIndex(path));
     return timed && thing?.kind === "subsystem" ? [{ timed, subsystem: thing.of, agent: thing.agent }] : [];
   });
+  // The parts are those of the chain that was asked for.
+  const steps = found.steps && stepsAreOf(found.steps, chain) ? found.steps : null;
   const changed = members.filter(({ subsystem }) => tried.has(subsystem.path));
   const then = other?.chains.find((one) => chainKey(one) === chainKey(chain));
   const write = async () => {
@@ -40,10 +45,19 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
     if (await studio.change(edits)) for (const { subsystem } of changed) studio.timing.try(subsystem.path, undefined);
   };
   return (
-    <section aria-label={chainTitle(chain.path)}>
-      <h2>{chainTitle(chain.path)}</h2>
+    <section aria-label={chainName(chain)}>
+      <h2>{chainName(chain)}</h2>
+      {chain.named && <p className="path">{chainTitle(chain.path)}</p>}
       <p>{saidChain(chain)}</p>
       {chain.exact && <p className="faint">Some run takes so long: no bound can be smaller.</p>}
+      <LimitFields structure={structure} found={found} chain={chain} />
+      {steps && (
+        <>
+          <h3>Where the time goes</h3>
+          <Budget steps={steps} other={tried.size > 0 ? (other?.steps ?? null) : null} />
+        </>
+      )}
+      {!chain.why && <HelpfulChanges structure={structure} found={found} chain={chain} fresh={fresh} />}
       <h3>Rates</h3>
       {members.map(({ timed, subsystem, agent }) => (
         <div key={timed.path} className="on-chain">
@@ -71,6 +85,9 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
     </section>
   );
 }
+
+const stepsAreOf = ({ age }: NonNullable<Timing["steps"]>, { path }: TimedChain) =>
+  age.every(({ subsystem }) => path.includes(subsystem));
 
 function SharedBy({ structure, agent }: { structure: Structure; agent: Agent }) {
   const sharers = sharersOf(structure, agent);

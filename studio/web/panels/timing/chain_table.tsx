@@ -1,6 +1,6 @@
 import { useStudio } from "../../hooks/use";
 import type { TimedBound, TimedChain, Timing } from "../../model/protocol";
-import { chainKey, chainTitle, shownTime, verdictOf, type Verdict } from "../../model/timing";
+import { chainKey, chainName, shownTime, verdictOf, type Verdict } from "../../model/timing";
 import { Icon } from "../icons";
 
 const marks = { holds: "check", violated: "cross", unknown: "question", none: "question" } as const;
@@ -50,7 +50,7 @@ export function ChainTable({ found, other, chosen }: { found: Timing; other: Tim
                   <button className="chain-name" aria-pressed={isChosen} onClick={() => studio.timing.choose(key)}>
                     <VerdictMark chain={chain} />
                     <span>
-                      {chainTitle(chain.path)}
+                      {chainName(chain)}
                       {chain.agents > 1 && <span className="faint"> · {chain.agents.toLocaleString("en")} agents</span>}
                     </span>
                   </button>

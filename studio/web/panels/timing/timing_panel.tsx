@@ -1,7 +1,7 @@
 import { useEffect } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import { useStructure } from "../../hooks/use_structure";
-import { shownChain } from "../../model/timing";
+import { chainKey, shownChain } from "../../model/timing";
 import { ChainDetails } from "./chain_details";
 import { ChainTable } from "./chain_table";
 
@@ -41,7 +41,7 @@ export default function TimingPanel() {
       )}
       {found && found.chains.length > 0 && <ChainTable found={found} other={other} chosen={chain} />}
       {found && chain && (
-        <ChainDetails key={chain.path.join()} structure={structure} found={found} chain={chain} fresh={known === text} />
+        <ChainDetails key={chainKey(chain)} structure={structure} found={found} chain={chain} fresh={known === text} />
       )}
     </div>
   );

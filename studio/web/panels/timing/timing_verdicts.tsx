@@ -1,5 +1,5 @@
 import { useStore, useStudio } from "../../hooks/use";
-import { chainKey, chainTitle, saidChain, worstFirst } from "../../model/timing";
+import { chainKey, chainName, isSilent, saidChain, worstFirst } from "../../model/timing";
 import { VerdictMark } from "./chain_table";
 
 /** Most chains among the verdicts; the panel Timing has all. */
@@ -14,7 +14,8 @@ export function TimingVerdicts() {
     studio.timing.choose(key);
     studio.dock.open("timing");
   };
-  const chains = verified.says_times ? worstFirst(verified.chains).slice(0, most) : [];
+  const silent = isSilent(verified);
+  const chains = silent ? [] : worstFirst(verified.chains).slice(0, most);
   return (
     <section className="timing-verdicts" aria-label="Times">
       <h3>Times</h3>
@@ -22,18 +23,16 @@ export function TimingVerdicts() {
         <button key={chainKey(chain)} className="choice" onClick={() => open(chainKey(chain))}>
           <VerdictMark chain={chain} />
           <span>
-            {chainTitle(chain.path)}
+            {chainName(chain)}
             {chain.agents > 1 && <span className="faint"> · {chain.agents.toLocaleString("en")} agents</span>}
             <small>{saidChain(chain)}</small>
           </span>
         </button>
       ))}
-      {!verified.says_times && (
-        <p className="faint">No behaviour says what it takes, so nothing bounds how old a command can be.</p>
-      )}
+      {silent && <p className="faint">Nothing bounds how old a command can be: {verified.chains[0]!.why}.</p>}
       {chains.length < verified.chains.length && (
         <button className="link" onClick={() => open(null)}>
-          {verified.says_times ? `All ${verified.chains.length} chains` : "Open the panel Timing"}
+          {silent ? "Open the panel Timing" : `All ${verified.chains.length} chains`}
         </button>
       )}
     </section>

@@ -3,7 +3,7 @@
 import { readdirSync } from "node:fs";
 
 const suites = {
-  reading: ["studio", "readable", "keyboard", "guide", "tour", "fleet", "appearance"],
+  reading: ["studio", "readable", "timing", "keyboard", "guide", "tour", "fleet", "appearance"],
   editing: ["editing", "boxes", "keeping"],
   building: ["building", "workshop", "newcomer"],
   running: ["run", "dock", "teleoperation", "beside", "deployment"],

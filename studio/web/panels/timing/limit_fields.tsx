@@ -1,0 +1,48 @@
+import { useStudio } from "../../hooks/use";
+import type { TimedChain, Timing } from "../../model/protocol";
+import type { Structure } from "../../model/structure/structure";
+import { shownTime } from "../../model/timing";
+import { givenName, limitEdits } from "../../model/timing_edits";
+import { structureOf } from "../../model/structure/structure";
+import { Field } from "../forms/field";
+
+interface LimitProps {
+  structure: Structure;
+  found: Timing;
+  chain: TimedChain;
+}
+
+/** The limits that the specification asks for. */
+export function LimitFields({ structure, found, chain }: LimitProps) {
+  const studio = useStudio();
+  const write = (limit: "age" | "reaction") => async (text: string) => {
+    const edits = limitEdits(structureOf(studio.draft.text), found, chain, limit, text.trim());
+    if (edits.length === 0) return true;
+    const written = await studio.change(edits);
+    if (written && !chain.named) studio.timing.choose(givenName(chain));
+    return written;
+  };
+  const asked = (ns: number | null) => (ns === null ? "" : shownTime(ns));
+  return (
+    <div className="limits">
+      <Field
+        label="Reaction at most"
+        value={asked(chain.reaction.asked_ns)}
+        placeholder="100 ms"
+        hint="The longest reaction that this robot may have. Verify judges it."
+        onChange={write("reaction")}
+      />
+      <Field
+        label="Age at most"
+        value={asked(chain.age.asked_ns)}
+        placeholder="80 ms"
+        hint="The oldest reading that a command may be based on."
+        onChange={write("age")}
+      />
+      {chain.agents > 1 && <p className="faint">A limit counts for each of the {chain.agents} agents.</p>}
+      {!chain.named && structure.yaml.pair(["timing", "chains"]) === undefined && found.chains.length > 1 && (
+        <p className="faint">The first limit writes the {found.chains.length} chains into the specification, under `timing`.</p>
+      )}
+    </div>
+  );
+}

@@ -5,6 +5,7 @@ import { startRequest } from "../live/run/start_request";
 import type { Studio } from "../live/studio";
 import { structureOf } from "../model/structure/structure";
 import { stepsOf, type Act, type Situation, type Step } from "../model/steps";
+import { timesOf } from "../model/timing";
 import { tracksOf } from "./run/start_form";
 
 /** The way from a specification to a run: edit, verify, run. Each step has its state, its button and what stands in its way. */
@@ -48,6 +49,7 @@ function useSituation(): Situation {
   const studio = useStudio();
   const draft = useStore(studio.draft.store, (all) => all);
   const verifier = useStore(studio.verifier.store, (all) => all);
+  const verified = useStore(studio.timing.store, (all) => all.verified);
   const missing = useStore(studio.sources.store, (all) => all.functions.filter(({ state }) => state === "missing").length);
   const run = useStore(studio.runner.store, (all) => all.state);
   const followed = useStore(studio.runner.store, (all) => all.kind);
@@ -62,6 +64,7 @@ function useSituation(): Situation {
     unsaved: isUnsaved(draft),
     verifying: verifier.state === "running",
     verdicts: verifier.verdicts,
+    times: timesOf(verified),
     verdictsCurrent: verifier.text === draft.text,
     verifyProblem: verifier.text === draft.text ? verifier.problem : "",
     missing,

@@ -18,7 +18,7 @@ TEST_F(Failures, AreNotedByCheckAndRoutedByMigrate) {
   write(folder_ / "spec.yaml", gripper);
   const project::Exit noted = tessera("check");
   EXPECT_EQ(noted.code, 0) << noted.text;
-  for (const char* part : {"spec.yaml:9:58: note N330: after a failure 'grab' no longer goes on to 'lift'",
+  for (const char* part : {"spec.yaml:9:58: note N330: after a failure 'grab' does not go on to 'lift'",
                            "add { to: lift, when: error }", "1 note"})
     EXPECT_NE(noted.text.find(part), std::string::npos) << part << "\n" << noted.text;
   const project::Exit judged = tessera("verify");

@@ -175,7 +175,7 @@ TEST(Migration, IsNotedOncePerSubsystemUntilAFailureIsRouted) {
   EXPECT_EQ(notes[0].severity, diagnostics::Severity::note);
   EXPECT_EQ(notes[0].code, "N330");
   EXPECT_EQ(notes[0].message,
-            "after a failure 'work' no longer goes on to 'rest': the subsystem ends, and the run fails");
+            "after a failure 'work' does not go on to 'rest': the subsystem ends, and the run fails");
   EXPECT_THAT(notes[0].hint, HasSubstr("add { to: rest, when: error } to its 'next'"));
   EXPECT_THAT(notes_of(migrated(text).text), IsEmpty());
   EXPECT_THAT(notes_of(with_work(" { terminal: memory.n > 1, next: [{ to: end, when: error }, rest] }")),

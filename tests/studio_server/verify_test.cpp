@@ -55,7 +55,11 @@ TEST_F(VerifyJob, AViolationHasStepsOfTheNetAndIsToldInWords) {
       EXPECT_EQ(transitions[index].name, property.at("trace")[step].at("transition"));
     }
   }
-  EXPECT_THAT(property.at("narrative").get<std::string>(), testing::HasSubstr("robot.motor"));
+  const json& last = property.at("narrative").back();
+  EXPECT_EQ(last.at("who"), "robot.motor");
+  EXPECT_THAT(last.at("text").get<std::string>(), testing::StartsWith("starts in drive"));
+  EXPECT_THAT(last.at("text").get<std::string>(), testing::Not(testing::HasSubstr("(t")));
+  EXPECT_EQ(last.at("last"), property.at("steps").size());
 }
 
 constexpr const char* greeting = R"(tessera: 1

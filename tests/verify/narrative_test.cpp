@@ -63,6 +63,34 @@ TEST(Narrative, TellsOfAChoiceThatNobodyMade) {
   EXPECT_NE(consumer.find("none of its initial conditions holds"), std::string::npos) << consumer;
 }
 
+/// The reasons are in words of the specification, and no transition is named. In the drawing, a transition has the name
+/// without the facts that it reads.
+TEST(Narrative, TellsInPlainWordsWhyABehaviourFollows) {
+  const Proved faulty = proved(R"(tessera: 1
+system: s
+agents:
+  a:
+    control:
+      rate: 10 Hz
+      inputs: { g: bool }
+      behaviours:
+        ask: { terminal: true, next: [{ to: rest, when: in.g.fresh }, ask] }
+        rest: { terminal: elapsed > 1 s, next: end }
+  b: { control: { rate: 10 Hz, outputs: { g: bool }, behaviours: { tell: {} } } }
+channels: [{ from: b.control.g, to: a.control.g, receive: blocking, timeout: 1 s }]
+properties: [{ name: still, never: a.control.rest }]
+)");
+  const PropertyResult& bad = faulty["still"];
+  ASSERT_EQ(bad.verdict, Verdict::violated);
+  const net::Net net = abstract_net(faulty.net);
+  const auto last = [&](Wording wording) { return narrate(net, bad.trace, wording).back().text; };
+  EXPECT_EQ(last(Wording::plain),
+            "starts in ask: computes, receives g, is done, goes on to rest because in.g.fresh");
+  EXPECT_EQ(
+      last(Wording::with_transitions),
+      "starts in ask: computes (t1, t1, t2, t3), receives g (t1, t2), is terminal (t5), goes on to rest");
+}
+
 TEST(Narrative, TellsOfTimeouts) {
   std::string all;
   for (const std::string& line : told("a request that is taken back")) all += line + "\n";

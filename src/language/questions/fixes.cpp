@@ -114,7 +114,7 @@ class Fixer {
   void as_before(const diagnostics::Span& span) {
     const std::optional<Migration> migration = migrate(document_, span);
     if (!migration || migration->steps.empty()) return;
-    Fix fix{.title = "Go on after a failure as before", .edits = {}, .code = code_, .at = at_};
+    Fix fix{.title = "Go on after a failure, too", .edits = {}, .code = code_, .at = at_};
     for (const Migration::Step& step : migration->steps) fix.edits.push_back(step.edit);
     fixes_.push_back(std::move(fix));
   }

@@ -45,9 +45,9 @@ json firings_json(const net::Net& net, const net::HierarchicalNet* pages,
   return firings;
 }
 
-json story_json(const net::Net& net, const std::vector<net::TransitionId>& run) {
+json story_json(const net::Net& net, const std::vector<net::TransitionId>& run, verify::Wording wording) {
   json story = json::array();
-  for (const verify::Act& act : verify::narrate(net, run)) {
+  for (const verify::Act& act : verify::narrate(net, run, wording)) {
     story.push_back({{"first", act.first}, {"last", act.last}, {"who", act.who}, {"text", act.text}});
     add_line(story.back(), act.line, act.included);
   }

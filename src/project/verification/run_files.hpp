@@ -4,6 +4,7 @@
 #include <string>
 
 #include "net/net.hpp"
+#include "verify/counterexample/narrative.hpp"
 #include "verify/verify.hpp"
 
 /// Writes runs that show violations for viewers that step through them, and for `simulate --scenario`. A "line" is one
@@ -35,7 +36,8 @@ namespace tessera::project {
 
 /// [{"first", "last", "who", "text", "line"}]: the run of a net of the five layers in
 /// sentences (verify::narrate).
-[[nodiscard]] nlohmann::json story_json(const net::Net& net, const std::vector<net::TransitionId>& run);
+[[nodiscard]] nlohmann::json story_json(const net::Net& net, const std::vector<net::TransitionId>& run,
+                                        verify::Wording wording = verify::Wording::with_transitions);
 
 /// {"properties": [{"name", "asks", "verdict", "method", "why", "meaning", "explanation", "seconds",
 /// "states", "warning", "waits", "behaviours": [{"path", "line"}], "trace": firings or null}],

@@ -274,14 +274,21 @@ class ChannelReader {
       out_.error("E301", to.whole,
                  "input " + in_quotes(name) + " has two sources: " + source_name(first) + " and " +
                      source_name(channel),
-                 first.span.line == channel.span.line
-                     ? "an input has one source; give every agent an input of its own"
-                     : "the first is on " + out_.words(first.span.line));
+                 first.span.line == channel.span.line ? hint_for_fleet(channel, name)
+                                                      : "the first is on " + out_.words(first.span.line));
       return false;
     }
     check_direction(channel);
     model_.channels.push_back(channel);
     return true;
+  }
+
+  /// How an input gets a value from each member of a fleet.
+  std::string hint_for_fleet(const Channel& channel, const std::string& input) const {
+    const std::string& sender = model_.agents[model_.instances[channel.from.instance].agent].path;
+    const std::string fleet = sender.substr(0, sender.find('['));
+    return "an input has one source; for a value of each " + fleet + ", add [each " + fleet +
+           "] to its type, and write " + input + "[i] in the channel";
   }
 
   std::string source_name(const Channel& channel) const {

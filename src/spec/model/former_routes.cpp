@@ -74,8 +74,7 @@ void note_conditions(const Subsystem& subsystem, diagnostics::Diagnostics& out) 
     if (first == nullptr) first = &behaviour.next[route->before];
   }
   if (first != nullptr)
-    out.note("N332", first->span,
-             "an entry with a condition no longer takes errors and failures: that of " + names,
+    out.note("N332", first->span, "an entry with a condition takes no errors and failures: that of " + names,
              "if it shall take an error, give that error a name: error: { NAME: ... }, and { to: ..., when: "
              "NAME }");
 }
@@ -91,18 +90,20 @@ void note(const Subsystem& subsystem, diagnostics::Diagnostics& out) {
   for (std::size_t at = 0; at < std::min(shown, changed.size()); ++at) {
     const auto& [behaviour, route] = changed[at];
     changes += (at == 0 ? "" : ", nor ") + in_quotes(behaviour->name) +
-               (at == 0 ? " no longer goes on to " : " to ") +
+               (at == 0 ? " does not go on to " : " to ") +
                (route.certain ? name_of_target(subsystem, route.to) : "what its conditions chose");
   }
   if (changed.size() > shown) changes += ", and so with " + std::to_string(changed.size() - shown) + " more";
   const auto& [first, route] = changed.front();
   const std::string to =
       route.to.valid() ? subsystem.behaviours[route.to].name : std::string(route.certain ? "end" : "NAME");
-  out.note("N330", first->next[route.before].span,
-           "after a failure " + changes + ": the subsystem ends, and the run fails",
-           "to go on after a failure of " + in_quotes(first->name) + ", add { to: " + to +
-               ", when: error } to its 'next', as `tessera migrate` does; { to: end, when: error } agrees "
-               "with the end");
+  out.note(
+      "N330", first->next[route.before].span,
+      "after a failure " + changes + ": the subsystem ends, and the run fails",
+      "a failure is an exception, an error of a device or a call that takes too long; to go on after one "
+      "of " +
+          in_quotes(first->name) + ", add { to: " + to +
+          ", when: error } to its 'next'; { to: end, when: error } agrees with the end");
 }
 
 }  // namespace

@@ -20,6 +20,7 @@ struct Deed {
   std::string behaviour;          ///< in which it happens; empty: between behaviours
   std::string text;               ///< empty: belongs to the deed before
   std::string done;               ///< replaces text once a deed of the same block without text follows
+  std::string reason{};           ///< the condition that held; told in plain words
   std::string alone = "goes on";  ///< replaces an empty text if no earlier deed is told with it
   net::BlockId block{};
   std::string transition;   ///< as drawn
@@ -32,7 +33,7 @@ bool touches_wait(const net::Net& net, std::span<const Arc> arcs) {
 
 class Teller {
  public:
-  explicit Teller(const net::Net& net) : net_(net) {}
+  Teller(const net::Net& net, Wording wording) : net_(net), plain_(wording == Wording::plain) {}
 
   [[nodiscard]] std::string subsystem(TransitionId id) const {
     const net::SubsystemId owner = net_[id].subsystem;
@@ -43,7 +44,7 @@ class Teller {
     if (net_[id].layer == net::Layer::subsystem) return between(id);
     Deed deed;
     deed.behaviour = behaviour_name(net_[id].subsystem, net_[id].behaviour);
-    deed.transition = leaf(net_[id].name);
+    deed.transition = leaf(drawn_name(id));
     deed.block = net_[id].block;
     if (net_[id].layer == net::Layer::behaviour)
       within(id, deed);
@@ -58,10 +59,23 @@ class Teller {
     return net_.parts()[subsystem].behaviours[behaviour.value];
   }
 
+  /// The name without the facts whose tokens it takes: "t2" of "t2.grant.missed". They are the state before it.
+  [[nodiscard]] std::string_view drawn_name(TransitionId id) const {
+    std::string_view name = net_[id].name;
+    for (const net::Arc& arc : net_.preset(id)) {
+      const net::Place& place = net_[arc.place];
+      if (place.role != PlaceRole::fact || !place.fact.valid()) continue;
+      const net::Parts::Fact& fact = net_.parts()[place.fact];
+      const std::size_t at = name.rfind("." + fact.name + "." + fact.values.at(place.value));
+      if (at != std::string_view::npos) name = name.substr(0, at);
+    }
+    return name;
+  }
+
   /// The start of the subsystem and the initial conditions.
   [[nodiscard]] Deed between(TransitionId id) const {
     Deed deed;
-    deed.transition = net_[id].name.substr(subsystem(id).size() + 1);
+    deed.transition = drawn_name(id).substr(subsystem(id).size() + 1);
     if (net_[id].role == Step::no_successor) {
       const net::Place& left = net_[net_.postset(id).front().place];
       deed.text = "leaves " +
@@ -81,6 +95,8 @@ class Teller {
                                                         : "goes on to ") +
                   deed.behaviour;
     }
+    const Condition& condition = net_[id].condition;
+    if (condition.kind == Condition::Kind::next) deed.reason = condition.text;
     return deed;
   }
 
@@ -91,10 +107,14 @@ class Teller {
                                  [&](const Arc& arc) { return net_[arc.place].operation.kind == operation; });
     };
     if (kind == Condition::Kind::go_on) deed.text = "begins the next round";
-    if (kind == Condition::Kind::terminal) deed.text = "is terminal";
+    if (kind == Condition::Kind::terminal) deed.text = plain_ ? terminal_words(id) : "is terminal";
     if (kind == Condition::Kind::error) deed.text = "fails";
     if (kind == Condition::Kind::none && starts_from(Operation::Kind::transition_function))
       deed.text = "computes";
+  }
+
+  [[nodiscard]] std::string terminal_words(TransitionId id) const {
+    return net_[id].condition.truth == Condition::Truth::always ? "is done" : "meets its terminal condition";
   }
 
   void communicate(TransitionId id, Deed& deed) const {
@@ -138,11 +158,14 @@ class Teller {
   }
 
   const net::Net& net_;
+  bool plain_;
 };
 
 /// The deeds of one act as a sentence.
 class Sentence {
  public:
+  explicit Sentence(Wording wording) : plain_(wording == Wording::plain) {}
+
   void add(const Deed& deed) {
     if (deed.text.empty() && !clauses_.empty() && clauses_.back().behaviour == deed.behaviour) {
       Clause& last = clauses_.back();
@@ -152,11 +175,12 @@ class Sentence {
       clauses_.push_back({deed.behaviour,
                           deed.text.empty() ? deed.alone : deed.text,
                           deed.done,
+                          deed.reason,
                           deed.block,
                           {deed.transition}});
     }
     if (deed.then_waits)
-      clauses_.push_back({deed.behaviour, "waits for the acknowledgement", "", deed.block, {}});
+      clauses_.push_back({deed.behaviour, "waits for the acknowledgement", "", "", deed.block, {}});
   }
 
   [[nodiscard]] std::string text() const {
@@ -169,9 +193,10 @@ class Sentence {
         all += "in " + clause.behaviour + ": ";
       behaviour = clause.behaviour;
       all += clause.text;
+      if (plain_ && !clause.reason.empty()) all += " because " + clause.reason;
       if (arrives)
         all += ":";
-      else if (!clause.transitions.empty())
+      else if (!plain_ && !clause.transitions.empty())
         all += " (" + joined(clause.transitions) + ")";
     }
     if (all.ends_with(':')) all.pop_back();
@@ -180,7 +205,7 @@ class Sentence {
 
  private:
   struct Clause {
-    std::string behaviour, text, done;
+    std::string behaviour, text, done, reason;
     net::BlockId block{};
     std::vector<std::string> transitions;
   };
@@ -192,6 +217,7 @@ class Sentence {
   }
 
   std::vector<Clause> clauses_;
+  bool plain_;
 };
 
 /// The layers above: starts and ends of the system and its agents.
@@ -253,8 +279,8 @@ std::string medium_text(const net::Net& net, std::span<const TransitionId> run) 
 
 }  // namespace
 
-std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& run) {
-  const Teller teller(net);
+std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& run, Wording wording) {
+  const Teller teller(net, wording);
   std::vector<Act> acts;
   for (std::size_t first = 0, end = 0; first < run.size(); first = end) {
     const net::SubsystemId subsystem = net[run[first]].subsystem;
@@ -280,7 +306,7 @@ std::vector<Act> narrate(const net::Net& net, const std::vector<TransitionId>& r
       act.text = upper_text(net, part);
       continue;
     }
-    Sentence sentence;
+    Sentence sentence(wording);
     for (const TransitionId id : part) sentence.add(teller.deed(id));
     act.text = sentence.text();
   }

@@ -19,10 +19,17 @@ struct Act {
   std::string included{};  ///< "parts/docking.yaml:3": it is a line of an included file, and `line` is 0
 };
 
+/// The words are for people who follow the drawn net, or for those who know the specification only.
+enum class Wording : std::uint8_t {
+  with_transitions,  ///< "receives grant (t1, t2), goes on to enter"
+  plain              ///< "receives grant, goes on to enter because in.grant.fresh"
+};
+
 /// Describes in words a run of a net made of the five layers, or of its abstract net
 /// (verify/communication/abstraction.hpp).
 ///
 /// Threads: pure. Linear in the net and the run.
-[[nodiscard]] std::vector<Act> narrate(const net::Net& net, const std::vector<net::TransitionId>& run);
+[[nodiscard]] std::vector<Act> narrate(const net::Net& net, const std::vector<net::TransitionId>& run,
+                                       Wording wording = Wording::with_transitions);
 
 }  // namespace tessera::verify

@@ -35,7 +35,8 @@ json result_json(const Analysis& analysis, const verify::Report& report) {
     if (!property.has_trace) continue;
     one["steps"] = json::array();
     for (const net::TransitionId id : property.trace) one["steps"].push_back(id.value);
-    one["narrative"] = project::run_text(*analysis.net, property);
+    one["narrative"] = project::story_json(project::net_of_run(*analysis.net, property), property.trace,
+                                           verify::Wording::plain);
   }
   return result;
 }

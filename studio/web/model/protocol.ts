@@ -448,8 +448,8 @@ export interface Verdict {
   at_end: SubsystemAtEnd[];
   /** Transitions of the run; one beyond the net's says that no initial condition holds. */
   steps: number[] | null;
-  /** The run in words. */
-  narrative: string | null;
+  /** The run in plain words; empty: the property is violated from the start. */
+  narrative: null | Act[];
 }
 export interface TracedFiring {
   transition: string;
@@ -475,6 +475,18 @@ export interface SubsystemAtEnd {
   from: string[];
   /** All of it in words. */
   text: string;
+}
+/** A stretch of a run in which one subsystem acts on its own. */
+export interface Act {
+  /** The number of a firing of the run, counted from 1. */
+  first: number;
+  last: number;
+  /** The path of the subsystem; empty: the system and its agents. */
+  who: string;
+  text: string;
+  line: number;
+  /** A line of an included file, such as parts/docking.yaml:3; line is 0 then. */
+  included?: string;
 }
 /** The verification itself failed. */
 export interface VerifyProblem {

@@ -39,6 +39,8 @@ export interface Situation {
   verifying: boolean;
   /** The verdicts of the last verification; none: there was none. */
   verdicts: readonly Pick<Verdict, "verdict" | "warning">[];
+  /** Chains that may take longer than was asked: surely, and perhaps. */
+  times?: { late: number; unproved: number };
   /** The verdicts are about the text as it is now. */
   verdictsCurrent: boolean;
   /** Why the last verification failed. */
@@ -100,6 +102,11 @@ function verify(now: Situation): Step {
     if (now.verdicts.length === 0) return ["open", "no verdict yet", "show_verdicts"];
     if (!now.verdictsCurrent) return ["open", "changed since", "show_verdicts"];
     const { tone, text } = verdictsInWords(now.verdicts);
+    const { late, unproved } = now.times ?? { late: 0, unproved: 0 };
+    const besides = tone === "good" && text === "verified" ? "" : `${text}, `;
+    if (late > 0) return ["error", `${besides}${counted(late, "time")} too long`, "show_verdicts"];
+    if (unproved > 0)
+      return [tone === "good" ? "warning" : tone, `${besides}${counted(unproved, "time")} not proved`, "show_verdicts"];
     return [tone, text, "show_verdicts"];
   })();
   return { step: "verify", title: "Verify", tone, state, leads, primary };

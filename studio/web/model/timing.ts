@@ -37,7 +37,8 @@ export function chainTitle(path: readonly string[]): string {
 }
 
 /** The name that the specification gives it, or its subsystems. */
-export const chainName = ({ named, name, path }: TimedChain): string => (named ? name : chainTitle(path));
+export const chainName = ({ named, name, path, agents }: TimedChain): string =>
+  named ? (agents > 1 ? withoutIndex(name) : name) : chainTitle(path);
 
 /** No behaviour says what it takes, and nothing is asked. */
 export const isSilent = ({ chains }: Timing): boolean =>
@@ -55,6 +56,14 @@ export function verdictOf({ age, reaction, why }: TimedChain): Verdict {
   if (answers.includes("violated")) return "violated";
   if (answers.includes("unknown") || answers.includes("none") || why !== "") return "unknown";
   return answers.includes("holds") ? "holds" : "none";
+}
+
+/** How many chains take longer than was asked, and of how many that is not known. */
+export function timesOf(timing: Timing | null): { late: number; unproved: number } {
+  const asked = (timing?.chains ?? []).filter(({ age, reaction }) => age.asked_ns !== null || reaction.asked_ns !== null);
+  const count = (verdict: Verdict) =>
+    asked.filter((one) => verdictOf(one) === verdict).reduce((sum, { agents }) => sum + agents, 0);
+  return { late: count("violated"), unproved: count("unknown") };
 }
 
 /** "at most 142 ms", "142 ms" if some run takes so long, "no bound". */

@@ -1,6 +1,6 @@
 import { useStudio } from "../hooks/use";
 import { bundleAt } from "../model/structure/bundles";
-import { channelLabel, channelMeaning } from "../model/structure/channel_words";
+import { channelMeaning } from "../model/structure/channel_words";
 import { channelPath, type Channel, type Structure } from "../model/structure/structure";
 
 /** The channels between two agents, by direction. */
@@ -29,17 +29,13 @@ function Direction({ title, channels, structure }: { title: string; channels: re
       <h3>{title}</h3>
       <ul className="bundle-channels">
         {channels.map((channel) => {
-          const { modes, timeout } = channelLabel(channel);
           return (
             <li key={channel.index}>
-              <button title={channelMeaning(channel)} onClick={() => studio.choose(channelPath(channel.index), structure)}>
+              <button onClick={() => studio.choose(channelPath(channel.index), structure)}>
                 <span>
                   {channel.from} → {channel.to}
                 </span>
-                <span className="faint">
-                  {modes}
-                  {timeout && ` ${timeout}`}
-                </span>
+                <span className="faint">{channelMeaning(channel)}</span>
               </button>
             </li>
           );

@@ -3,6 +3,7 @@ import { stepsOf } from "../live/verifier";
 import type { Repair } from "../live/repairs";
 import { changedBlocks } from "../model/text/changed_lines";
 import { listed, type Cause } from "../model/causes";
+import { Story } from "./story";
 import { WordLines } from "./text/word_lines";
 import { sentence } from "../model/net/labels";
 import type { NetModel } from "../model/net/net";
@@ -74,9 +75,7 @@ export function CauseCard({ cause, net }: { cause: Cause; net: NetModel | null }
       {withRun?.verdict.narrative && (
         <details className="story">
           <summary>How it comes to that</summary>
-          <pre tabIndex={0} aria-label="The run in words">
-            {withRun.verdict.narrative}
-          </pre>
+          <Story acts={withRun.verdict.narrative} label="The run in words" />
           <button className="link" onClick={() => studio.dock.open("narrative")}>
             Open it in a panel
           </button>

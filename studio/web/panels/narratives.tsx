@@ -1,5 +1,6 @@
 import { useStore, useStudio } from "../hooks/use";
 import { sentence } from "../model/net/labels";
+import { Story } from "./story";
 
 /** The runs that violate properties, in words, in a panel of their own. */
 export function Narratives() {
@@ -11,9 +12,7 @@ export function Narratives() {
       {told.map(({ name, narrative }) => (
         <section key={name} className="story" aria-label={name.replaceAll("_", " ")}>
           <h3>{sentence(name.replaceAll("_", " "))}</h3>
-          <pre tabIndex={0} aria-label={`The run that violates ${name.replaceAll("_", " ")}`}>
-            {narrative}
-          </pre>
+          <Story acts={narrative!} label={`The run that violates ${name.replaceAll("_", " ")}`} />
         </section>
       ))}
     </div>

@@ -3,7 +3,9 @@ import { useStore, useStudio } from "../hooks/use";
 import { isUnsaved } from "../live/draft";
 import { startRequest } from "../live/run/start_request";
 import type { Studio } from "../live/studio";
+import { structureOf } from "../model/structure/structure";
 import { stepsOf, type Act, type Situation, type Step } from "../model/steps";
+import { timesOf } from "../model/timing";
 import { tracksOf } from "./run/start_form";
 
 /** The way from a specification to a run: edit, verify, run. Each step has its state, its button and what stands in its way. */
@@ -47,6 +49,7 @@ function useSituation(): Situation {
   const studio = useStudio();
   const draft = useStore(studio.draft.store, (all) => all);
   const verifier = useStore(studio.verifier.store, (all) => all);
+  const verified = useStore(studio.timing.store, (all) => all.verified);
   const missing = useStore(studio.sources.store, (all) => all.functions.filter(({ state }) => state === "missing").length);
   const run = useStore(studio.runner.store, (all) => all.state);
   const followed = useStore(studio.runner.store, (all) => all.kind);
@@ -61,6 +64,7 @@ function useSituation(): Situation {
     unsaved: isUnsaved(draft),
     verifying: verifier.state === "running",
     verdicts: verifier.verdicts,
+    times: timesOf(verified),
     verdictsCurrent: verifier.text === draft.text,
     verifyProblem: verifier.text === draft.text ? verifier.problem : "",
     missing,
@@ -86,8 +90,33 @@ function useFunctions(): void {
   }, [studio, text]);
 }
 
+/** Writes the missing functions, and shows the first of them: somebody has to fill it. */
+async function writeFunctions({ draft, sources, view, dock }: Studio): Promise<void> {
+  const missing = sources.store.get().functions.filter(({ state }) => state === "missing");
+  for (const one of missing) await sources.add(one);
+  const { problem, functions } = sources.store.get();
+  const written = missing.filter((one) =>
+    functions.some((now) => now.subsystem === one.subsystem && now.function === one.function && now.state !== "missing"),
+  );
+  if (problem !== "" || written.length === 0) return;
+  const [first] = written;
+  const { agents } = structureOf(draft.store.get().text);
+  const behaviour = agents
+    .flatMap(({ subsystems }) => subsystems)
+    .find(({ path }) => path === first!.subsystem)
+    ?.behaviours.find((one) => one.function === first!.function);
+  if (behaviour) view.set({ selected: behaviour.path });
+  dock.open("code");
+  draft.store.set({
+    notice:
+      written.length === 1
+        ? "The function does nothing yet: fill it in C++"
+        : `${written.length} functions do nothing yet: fill them in C++`,
+  });
+}
+
 async function act(studio: Studio, what: Act): Promise<void> {
-  const { view, draft, verifier, runner, sources } = studio;
+  const { view, draft, verifier, runner } = studio;
   switch (what) {
     case "save":
       await draft.save();
@@ -108,7 +137,7 @@ async function act(studio: Studio, what: Act): Promise<void> {
       await runner.control({ command: "stop" });
       return;
     case "write_functions":
-      for (const one of sources.store.get().functions) if (one.state === "missing") await sources.add(one);
+      await writeFunctions(studio);
       return;
     case "show_form":
       view.set({ panel: "inspect" });

@@ -62,6 +62,7 @@ export function TypeInputs({ structure, value, of = "", without = [], onChange }
           {...about}
           value={parts.length}
           placeholder="no array"
+          choices={structure.agents.flatMap(({ name, count }) => (count ? [`each ${name}`] : []))}
           wrong={wrongLength}
           onChange={(length) => change({ length: length.trim() })}
         />

@@ -1,4 +1,6 @@
 import { useStudio } from "../../hooks/use";
+import { useStructure } from "../../hooks/use_structure";
+import { senderOf } from "../../model/structure/senders";
 import { keyOf } from "../../model/plots/signals";
 import { shown } from "../../model/run/series";
 import { factsOf, readAt, type PlotLine } from "./plot_lines";
@@ -13,6 +15,9 @@ interface PlotTableProps {
 /** The legend of a plot, with the values at both cursors and the statistics of the visible span. */
 export function PlotTable({ lines, from, to, cursors: [a = null, b = null] }: PlotTableProps) {
   const studio = useStudio();
+  const structure = useStructure();
+  const senders = lines.map(({ signal }) => (signal.kind === "behaviour" ? undefined : senderOf(structure, signal.path)));
+  const sent = senders.some((one) => one !== undefined);
   return (
     <div className="plot-table" tabIndex={0} role="region" aria-label="Values and statistics of the plot">
       <table>
@@ -20,6 +25,11 @@ export function PlotTable({ lines, from, to, cursors: [a = null, b = null] }: Pl
           <tr>
             <th scope="col">Signal</th>
             <th scope="col">Unit</th>
+            {sent && (
+              <th scope="col" title="The subsystem that sends the values of an input, and its rate">
+                Sent by
+              </th>
+            )}
             {a !== null && <th scope="col">at A</th>}
             {b !== null && <th scope="col">at B</th>}
             {a !== null && b !== null && <th scope="col">B − A</th>}
@@ -41,7 +51,8 @@ export function PlotTable({ lines, from, to, cursors: [a = null, b = null] }: Pl
           </tr>
         </thead>
         <tbody>
-          {lines.map((line) => {
+          {lines.map((line, at) => {
+            const sender = senders[at];
             const facts = line.hidden ? null : factsOf(line, from, to);
             const [atA, atB] = [a, b].map((time) => (time === null ? undefined : readAt(line, time)));
             const difference = typeof atA === "number" && typeof atB === "number" ? atB - atA : undefined;
@@ -75,6 +86,20 @@ export function PlotTable({ lines, from, to, cursors: [a = null, b = null] }: Pl
                   </button>
                 </th>
                 <td>{line.unit}</td>
+                {sent && (
+                  <td>
+                    {sender && (
+                      <button
+                        className="link"
+                        title={`Show ${sender.path}, which sends these values`}
+                        onClick={() => studio.comeNear(sender.path, structure)}
+                      >
+                        {sender.path}
+                        {sender.rate && ` (${sender.rate})`}
+                      </button>
+                    )}
+                  </td>
+                )}
                 {a !== null && <td>{shown(atA)}</td>}
                 {b !== null && <td>{shown(atB)}</td>}
                 {a !== null && b !== null && number(difference)}

@@ -97,6 +97,7 @@ function extensions(now: () => CppEditorProps) {
     highlightActiveLine(),
     highlightActiveLineGutter(),
     drawSelection(),
+    EditorView.lineWrapping, // a new function is one long line, and its empty braces are at the end
     history(),
     indentUnit.of("  "),
     indentOnInput(),

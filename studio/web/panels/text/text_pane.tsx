@@ -86,7 +86,9 @@ export default function TextPane() {
     const now = studio.draft.store.get().text;
     if (!editor || editor.state.doc.toString() === now) return;
     const { from, to, insert } = splice(editor.state.doc.toString(), now);
-    editor.dispatch({ changes: { from, to, insert }, effects: EditorView.scrollIntoView(from, { y: "nearest", yMargin: 60 }) });
+    // The beginning of the line, since a change far to the right would hide that of all others.
+    const begin = editor.state.doc.lineAt(from).from;
+    editor.dispatch({ changes: { from, to, insert }, effects: EditorView.scrollIntoView(begin, { y: "nearest", yMargin: 60 }) });
   }, [studio, text]);
 
   useEffect(() => {

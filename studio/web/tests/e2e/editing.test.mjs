@@ -404,7 +404,9 @@ test("checks, measures, limits, templates and models have fields, which leave a 
 
     // The channels between two agents are one line, which names them.
     await page.locator('.channel-label[data-path="bundle:crossing|robot"]').click();
-    await button(page, "robot[0].control.request → crossing.control.request_0 N → N").click();
+    await page
+      .getByRole("button", { name: /^robot\[0\]\.control\.request → crossing\.control\.request_0 The sender does not/ })
+      .click();
     await page.getByLabel("Communication model").selectOption("one_value");
     // An agent that is to be a fleet becomes a template, as it is.
     await page.locator('.agent-name[data-path="crossing"]').click();

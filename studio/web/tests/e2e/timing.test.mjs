@@ -10,6 +10,7 @@ async function openFromVerdict(page) {
   await button(page, "Verify the system").click();
   const verdict = page.getByRole("region", { name: "Times" }).getByRole("button", { name: chain });
   await verdict.getByRole("img", { name: "violated" }).waitFor();
+  await page.getByTestId("step-verify").getByText("1 time too long").waitFor();
   await verdict.click();
   await page.getByRole("region", { name: chain }).waitFor();
 }

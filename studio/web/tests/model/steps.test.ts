@@ -51,6 +51,15 @@ describe("the three steps", () => {
     expect(states({ warnings: 1 })[0]).toBe("1 warning");
   });
 
+  it("say that a time is too long, or not proved; such a system runs", () => {
+    const times = { late: 2, unproved: 1 };
+    expect(states({ verdicts: [holds], verdictsCurrent: true, times }).slice(1)).toEqual(["2 times too long", "ready"]);
+    const unproved = stepsOf({ ...calm, verdicts: [holds], verdictsCurrent: true, times: { ...times, late: 0 } })[1];
+    expect(unproved).toMatchObject({ state: "1 time not proved", tone: "warning" });
+    const both = stepsOf({ ...calm, verdicts: [holds, violated], verdictsCurrent: true, times })[1];
+    expect(both).toMatchObject({ state: "1 violated, 2 times too long", tone: "error" });
+  });
+
   it("do not let a violated system run, as the server would not, until the text has changed", () => {
     const verdicts = [holds, violated];
     expect(states({ verdicts, verdictsCurrent: true }).slice(1)).toEqual(["1 violated", "needs a system that passes Verify"]);

@@ -1,5 +1,6 @@
 import { useReactFlow } from "@xyflow/react";
 import { useEffect, type RefObject } from "react";
+import { withoutIndex } from "../model/structure/structure";
 import { elementAt } from "./structure/structure_keys";
 
 /** The keys go to the element of a drawing that was searched for, and never to one that is out of sight. */
@@ -20,7 +21,8 @@ export function focusDrawn(view: "structure" | "net", selection: string): void {
     const area = document.querySelector<HTMLElement>(
       view === "net" ? ".canvas-area[role=application]" : "[data-testid=structure] .canvas-area",
     );
-    const element = area && (view === "net" ? area : elementAt(area, selection));
+    // A member of a fleet is drawn as its agent.
+    const element = area && (view === "net" ? area : (elementAt(area, selection) ?? elementAt(area, withoutIndex(selection))));
     element?.focus({ preventScroll: true });
     if (!element || document.activeElement !== element) requestAnimationFrame(look);
   };
@@ -45,10 +47,16 @@ export function useFocusInSight(area: RefObject<HTMLElement | null>, moved: { cu
       // Browsers have scrolled boxes that are not to be scrolled.
       for (let one: Element | null = target; one && one !== at.parentElement; one = one.parentElement) one.scrollTo(0, 0);
       const [own, room] = [target.getBoundingClientRect(), at.getBoundingClientRect()];
-      const [right, down] = [
-        wayInto(own.left, own.right, [room.left, room.right]),
-        wayInto(own.top, own.bottom, [room.top, room.bottom]),
-      ];
+      const right = wayInto(own.left, own.right, [room.left, room.right]);
+      let down = wayInto(own.top, own.bottom, [room.top, room.bottom]);
+      const map = at.querySelector(".react-flow__minimap")?.getBoundingClientRect();
+      const isUnderMap =
+        map &&
+        own.right + right > map.left &&
+        own.left + right < map.right &&
+        own.top + down < map.bottom &&
+        own.bottom + down > map.top;
+      if (isUnderMap) down += map.bottom - own.top - down + margin;
       if (right === 0 && down === 0) return;
       moved.current = true;
       const { x, y, zoom } = flow.getViewport();

@@ -37,7 +37,8 @@ export function chainTitle(path: readonly string[]): string {
 }
 
 /** The name that the specification gives it, or its subsystems. */
-export const chainName = ({ named, name, path }: TimedChain): string => (named ? name : chainTitle(path));
+export const chainName = ({ named, name, path, agents }: TimedChain): string =>
+  named ? (agents > 1 ? withoutIndex(name) : name) : chainTitle(path);
 
 /** No behaviour says what it takes, and nothing is asked. */
 export const isSilent = ({ chains }: Timing): boolean =>

@@ -85,8 +85,11 @@ export function limitEdits(
   const at = entryOf(structure, chain);
   if (at >= 0) return [set(["timing", "chains", at], limit, text)];
   if (text === "") return [];
-  const chains = timing.chains.map((one) => ({
-    name: givenName(one),
+  // Members of a fleet with different verdicts are one entry of the text.
+  const all = new Map(timing.chains.map((one) => [givenName(one), one]));
+  all.set(givenName(chain), chain);
+  const chains = [...all].map(([name, one]) => ({
+    name,
     path: pathOf(one),
     ...(one === chain ? { [limit]: text } : {}),
   }));

@@ -8,13 +8,7 @@ export function CoverageLegend({ pane }: { pane: Pane }) {
   const { on, known } = useStore(coverage.store, (all) => all);
   const found = known.get(pane.id);
   return (
-    <div
-      className="coverage"
-      role="group"
-      aria-label="Coverage"
-      onClick={(event) => event.stopPropagation()}
-      onKeyDown={(event) => event.stopPropagation()}
-    >
+    <div className="coverage" role="group" aria-label="Coverage">
       <button className="small" aria-pressed={on} onClick={() => coverage.toggle()}>
         Never reached
       </button>

@@ -83,7 +83,7 @@ function Bound({ bound, other }: { bound: TimedBound; other: TimedBound | undefi
     <td className={answer}>
       <span className={differs ? "old" : ""}>{at_most_ns === null ? "none" : shownTime(at_most_ns)}</span>
       {differs && <strong>{other.at_most_ns === null ? "no bound" : shownTime(other.at_most_ns)}</strong>}
-      {asked_ns !== null && <span className="asked">asked: {shownTime(asked_ns)}</span>}
+      {asked_ns !== null && <span className="asked-limit">asked: {shownTime(asked_ns)}</span>}
     </td>
   );
 }

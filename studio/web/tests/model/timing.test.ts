@@ -113,6 +113,13 @@ test("the first limit comes with all chains, so that none is lost; a later one c
       ],
     },
   });
+  const members = [0, 1].map((at) =>
+    chain(undefined, { path: ["sensor", "control", "motor"].map((one) => `rover[${at}].${one}`), agents: 4 }),
+  );
+  const [ofFleet] = limitEdits(readStructure(text), { ...timing, chains: members }, members[0]!, "age", "80 ms");
+  expect(ofFleet!.value).toEqual({
+    chains: [{ name: "rover sensor to motor", path: ["rover[i].sensor", "rover[i].control", "rover[i].motor"], age: "80 ms" }],
+  });
   const asked = `${text}timing:\n  chains:\n    - { name: quick, path: [robot.sensor, robot.control, robot.motor] }\n`;
   const quick = chain(undefined, { named: true, name: "quick" });
   expect(limitEdits(readStructure(asked), { ...timing, chains: [quick] }, quick, "reaction", "1 s")).toMatchObject([

@@ -1,4 +1,4 @@
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <atomic>
@@ -235,8 +235,14 @@ int explain_one(const Judged& judged, const VerifyOptions& options, const Allowa
   if (!judged.model) return complain("a PNML net has no chains");
   const std::vector<std::string> names = chain_names(*judged.model);
   if (std::ranges::find(names, *options.explain) == names.end()) {
-    complain(
-        with_hint("there is no chain '" + *options.explain + "'", did_you_mean(*options.explain, names)));
+    Hint hint = did_you_mean(*options.explain, names);
+    if (names.empty()) hint = "a chain leads from a receptor to an effector";
+    if (hint.empty()) {
+      constexpr std::size_t most = 5;
+      hint = fmt::format("the {} are: {}", names.size() > most ? "first chains" : "chains",
+                         fmt::join(names.begin(), names.begin() + std::min(most, names.size()), ", "));
+    }
+    complain(with_hint("there is no chain '" + *options.explain + "'", hint));
     return usage;
   }
   const Interruptible interruptible;

@@ -27,7 +27,7 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   const timing::Bounds bounds(declared.system);
   std::map<std::string, std::uint64_t> judged;
   for (const timing::DeclaredChain& chain : declared.chains) {
-    const auto found = of_group.find(fleet_name_of(chain.leads));
+    const auto found = of_group.find(fleet_name_of(chain.name));
     if (found == of_group.end()) continue;
     AgesOfChain& one = *found->second;
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
@@ -198,9 +198,8 @@ std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::
     put_worst(text, "oldest command", one, measured.age, names);
     if (measured.reaction.count > 0) put_worst(text, "slowest reaction", one, measured.reaction, names);
     if (measured.withheld > 0)
-      text += fmt::format("  {} {} of {} gave no command: failed, or the safe command held\n",
-                          measured.withheld, measured.withheld == 1 ? "call" : "calls",
-                          measured.group.substr(measured.group.rfind(' ') + 1));
+      text += fmt::format("  {} {} of the last subsystem gave no command: failed, or the safe command held\n",
+                          measured.withheld, measured.withheld == 1 ? "call" : "calls");
     if (!one.why.empty()) text += "  no bound: " + one.why + "\n";
   }
   if (std::ranges::any_of(all, &AgesOfChain::exceeds))

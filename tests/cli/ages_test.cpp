@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <map>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include "command.hpp"
@@ -114,6 +115,19 @@ TEST_F(AgesOfCommands, AreThoseOfTheStampsAndStayBelowTheirBounds) {
   compare(chain.at("reaction"), naive.reactions);
   EXPECT_LE(naive.ages.back(), 82'000'000);
   EXPECT_LE(naive.reactions.back(), 142'000'000);
+
+  // The same chain, with a name.
+  const std::string unnamed = content_of(project / "spec.yaml");
+  write(project / "spec.yaml",
+        unnamed +
+            "\ntiming:\n  chains:\n    - { name: line to wheels, path: [robot.sensor, robot.control, "
+            "robot.motor] }\n");
+  nlohmann::json named = json("replay run.tsr --ages --spec 01_line_follower").at("ages").at(0);
+  EXPECT_EQ(std::exchange(named.at("chain"), chain.at("chain")), "line to wheels");
+  for (const char* times : {"age", "reaction"})
+    EXPECT_EQ(std::exchange(named.at(times).at("worst").at("chain"), chain.at("chain")), "line to wheels");
+  EXPECT_EQ(named, chain);
+  write(project / "spec.yaml", unnamed);
 
   // In segments, of which the first are gone, and cut off.
   ASSERT_EQ(tessera("simulate 01_line_follower --for 60s --record part.tsr --record-limit 1MB").code, 0);

@@ -38,6 +38,8 @@ TEST_F(VerifyTimes, ChainsThatHoldAreToldAndExplained) {
   const project::Exit wrong = tessera("verify " + arm + " --explain 'joints to motor'");
   EXPECT_EQ(wrong.code, 2);
   EXPECT_NE(wrong.text.find("did you mean 'joints to motors'?"), std::string::npos) << wrong.text;
+  const project::Exit none = tessera("verify " + arm + " --explain wheels");
+  EXPECT_NE(none.text.find("the chains are: joints to motors"), std::string::npos) << none.text;
 }
 
 TEST_F(VerifyTimes, WhatIsNotProvedOrViolatedHasTheExitCodesOfProperties) {

@@ -19,6 +19,7 @@ class Reader {
   explicit Reader(const spec::Model& model) : model_(model), wiring_(model) {
     declared_.missing.resize(model.instances.size());
     declared_.all_missing.resize(model.instances.size());
+    declared_.differ.resize(model.instances.size());
     declared_.stale.resize(model.instances.size());
     declared_.system.latency = model.timing.latency.count();
     for (const spec::InstanceId instance : model.instances.ids()) read(instance);
@@ -65,6 +66,7 @@ class Reader {
       if (!behaviour.skippable.empty()) miss(instance, name + " may skip a send");
       mine.shortest = std::min<Time>(mine.shortest, behaviour.takes.shortest.count());
       mine.longest = std::max<Time>(mine.longest, behaviour.takes.longest.count());
+      if (first != nullptr && behaviour.takes != first->takes) declared_.differ[instance.value] = true;
       if (first == nullptr) {
         first = &behaviour;
         mine.parallel = behaviour.transfer == spec::Transfer::parallel;

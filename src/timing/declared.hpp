@@ -29,7 +29,8 @@ struct Declared {
   /// bounded.
   std::vector<std::string> missing;
   std::vector<std::vector<std::string>> all_missing;  ///< per subsystem: all that `missing` could say
-  std::vector<Time> stale;  ///< per subsystem: an older input makes it give the safe command; 0: none does
+  std::vector<bool> differ;  ///< per subsystem: its behaviours do not all have the same times
+  std::vector<Time> stale;   ///< per subsystem: an older input makes it give the safe command; 0: none does
   /// Those that the specification names; else each receptor -> control -> effector of one agent, agent by agent.
   std::vector<DeclaredChain> chains;
 };

@@ -43,8 +43,8 @@ std::string reason(const Declared& declared, const spec::Model& model, const Bou
   return "its subsystems wait for each other without a bound";
 }
 
-/// Each iteration begins at its instant, nobody waits, each subsystem has a processor of its own and comes once: then
-/// calls can be chosen that reach the bounds.
+/// Each iteration begins at its instant, nobody waits, and each subsystem has a processor of its own, the same times in
+/// all its behaviours, and comes once: then calls can be chosen that reach the bounds.
 bool is_exact(const Declared& declared, const Bounds& bounds, const Chain& chain) {
   const System& system = declared.system;
   if (system.latency > 0) return false;
@@ -54,8 +54,8 @@ bool is_exact(const Declared& declared, const Bounds& bounds, const Chain& chain
     if (channel.send_blocks || channel.receive_blocks || !path.insert(channel.to).second) return false;
   }
   return std::ranges::all_of(path, [&](std::uint32_t i) {
-    return bounds.occurrences().periodic(i) && system.subsystems[i].processor < 0 &&
-           system.subsystems[i].longest <= system.subsystems[i].period;
+    return bounds.occurrences().periodic(i) && !bounds.occurrences().waits(i) && !declared.differ[i] &&
+           system.subsystems[i].processor < 0 && system.subsystems[i].longest <= system.subsystems[i].period;
   });
 }
 

@@ -2,6 +2,8 @@
 #include <gmock/gmock.h>
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "follower.hpp"
 #include "timing/conduct.hpp"
@@ -38,6 +40,35 @@ TEST(Verdicts, AnswerWhatIsAsked) {
   const Judged silent({.sensor_takes = "", .timing = chain(", age: 1 s")});
   EXPECT_EQ(silent.verdicts.at(0).age, Answer::none);
   EXPECT_EQ(silent.verdicts.at(0).reaction, Answer::not_asked);
+}
+
+TEST(Verdicts, ABoundThatNoRunMayReachIsNotExact) {
+  const auto judged = [](const std::vector<std::pair<std::string, std::string>>& changes) {
+    std::string text = Follower{.motion = no_waits, .timing = chain(", age: 141 ms")}.text();
+    for (const auto& [from, to] : changes) text.replace(text.find(from), from.size(), to);
+    const spec::Reading reading(text);
+    EXPECT_TRUE(reading.model) << reading.report();
+    const Declared all = declared(*reading.model);
+    return judge(all, *reading.model, Bounds(all.system), all.chains.at(0));
+  };
+  EXPECT_EQ(judged({}).age, Answer::violated);
+  // The longest call may come at its beginning only.
+  const ChainVerdict begins = judged({{"follow: { takes: 2..8 ms, next: follow }",
+                                       "begin: { takes: 2..8 ms, terminal: true, next: follow }, "
+                                       "follow: { takes: 2..3 ms, next: follow }"}});
+  EXPECT_EQ(begins.bound.age, 142 * ms);
+  EXPECT_EQ(begins.age, Answer::unknown);
+  // It keeps its rate although it waits for another one, but not always as long as it may.
+  const ChainVerdict waits =
+      judged({{"inputs: { line: float64 }", "inputs: { other: float64, line: float64 }"},
+              {"receptors: {",
+               "receptors: { second: { rate: 50 Hz, real: { s: float64 }, outputs: { other: float64 },\n"
+               "      behaviours: { look: { takes: 1..2 ms, next: look } } },"},
+              {"channels:\n",
+               "channels:\n"
+               "  - { from: \"robot.second.other\", to: \"robot.control.other\", receive: blocking }\n"}});
+  EXPECT_LT(waits.bound.age, unbounded);
+  EXPECT_EQ(waits.age, Answer::unknown);
 }
 
 TEST(Verdicts, NothingIsAChainButWhatIsNamed) {

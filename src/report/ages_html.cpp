@@ -15,14 +15,12 @@ constexpr std::size_t most_chains = 8, most_slow = 40;
 double in_ms(std::int64_t ns) { return static_cast<double>(ns) * 1e-6; }
 
 /// A bar per step of the histogram, from 0 to a little more than the greatest time or the bound.
-std::string distribution_svg(const replay::MeasuredTimes& times, std::optional<std::int64_t> bound) {
+std::string distribution_svg(std::string_view label, const replay::MeasuredTimes& times,
+                             std::optional<std::int64_t> bound) {
   const double end = in_ms(std::max(times.most, bound.value_or(0))) * 1.05 + 1e-6;
   const auto x = [&](double ms) { return ages_left + ms / end * (ages_width - ages_left - ages_right); };
   std::string svg;
-  put(svg, R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{} times from {:.3f} to {:.3f} ms)", ages_width,
-      ages_height, times.count, in_ms(times.least), in_ms(times.most));
-  if (bound) put(svg, ", at most {:.3f} ms proved", in_ms(*bound));
-  svg += R"(">)";
+  put(svg, R"(<svg viewBox="0 0 {} {}" role="img" aria-label="{}">)", ages_width, ages_height, label);
   std::vector<std::uint64_t> bars = times.histogram;
   if (bars.empty()) bars = {times.count};
   const double step = in_ms(times.most - times.least) / static_cast<double>(bars.size());
@@ -51,13 +49,14 @@ std::string distribution_svg(const replay::MeasuredTimes& times, std::optional<s
   return svg + "</svg>";
 }
 
-void put_times(std::string& html, std::string_view what, const ChainTimes::Measured& measured) {
+void put_times(std::string& html, std::string_view what, std::string_view label,
+               const ChainTimes::Measured& measured) {
   const replay::MeasuredTimes& times = measured.times;
   if (times.count == 0) return;
   const bool exceeds = measured.bound_ns && times.most > *measured.bound_ns;
   put(html, R"(<div class="panel plot"><p><b>{}</b>{}</p>)", what,
       exceeds ? R"( <span class="bad">above its bound</span>)" : "");
-  html += distribution_svg(times, measured.bound_ns);
+  html += distribution_svg(label, times, measured.bound_ns);
   put(html,
       R"(<p class="note">{} times: median {:.3f} ms, 95 % up to {:.3f} ms, 99 % up to {:.3f} ms, longest {:.3f} ms, )"
       R"(from {:.3f} s to {:.3f} s</p></div>)",
@@ -104,8 +103,9 @@ std::string ages_html(const ReportInput& input) {
     const ChainTimes& chain = shown[index];
     put(html, R"(<p class="mono">{}{}</p><div class="plots">)", escaped(shortened(chain.name, 200, 1)),
         chain.chains > 1 ? " (" + grouped(chain.chains) + " agents)" : "");
-    put_times(html, "age: from the reading to the end of each command", chain.age);
-    put_times(html, "reaction: from an event just after a reading to its first command", chain.reaction);
+    put_times(html, "age: from the reading to the end of each command", "Distribution of ages", chain.age);
+    put_times(html, "reaction: from an event just after a reading to its first command",
+              "Distribution of reactions", chain.reaction);
     html += "</div>";
     if (!chain.no_bound.empty())
       put(html, R"(<p class="note">no bound: {}</p>)", escaped(shortened(chain.no_bound, 300, 2)));

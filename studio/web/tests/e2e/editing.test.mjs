@@ -219,6 +219,8 @@ test("the text completes names, says what they mean, and leads to their definiti
     await editor.locator(".cm-line", { hasText: "next: follow }" }).waitFor();
     await page.keyboard.press("F12");
     await editor.locator(".cm-activeLine", { hasText: "follow: {}" }).waitFor();
+    await page.mouse.move(0, 0); // what the mouse rested on may lie over the other line
+    await page.locator(".cm-tooltip-hover").waitFor({ state: "detached" });
     const { x, y } = await editor.locator(".cm-line", { hasText: "outputs: { motion" }).boundingBox();
     await page.mouse.move(x + 220, y + 8);
     await page.locator(".cm-tooltip-hover").getByText("linear: float64 m/s").waitFor();

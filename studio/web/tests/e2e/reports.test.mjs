@@ -130,6 +130,8 @@ async function assertReport(file) {
   assert.ok(tooWide <= 0, `${file} is ${tooWide} px too wide`);
   assert.deepEqual(drawings.map((drawing) => drawing.label).sort(), [
     "Behaviours of each subsystem over time",
+    "Distribution of ages",
+    "Distribution of reactions",
     "Lateral error over time",
     "The path of the robot over the floor",
     "error over time",
@@ -140,7 +142,7 @@ async function assertReport(file) {
     assert.deepEqual(outside, [], `${label}: text outside`);
     assert.equal(wrong, "", label);
     assert.ok(shapes > 0, `${label} is empty`);
-    if (label !== "Behaviours of each subsystem over time")
+    if (!/^(Behaviours|Distribution) of/.test(label))
       assert.ok(points.reduce((sum, count) => sum + count, 0) > 100, `${label} has no curve`);
   }
   assert.deepEqual(links, []);

@@ -59,6 +59,8 @@ class Occurrences {
   /// Its receives wait for new values.
   [[nodiscard]] bool reads_new(std::uint32_t channel) const;
   [[nodiscard]] Wait wait_of(EventId z) const;
+  /// A send or receive of its iterations waits for others.
+  [[nodiscard]] bool waits(std::uint32_t subsystem) const;
 
   /// The latest y that comes next, counted from x; both are of one subsystem, or of one component.
   [[nodiscard]] Time span(EventId x, EventId y) const;
@@ -117,8 +119,6 @@ class Occurrences {
   [[nodiscard]] Time weight(EventId y) const;
   /// Least time from an event of one iteration to one of the next.
   [[nodiscard]] Time least_between(EventId y, EventId x) const;
-  /// Receives and sends of the event's subsystem wait somewhere.
-  [[nodiscard]] bool waits(std::uint32_t subsystem) const;
 
   const StopAsked stop_;
   const System system_;

@@ -66,19 +66,14 @@ export function timesOf(timing: Timing | null): { late: number; unproved: number
   return { late: count("violated"), unproved: count("unknown") };
 }
 
-/** "at most 142 ms", "142 ms" if some run takes so long, "no bound". */
-export const saidBound = ({ at_most_ns }: TimedBound, exact: boolean): string =>
-  at_most_ns === null ? "no bound" : `${exact ? "" : "at most "}${shownTime(at_most_ns)}`;
-
 /** A verdict in plain words. */
-export function saidChain({ age, reaction, exact, why }: TimedChain): string {
+export function saidChain({ age, reaction, why }: TimedChain): string {
   if (why) return `No bound: ${why}.`;
+  const time = ({ at_most_ns }: TimedBound) => (at_most_ns === null ? "any time" : shownTime(at_most_ns));
   const asked = (name: string, bound: TimedBound) =>
     bound.asked_ns === null ? "" : ` (asked: ${name} of ${shownTime(bound.asked_ns)} or less)`;
-  return `A command is ${saidBound(age, exact)} old${asked("an age", age)}; an event is answered within ${saidBound(
-    reaction,
-    false,
-  ).replace("at most ", "")}${asked("a reaction", reaction)}.`;
+  const old = `A command is at most ${time(age)} old${asked("an age", age)}`;
+  return `${old}; an event is answered within ${time(reaction)}${asked("a reaction", reaction)}.`;
 }
 
 const last = (path: string) => path.slice(path.indexOf(".") + 1);

@@ -8,51 +8,12 @@
 #include "cli/timing/time_texts.hpp"
 #include "timing/changes.hpp"
 #include "timing/steps.hpp"
+#include "timing/words.hpp"
 
 namespace tessera::cli {
 namespace {
 
 using nlohmann::json;
-
-const char* step_word(timing::Step::Kind kind) {
-  switch (kind) {
-    case timing::Step::Kind::next_reading:
-      return "next_reading";
-    case timing::Step::Kind::until_read:
-      return "until_read";
-    case timing::Step::Kind::until_begin:
-      return "until_begin";
-    case timing::Step::Kind::latency:
-      return "latency";
-    case timing::Step::Kind::processor:
-      return "processor";
-    case timing::Step::Kind::takes:
-      return "takes";
-    case timing::Step::Kind::until_sent:
-      break;
-  }
-  return "until_sent";
-}
-
-const char* change_word(timing::Change::Kind kind) {
-  switch (kind) {
-    case timing::Change::Kind::twice_the_rate:
-      return "twice_the_rate";
-    case timing::Change::Kind::event_driven:
-      return "event_driven";
-    case timing::Change::Kind::receive_waits:
-      return "receive_blocking";
-    case timing::Change::Kind::receive_goes_on:
-      return "receive_non_blocking";
-    case timing::Change::Kind::send_waits:
-      return "send_blocking";
-    case timing::Change::Kind::send_goes_on:
-      return "send_non_blocking";
-    case timing::Change::Kind::own_processor:
-      break;
-  }
-  return "own_processor";
-}
 
 class ChainExplainer {
  public:
@@ -81,13 +42,9 @@ class ChainExplainer {
 
  private:
   void tell_steps(ChainExplanation& result) const {
-    const timing::Chain *oldest = &chain_.ways.front(), *slowest = oldest;
-    for (const timing::Chain& way : chain_.ways) {
-      if (bounds_.chain(way).age > bounds_.chain(*oldest).age) oldest = &way;
-      if (bounds_.chain(way).reaction > bounds_.chain(*slowest).reaction) slowest = &way;
-    }
-    tell("age", timing::steps_of(bounds_, *oldest).age, /*is_age=*/true, result);
-    tell("reaction", timing::steps_of(bounds_, *slowest).reaction, /*is_age=*/false, result);
+    const timing::ChainSteps steps = timing::steps_of(bounds_, chain_.ways);
+    tell("age", steps.age, /*is_age=*/true, result);
+    tell("reaction", steps.reaction, /*is_age=*/false, result);
   }
 
   void tell(const char* name, const std::vector<timing::Step>& steps, bool is_age,
@@ -101,7 +58,7 @@ class ChainExplainer {
       until += step.time;
       result.text += fmt::format("    {:>10}  {:>10}  {}\n", "+" + time_text(step.time), time_text(until),
                                  words_of(step, is_age));
-      json one{{"kind", step_word(step.kind)}, {"subsystem", path(step.subsystem)}, {"ns", step.time}};
+      json one{{"kind", timing::word_of(step.kind)}, {"subsystem", path(step.subsystem)}, {"ns", step.time}};
       if (step.kind == timing::Step::Kind::until_read) one["channel"] = channel(step.channel);
       all.push_back(std::move(one));
     }
@@ -136,7 +93,7 @@ class ChainExplainer {
     result.json["changes"] = json::array();
     for (std::size_t at = 0; at < changes.size(); ++at) {
       const timing::Change& change = changes[at];
-      result.json["changes"].push_back({{"kind", change_word(change.kind)},
+      result.json["changes"].push_back({{"kind", timing::word_of(change.kind)},
                                         {"change", words_of(change)},
                                         {"age_ns", time_json(change.age)},
                                         {"reaction_ns", time_json(change.reaction)}});

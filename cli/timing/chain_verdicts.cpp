@@ -8,6 +8,7 @@
 
 #include "cli/timing/conduct_texts.hpp"
 #include "cli/timing/time_texts.hpp"
+#include "timing/words.hpp"
 
 namespace tessera::cli {
 namespace {
@@ -76,29 +77,13 @@ nlohmann::json chain_json(const timing::DeclaredChain& chain, const timing::Chai
                 {"exact", verdict.exact}});
   else
     one["why"] = verdict.why;
-  if (chain.age) one.update({{"asked_age_ns", *chain.age}, {"age", answer_word(verdict.age)}});
+  if (chain.age) one.update({{"asked_age_ns", *chain.age}, {"age", timing::word_of(verdict.age)}});
   if (chain.reaction)
-    one.update({{"asked_reaction_ns", *chain.reaction}, {"reaction", answer_word(verdict.reaction)}});
+    one.update({{"asked_reaction_ns", *chain.reaction}, {"reaction", timing::word_of(verdict.reaction)}});
   return one;
 }
 
 }  // namespace
-
-std::string answer_word(timing::Answer answer) {
-  switch (answer) {
-    case timing::Answer::holds:
-      return "holds";
-    case timing::Answer::violated:
-      return "violated";
-    case timing::Answer::unknown:
-      return "unknown";
-    case timing::Answer::none:
-      return "none";
-    case timing::Answer::not_asked:
-      break;
-  }
-  return {};
-}
 
 verify::Verdict overall(const timing::ChainVerdict& verdict) {
   return worse_of(verdict_on(verdict.age), verdict_on(verdict.reaction));

@@ -30,8 +30,6 @@ struct ChainVerdicts {
 /// "age holds (at most 82 ms; asked 100 ms), reaction at most 142 ms"
 [[nodiscard]] std::string verdict_text(const timing::DeclaredChain& chain,
                                        const timing::ChainVerdict& verdict);
-/// "holds", "violated", "unknown", "none"; empty: nothing is asked.
-[[nodiscard]] std::string answer_word(timing::Answer answer);
 /// The verdict of what is asked of one chain.
 [[nodiscard]] verify::Verdict overall(const timing::ChainVerdict& verdict);
 

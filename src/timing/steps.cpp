@@ -58,10 +58,14 @@ std::vector<Step> along(const Bounds& bounds, const Chain& chain, const Route& r
 
 }  // namespace
 
-ChainSteps steps_of(const Bounds& bounds, const Chain& chain) {
-  const ChainRoutes routes = bounds.routes(chain);
-  return {along(bounds, chain, routes.age, StepKind::until_sent),
-          along(bounds, chain, routes.reaction, StepKind::next_reading)};
+ChainSteps steps_of(const Bounds& bounds, const std::vector<Chain>& ways) {
+  const Chain *oldest = &ways.front(), *slowest = oldest;
+  for (const Chain& way : ways) {
+    if (bounds.chain(way).age > bounds.chain(*oldest).age) oldest = &way;
+    if (bounds.chain(way).reaction > bounds.chain(*slowest).reaction) slowest = &way;
+  }
+  return {along(bounds, *oldest, bounds.routes(*oldest).age, StepKind::until_sent),
+          along(bounds, *slowest, bounds.routes(*slowest).reaction, StepKind::next_reading)};
 }
 
 }  // namespace tessera::timing

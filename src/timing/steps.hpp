@@ -31,7 +31,8 @@ struct ChainSteps {
   std::vector<Step> age, reaction;
 };
 
-/// Precondition: the chain has a bound.
-[[nodiscard]] ChainSteps steps_of(const Bounds& bounds, const Chain& chain);
+/// Those of the way with the largest age, and of the one with the largest reaction. Precondition: there is a way, and
+/// all have bounds.
+[[nodiscard]] ChainSteps steps_of(const Bounds& bounds, const std::vector<Chain>& ways);
 
 }  // namespace tessera::timing

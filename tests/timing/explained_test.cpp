@@ -29,7 +29,7 @@ Time part(const std::vector<Step>& steps, Step::Kind kind) {
 
 ChainSteps steps(const Judged& judged) {
   const Bounds bounds(judged.declared.system);
-  return steps_of(bounds, judged.declared.chains.at(0).ways.at(0));
+  return steps_of(bounds, judged.declared.chains.at(0).ways);
 }
 
 TEST(Steps, AddUpToTheBounds) {

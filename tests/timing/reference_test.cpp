@@ -65,7 +65,7 @@ TEST(Reference, HasTheSameBounds) {
       const ChainBound found = bounds.chain(chain_of(chain)), summed = bounds.sum(chain_of(chain));
       ASSERT_EQ(found, (ChainBound{same(best.age), same(best.reaction), same(best.start), best.enumerated}));
       if (found.reaction < unbounded) {
-        const ChainSteps steps = steps_of(bounds, chain_of(chain));
+        const ChainSteps steps = steps_of(bounds, {chain_of(chain)});
         ASSERT_EQ(total_of(steps.age), found.age);
         ASSERT_EQ(total_of(steps.reaction), found.reaction);
       }

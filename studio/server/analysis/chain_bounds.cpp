@@ -11,6 +11,7 @@
 #include "timing/changes.hpp"
 #include "timing/declared.hpp"
 #include "timing/steps.hpp"
+#include "timing/words.hpp"
 
 namespace tessera::server {
 namespace {
@@ -62,64 +63,6 @@ std::string change(timing::Declared& declared, const spec::Model& model, const O
 
 json time_of(Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
 
-const char* word_of(timing::Answer answer) {
-  switch (answer) {
-    case timing::Answer::holds:
-      return "holds";
-    case timing::Answer::violated:
-      return "violated";
-    case timing::Answer::unknown:
-      return "unknown";
-    case timing::Answer::none:
-      return "none";
-    case timing::Answer::not_asked:
-      break;
-  }
-  return "not_asked";
-}
-
-const char* word_of(timing::Step::Kind kind) {
-  using Kind = timing::Step::Kind;
-  switch (kind) {
-    case Kind::next_reading:
-      return "next_reading";
-    case Kind::until_read:
-      return "until_read";
-    case Kind::until_begin:
-      return "until_begin";
-    case Kind::latency:
-      return "latency";
-    case Kind::processor:
-      return "processor";
-    case Kind::takes:
-      return "takes";
-    case Kind::until_sent:
-      break;
-  }
-  return "until_sent";
-}
-
-const char* word_of(timing::Change::Kind kind) {
-  using Kind = timing::Change::Kind;
-  switch (kind) {
-    case Kind::twice_the_rate:
-      return "twice_the_rate";
-    case Kind::event_driven:
-      return "event_driven";
-    case Kind::receive_waits:
-      return "receive_blocking";
-    case Kind::receive_goes_on:
-      return "receive_non_blocking";
-    case Kind::send_waits:
-      return "send_blocking";
-    case Kind::send_goes_on:
-      return "send_non_blocking";
-    case Kind::own_processor:
-      break;
-  }
-  return "own_processor";
-}
-
 json bound_of(const timing::ChainVerdict& verdict, Time time, const std::optional<Time>& asked,
               timing::Answer answer) {
   return {{"at_most_ns", verdict.why.empty() ? time_of(time) : json(nullptr)},
@@ -143,15 +86,9 @@ json steps_json(const std::vector<timing::Step>& steps, const spec::Model& model
   return all;
 }
 
-/// The parts of the age and the reaction of those ways that have the largest ones.
 json steps_of(const timing::DeclaredChain& chain, const timing::Bounds& bounds, const spec::Model& model) {
-  const timing::Chain *oldest = &chain.ways.front(), *slowest = oldest;
-  for (const timing::Chain& way : chain.ways) {
-    if (bounds.chain(way).age > bounds.chain(*oldest).age) oldest = &way;
-    if (bounds.chain(way).reaction > bounds.chain(*slowest).reaction) slowest = &way;
-  }
-  return {{"age", steps_json(timing::steps_of(bounds, *oldest).age, model)},
-          {"reaction", steps_json(timing::steps_of(bounds, *slowest).reaction, model)}};
+  const timing::ChainSteps steps = timing::steps_of(bounds, chain.ways);
+  return {{"age", steps_json(steps.age, model)}, {"reaction", steps_json(steps.reaction, model)}};
 }
 
 }  // namespace

@@ -1,0 +1,63 @@
+#include "timing/words.hpp"
+
+namespace tessera::timing {
+
+const char* word_of(Answer answer) {
+  switch (answer) {
+    case Answer::holds:
+      return "holds";
+    case Answer::violated:
+      return "violated";
+    case Answer::unknown:
+      return "unknown";
+    case Answer::none:
+      return "none";
+    case Answer::not_asked:
+      break;
+  }
+  return "not_asked";
+}
+
+const char* word_of(Step::Kind kind) {
+  using Kind = Step::Kind;
+  switch (kind) {
+    case Kind::next_reading:
+      return "next_reading";
+    case Kind::until_read:
+      return "until_read";
+    case Kind::until_begin:
+      return "until_begin";
+    case Kind::latency:
+      return "latency";
+    case Kind::processor:
+      return "processor";
+    case Kind::takes:
+      return "takes";
+    case Kind::until_sent:
+      break;
+  }
+  return "until_sent";
+}
+
+const char* word_of(Change::Kind kind) {
+  using Kind = Change::Kind;
+  switch (kind) {
+    case Kind::twice_the_rate:
+      return "twice_the_rate";
+    case Kind::event_driven:
+      return "event_driven";
+    case Kind::receive_waits:
+      return "receive_blocking";
+    case Kind::receive_goes_on:
+      return "receive_non_blocking";
+    case Kind::send_waits:
+      return "send_blocking";
+    case Kind::send_goes_on:
+      return "send_non_blocking";
+    case Kind::own_processor:
+      break;
+  }
+  return "own_processor";
+}
+
+}  // namespace tessera::timing

@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <array>
-#include <cstdio>
 #include <string>
 
 #include "follower.hpp"
@@ -34,10 +32,8 @@ TEST(WorstRun, OfTheLineFollowerAndItsAlternativesReachesTheBounds) {
                        {.motion = "robot.control.motion -> robot.motor.motion"},
                        142 * ms,
                        162 * ms},
-           Alternative{"the motor has no rate",
-                       {.motor = "stale: never", .motion = motion_waits},
-                       80 * ms,
-                       130 * ms},
+           Alternative{
+               "the motor has no rate", {.motor = "stale: never", .motion = motion_waits}, 80 * ms, 130 * ms},
            Alternative{
                "control and motor are driven by events",
                {.control = "memory: {}", .motor = "stale: never", .line = waits, .motion = motion_waits},
@@ -57,27 +53,6 @@ TEST(WorstRun, OfTheLineFollowerAndItsAlternativesReachesTheBounds) {
     EXPECT_EQ(runs.age->reaches, one.reaches);
     EXPECT_EQ(runs.reaction->reaches, one.reaches);
   }
-}
-
-TEST(WorstRun, Probe) {
-  for (const auto& [a, b, c] : {std::array{53, 51, 52}, {53, 52, 51}, {52, 53, 51}, {51, 53, 52}, {51, 52, 53}, {52, 51, 53}}) {
-    Follower shared;
-    const auto on = [](int p) { return ", realtime: { cpu: 0, priority: " + std::to_string(p) + " }"; };
-    shared.sensor += on(a);
-    shared.control += on(b);
-    shared.motor += on(c);
-    const Judged judged(shared);
-    const Bounds bounds(judged.declared.system);
-    WorstRunSearch search(judged.declared, bounds);
-    const WorstRuns runs = search.find(judged.declared.chains[0]);
-    printf("%d %d %d: %ld of %ld, %ld of %ld\n", a, b, c, runs.age->time(), judged.verdicts[0].bound.age, runs.reaction->time(), judged.verdicts[0].bound.reaction);
-  }
-  const Judged judged({.motion = "{ from: \"robot.control.motion\", to: \"robot.motor.motion\", receive: blocking, "
-                           "timeout: 30 ms }"});
-    const Bounds bounds(judged.declared.system);
-    WorstRunSearch search(judged.declared, bounds);
-    const WorstRuns runs = search.find(judged.declared.chains[0]);
-    printf("timeout %ld of %ld, %ld of %ld\n",  runs.age->time(), judged.verdicts[0].bound.age, runs.reaction->time(), judged.verdicts[0].bound.reaction);
 }
 
 }  // namespace

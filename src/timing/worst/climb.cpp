@@ -104,7 +104,7 @@ Reached Climb::measure_age(const RunLog& log, std::optional<std::uint32_t> readi
   return reached;
 }
 
-/// Of an event just after a reading: until the first command that reflects a later one.
+/// An event comes just after a reading: until the first command that reflects a later one.
 Reached Climb::measure_reaction(const RunLog& log, std::optional<std::uint32_t> reading) const {
   const std::vector<RunLog::Call>& readings = log.calls[system_.channels[chain_.front()].from];
   Reached reached;

@@ -20,7 +20,7 @@ class PlayedRun {
 
   /// Valid until the next call.
   const RunLog& play(const RunPlan& plan, Time until);
-  /// Of all runs so far: the measure of the work, the same on every machine.
+  /// The work of all runs so far, the same on every machine.
   [[nodiscard]] std::uint64_t steps() const { return steps_; }
 
  private:
@@ -56,7 +56,7 @@ class PlayedRun {
   [[nodiscard]] bool shares(std::uint32_t i) const { return of(i).processor >= 0; }
   [[nodiscard]] bool is_able(std::uint32_t i) const;
   [[nodiscard]] bool gets_processor(std::uint32_t i) const;
-  /// Who has the processor of i.
+  /// It has its processor, and uses it.
   [[nodiscard]] bool is_running(std::uint32_t i) const;
   [[nodiscard]] std::int64_t next_turn() const;
   [[nodiscard]] Time next_instant() const;

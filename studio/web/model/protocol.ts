@@ -603,7 +603,7 @@ export interface TimedChange {
  * the run.
  */
 export interface WorstRun {
-  /** Of an age: the reading of the device. Of a reaction: an event just after a reading. */
+  /** The reading of the device; for a reaction, an event just after it. */
   from_ns: number;
   /** The end of the command. */
   to_ns: number;

@@ -149,10 +149,26 @@ struct Port {
   std::string_view buffer;
 };
 
+/// A point of the distribution of the times of calls: `below` of 2^32 calls take less than `time`.
+struct TimePoint {
+  Duration time;
+  std::uint32_t below;
+};
+
+/// The use of a resource while a behaviour is the present one.
+struct Use {
+  std::uint16_t resource;  ///< into System::resources
+  double per_second;       ///< in the unit of the resource
+};
+
 struct Behaviour {
   std::string_view name;
   Duration takes{0};    ///< least simulated time of its transition function
   Duration at_most{0};  ///< most; less than `takes`: that is the time of each call
+  /// The distribution between the two; all times between two neighbouring points are equally likely. `below` is 0
+  /// in the first point and UINT32_MAX in the last one. Empty: all times between the two are equally likely.
+  std::span<const TimePoint> times{};
+  std::span<const Use> uses{};
 };
 
 /// The part of the net that one subsystem executes.
@@ -287,6 +303,11 @@ struct ChainWay {
   std::uint32_t member = UINT32_MAX;              ///< of the fleet; UINT32_MAX: there is none
 };
 
+/// Something that behaviours use: "energy", in "J".
+struct Resource {
+  std::string_view name, unit;
+};
+
 struct VerifiedProperty {
   std::string_view name, verdict, method;
 };
@@ -311,6 +332,7 @@ struct System {
   std::span<const Chain> chains{};  ///< their ages are measured; empty: the specification says no times
   /// Without those over a network, or over a channel with a communication model of its own.
   std::span<const ChainWay> chain_ways{};
+  std::span<const Resource> resources{};
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

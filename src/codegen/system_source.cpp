@@ -33,6 +33,8 @@ std::string policies(const spec::Subsystem& subsystem) {
   std::vector<std::string> members;
   if (subsystem.overrun != spec::Overrun::skip)
     members.push_back(fmt::format(".overrun = tessera::Overrun::{}", name_of(subsystem.overrun)));
+  if (subsystem.overtime != spec::Overtime::tell)
+    members.push_back(fmt::format(".overtime = tessera::Overtime::{}", name_of(subsystem.overtime)));
   if (subsystem.watchdog) members.push_back(".watchdog = " + duration(*subsystem.watchdog));
   if (subsystem.operator_resets) members.emplace_back(".operator_resets = true");
   if (subsystem.non_finite_allowed) members.emplace_back(".non_finite_allowed = true");
@@ -128,6 +130,11 @@ std::string process_members(const spec::Model& model) {
   return fmt::format(
       ",\n    .processes = processes, .process_of = process_of, .domain = {}, .liveliness = {}",
       model.deployment->domain, duration(model.deployment->liveliness));
+}
+
+std::string latency_member(const spec::Model& model) {
+  if (model.timing.latency == spec::Duration{0}) return {};
+  return ",\n    .latency = " + duration(model.timing.latency);
 }
 
 /// A chain of which a value can be followed in the tables.
@@ -325,8 +332,8 @@ const tessera::System& system() {{ return whole; }}
                       table("VerifiedProperty", "verdicts", verdict_rows(report)), process_tables(model),
                       model.system, report.net_hash, report.verification_hash,
                       drivers.real.size == 0 ? "{}" : "real_drivers",
-                      drivers.simulated.size == 0 ? "{}" : "simulated_drivers", process_members(model),
-                      only_durations, chains,
+                      drivers.simulated.size == 0 ? "{}" : "simulated_drivers",
+                      process_members(model) + latency_member(model), only_durations, chains,
                       chains.empty() ? "" : ",\n    .chains = chains, .chain_ways = chain_ways")};
 }
 

@@ -374,6 +374,8 @@ class Assembler {
       parts_[index].changes = assembly_.changes.get();
       assembly_.executors.push_back(make_executor(index));
       if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
+      if (assembly_.scenario && assembly_.scenario->times)
+        assembly_.executors.back()->force_times(assembly_.scenario->times->calls[index]);
     }
     return true;
   }

@@ -8,6 +8,7 @@
 #include "nets/flat_net.hpp"
 #include "nets/plan.hpp"
 #include "tessera/tables.hpp"
+#include "tessera/time.hpp"
 
 namespace tessera {
 
@@ -22,6 +23,20 @@ struct Scenario {
     std::string name;
   };
   std::vector<Step> steps;
+
+  /// The times of calls, in a run that shows how old a command can be (tessera verify --explain CHAIN). Then there are
+  /// no steps, and the run ends with the command.
+  struct Call {
+    Duration takes{};
+    Duration late{};         ///< from its release until it begins
+    std::int32_t order = 0;  ///< of those that can act at one instant, the smaller one goes first
+  };
+  struct Times {
+    Time end{};                            ///< of the command
+    std::vector<std::vector<Call>> calls;  ///< per instance, in their order; later ones are drawn as usual
+    std::vector<std::uint32_t> place;      ///< per instance: the smaller one goes first among equals
+  };
+  std::optional<Times> times{};
 
   /// The transitions that an instance has to fire, in order.
   [[nodiscard]] Script of_instance(std::uint32_t instance) const;

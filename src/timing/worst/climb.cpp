@@ -22,12 +22,16 @@ bool Climb::search() {
   const std::vector<Time> readings = readings_to_try();
   for (const Start start : {Start::quick, Start::slow, Start::chain_quick, Start::mixed})
     for (const Time reading : readings) {
-      if (is_over()) return best_.time >= 0;
+      if (is_over()) break;
       until_ = reading + goal_.bound + longest_round_;
       improve(begin_with(start), reading);
     }
   climb_by_chance();
-  return best_.time >= 0;
+  if (best_.time < 0) return false;
+  // Another reading of the same run may be worse.
+  until_ = best_until_;
+  best_ = play(best_plan_, std::nullopt);
+  return true;
 }
 
 /// Readings after a while, since chances come one after the other, and in the pattern of the bound.

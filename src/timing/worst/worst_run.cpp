@@ -1,6 +1,7 @@
 #include "timing/worst/worst_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -21,10 +22,13 @@ WorstRun told(const System& system, const Chain& chain, const RunLog& log, const
   for (std::size_t h = chain.size(); h-- > 0;) {
     const RunLog::Read& read = log.reads[h][static_cast<std::size_t>(log.uses[h][call])];
     const RunLog::Write& write = log.writes[h][read.write];
-    run.hops.insert(run.hops.begin(), {chain[h], write.at, read.at});
+    const auto taken = std::ranges::lower_bound(log.reads[h], read.write, {}, &RunLog::Read::write);
+    const Time looked = taken == log.reads[h].begin() ? -1 : std::prev(taken)->at;
+    run.hops.insert(run.hops.begin(), {chain[h], write.at, read.at, looked});
     call = write.call;
   }
   for (std::uint32_t i = 0; i < log.calls.size(); ++i) {
+    run.subsystems.push_back(i);
     if (log.wakes_late[i]) run.on_simulated_clock = false;
     for (std::uint32_t number = 0; number < log.calls[i].size(); ++number) {
       const RunLog::Call& one = log.calls[i][number];
@@ -192,9 +196,24 @@ std::optional<WorstRun> WorstRunSearch::find(const Chain& way, bool age) {
   }
   std::optional<WorstRun> run = known->run;
   if (!run) return run;
+  for (std::uint32_t& subsystem : run->subsystems) subsystem = part.subsystems[subsystem];
   for (CallOfRun& call : run->calls) call.subsystem = part.subsystems[call.subsystem];
   for (std::size_t h = 0; h < way.size(); ++h) run->hops[h].channel = way[h];
   return run;
+}
+
+void take_runs(ChainVerdict& verdict, const DeclaredChain& chain, const WorstRuns& runs) {
+  const auto take = [](const std::optional<WorstRun>& run, const std::optional<Time>& asked, bool& exact,
+                       std::optional<Time>& shown, Answer& answer) {
+    if (!run) return;
+    exact = exact || run->reaches;
+    shown = run->time();
+    if (asked && *shown > *asked) answer = Answer::violated;
+  };
+  if (!verdict.why.empty()) return;
+  take(runs.age, chain.age, verdict.exact_age, verdict.shown_age, verdict.age);
+  take(runs.reaction, chain.reaction, verdict.exact_reaction, verdict.shown_reaction, verdict.reaction);
+  verdict.exact = verdict.exact_age && verdict.exact_reaction;
 }
 
 }  // namespace tessera::timing

@@ -12,19 +12,21 @@
 
 namespace tessera::timing {
 
-/// A call of a transition function in a run. Its order matters among those that can act at one instant: the one with
-/// the smaller number goes first, and the earlier subsystem of the specification among equals.
+/// A call of a transition function in a run.
 struct CallOfRun {
   std::uint32_t subsystem = 0;
   std::uint32_t number = 0;  ///< counted from 0
   Time begin = 0, end = 0;   ///< of the device reading, and of the command
   Time late = 0;             ///< from its release to its beginning, because of the latency or the processor
+  /// Until the next call arrives, of those that can act at one instant: the smaller one goes first, and among equals
+  /// the earlier one in WorstRun::subsystems.
   std::int8_t order = 0;
 };
 /// The value on its way: when it was written, and when it was received for the last time before it was used.
 struct HopOfRun {
   std::uint32_t channel = 0;
   Time written = 0, read = 0;
+  Time looked = -1;  ///< the receive just before the first one of this value or a newer one; -1: none
 };
 struct WorstRun {
   Time from = 0;         ///< the reading of the device; for a reaction, an event just after that reading
@@ -32,7 +34,8 @@ struct WorstRun {
   bool reaches = false;  ///< the bound
   std::vector<CallOfRun>
       calls;  ///< of all subsystems that matter, from the start of the run to its end, by their begin
-  std::vector<HopOfRun> hops;  ///< of the value that the command is based on
+  std::vector<std::uint32_t> subsystems;  ///< that matter
+  std::vector<HopOfRun> hops;             ///< of the value that the command is based on
   /// Under the simulated clock the controller makes it, if calls take as long as here: only calls begin late.
   bool on_simulated_clock = true;
 
@@ -55,7 +58,7 @@ class WorstRunSearch {
  public:
   /// most_steps: of all searches together; a step is one firing, a microsecond at most.
   explicit WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop = {},
-                          std::uint64_t most_steps = 40'000'000)
+                          std::uint64_t most_steps = 10'000'000)
       : declared_(declared), bounds_(bounds), stop_(std::move(stop)), left_(most_steps) {}
 
   /// Why the runs of the search might not be those of the controller, so that nothing is searched: "the behaviours of
@@ -79,7 +82,7 @@ class WorstRunSearch {
     std::optional<WorstRun> run;  ///< with the numbers of the part
   };
 
-  static constexpr std::uint64_t most_steps_of_one = 2'000'000;
+  static constexpr std::uint64_t most_steps_of_one = 1'000'000;
 
   struct Obstacle {
     enum class Kind : std::uint8_t { missing, differ, takes_turns, too_many } kind = Kind::missing;
@@ -98,5 +101,13 @@ class WorstRunSearch {
   std::uint64_t left_;
   std::vector<Found> found_;
 };
+
+/// What the runs show of a chain: whether its bounds are exact, and that something asked is violated.
+void take_runs(ChainVerdict& verdict, const DeclaredChain& chain, const WorstRuns& runs);
+
+/// Whether runs can change the answer to something that is asked.
+[[nodiscard]] inline bool is_open(const ChainVerdict& verdict) {
+  return verdict.age == Answer::unknown || verdict.reaction == Answer::unknown;
+}
 
 }  // namespace tessera::timing

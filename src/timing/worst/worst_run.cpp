@@ -184,7 +184,7 @@ std::optional<WorstRun> WorstRunSearch::find(const Chain& way, bool age) {
   if (known == found_.end()) {
     const ChainRoutes routes = bounds_.routes(way);
     const Route& route = age ? routes.age : routes.reaction;
-    const std::uint64_t most = std::min(left_, most_steps_of_one);
+    const std::uint64_t most = std::min(left_, effort_.of_one);
     Climb climb(part.system, part.chain,
                 {age, age ? bound.age : bound.reaction, route.reading, route.pattern}, most, stop_);
     Found found{std::move(key), std::nullopt};

@@ -56,10 +56,14 @@ struct WorstRuns {
 /// Threads: one.
 class WorstRunSearch {
  public:
-  /// most_steps: of all searches together; a step is one firing, a microsecond at most.
-  explicit WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop = {},
-                          std::uint64_t most_steps = 10'000'000)
-      : declared_(declared), bounds_(bounds), stop_(std::move(stop)), left_(most_steps) {}
+  /// The most work, in firings: a microsecond at most.
+  struct Effort {
+    std::uint64_t of_one = 1'000'000, of_all = 10'000'000;
+  };
+  explicit WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop = {})
+      : WorstRunSearch(declared, bounds, std::move(stop), Effort{}) {}
+  WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop, Effort effort)
+      : declared_(declared), bounds_(bounds), stop_(std::move(stop)), effort_(effort), left_(effort.of_all) {}
 
   /// Why the runs of the search might not be those of the controller, so that nothing is searched: "the behaviours of
   /// robot.control do not all take the same time". Empty: they are.
@@ -82,8 +86,6 @@ class WorstRunSearch {
     std::optional<WorstRun> run;  ///< with the numbers of the part
   };
 
-  static constexpr std::uint64_t most_steps_of_one = 1'000'000;
-
   struct Obstacle {
     enum class Kind : std::uint8_t { missing, differ, takes_turns, too_many } kind = Kind::missing;
     std::uint32_t subsystem = 0;
@@ -98,6 +100,7 @@ class WorstRunSearch {
   const Declared& declared_;
   const Bounds& bounds_;
   StopAsked stop_;
+  Effort effort_;
   std::uint64_t left_;
   std::vector<Found> found_;
 };

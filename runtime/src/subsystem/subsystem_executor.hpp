@@ -63,12 +63,14 @@ class SubsystemExecutor {
   /// most: how many firings and operations at most; ready: it could have gone on.
   [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
 
-  /// From now on only `follow` makes it fire: these transitions of its table, in this order (Scenario).
-  /// Conditions are not evaluated for a token that one of them decides on.
-  void set_script(Scenario::Script transitions) { script_ = std::move(transitions); }
-  /// Its calls begin and end as the scenario says. calls: kept, not copied.
-  void force_times(std::span<const Scenario::Call> calls) { forced_ = calls; }
-  /// Of those that can act at one instant, the one with the smallest number goes first.
+  /// From now on only `follow` makes it fire: these transitions of its table, in this order. Conditions are not
+  /// evaluated for a token that one of them decides on. If it is a scenario of times, calls begin and end as it says.
+  /// scenario: kept, not copied.
+  void set_scenario(const Scenario& scenario) {
+    script_ = scenario.of_instance(index_);
+    if (scenario.times) forced_ = scenario.times->calls[index_];
+  }
+  /// The one with the smallest number goes first of those that can act at one instant.
   [[nodiscard]] std::int32_t order() const {
     const Scenario::Call* const call = forced_call();
     return call == nullptr ? 0 : call->order;

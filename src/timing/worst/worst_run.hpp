@@ -105,7 +105,7 @@ class WorstRunSearch {
   std::vector<Found> found_;
 };
 
-/// What the runs show of a chain: whether its bounds are exact, and that something asked is violated.
+/// Takes over what the runs show: whether bounds are exact, and that something asked is violated.
 void take_runs(ChainVerdict& verdict, const DeclaredChain& chain, const WorstRuns& runs);
 
 /// Whether runs can change the answer to something that is asked.

@@ -36,8 +36,8 @@ class Story {
       say(hop.written, fmt::format("{} sends {}{}", path(channel(hop).from),
                                    at == 0 ? "the reading" : "what follows from it", took(writer(hop))));
       if (hop.looked >= 0 && hop.looked <= hop.written && hop.read > hop.written)
-        say(hop.looked, to + " has received just before, and does so the next time an iteration later");
-      say(hop.read, to + " receives it" + (is_age && hop.looked < hop.read ? " for the last time" : ""));
+        say(hop.looked, to + " has received before that, and does so again an iteration later");
+      say(hop.read, to + (is_age ? " receives it" : " receives it, or a newer one"));
       const CallOfRun user = user_of(hop, at);
       say(user.begin, to + " uses it in its next iteration");
       if (at + 1 == run_.hops.size()) say(run_.to, to + " has given its command" + took(user));

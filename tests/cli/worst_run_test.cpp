@@ -30,7 +30,7 @@ TEST_F(WorstRun, OfTheLineFollowerIsToldAndMadeByItsController) {
   EXPECT_EQ(explained.code, 1) << explained.text;
   EXPECT_EQ(content_of(folder_ / "again.json"), content_of(folder_ / "worst.json"));
   for (const char* line : {"a run with that age, from ", "a run with that reaction, from ",
-                           "robot.control has received just before",
+                           "robot.control has received before that",
                            "robot.motor has given its command (its call took 2 ms, the longest)"})
     EXPECT_NE(explained.text.find(line), std::string::npos) << line << "\n" << explained.text;
 

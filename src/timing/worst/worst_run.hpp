@@ -22,11 +22,13 @@ struct CallOfRun {
   /// the earlier one in WorstRun::subsystems.
   std::int8_t order = 0;
 };
-/// The value on its way: when it was written, and when it was received for the last time before it was used.
+/// A channel on the way. Of an age: when the value was written that the command is based on, and when it was received
+/// for the last time before it was used. Of a reaction: when the first value was written that reflects the event, and
+/// when such a value was received first.
 struct HopOfRun {
   std::uint32_t channel = 0;
   Time written = 0, read = 0;
-  Time looked = -1;  ///< the receive just before the first one of this value or a newer one; -1: none
+  Time looked = -1;  ///< of a reaction: the receive before that one, which came too early; -1: none
 };
 struct WorstRun {
   Time from = 0;         ///< the reading of the device; for a reaction, an event just after that reading
@@ -35,7 +37,7 @@ struct WorstRun {
   std::vector<CallOfRun>
       calls;  ///< of all subsystems that matter, from the start of the run to its end, by their begin
   std::vector<std::uint32_t> subsystems;  ///< that matter
-  std::vector<HopOfRun> hops;             ///< of the value that the command is based on
+  std::vector<HopOfRun> hops;
   /// Under the simulated clock the controller makes it, if calls take as long as here: only calls begin late.
   bool on_simulated_clock = true;
 

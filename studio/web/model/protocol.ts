@@ -619,7 +619,10 @@ export interface WorstRun {
     begin_ns: number;
     end_ns: number;
   }[];
-  /** The way of the value that the command is based on, channel by channel. */
+  /**
+   * Channel by channel, the way of the value that the command is based on; for a reaction, of the first values
+   * that reflect the event.
+   */
   hops: {
     /** FROM->TO */
     channel: string;
@@ -628,7 +631,7 @@ export interface WorstRun {
     /** The subsystem that reads. */
     to: string;
     written_ns: number;
-    /** For the last time before it is used. */
+    /** For the last time before it is used; for a reaction, for the first time. */
     read_ns: number;
   }[];
 }

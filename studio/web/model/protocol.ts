@@ -86,6 +86,19 @@ export interface Requests {
     answer: Timing;
   };
   /**
+   * How old commands were in a recording: the chains of the text. 404: there is no such recording. 422: the text
+   * has errors, or the recording is of another system.
+   */
+  "POST /api/timing/measured": {
+    body: {
+      text: string;
+      /** Its name. */
+      recording: string;
+    };
+    status: 200;
+    answer: { chains: MeasuredChain[] };
+  };
+  /**
    * The single changes of rates, modes and processors that make a time of a chain smaller. 422: there is no such
    * chain.
    */
@@ -560,6 +573,72 @@ export interface TimedStep {
   /** until_read: FROM->TO; else null. */
   channel: string | null;
   ns: number;
+}
+/** A chain as `tessera replay --ages --json` tells it; members of a fleet are one. */
+export interface MeasuredChain {
+  /** Its name; of a fleet, without the number of a member. */
+  chain: string;
+  /** How many members of a fleet have it. */
+  chains: number;
+  /** Its name; of a fleet, that of the first member. */
+  name: string;
+  /** The specification names it. */
+  named: boolean;
+  /** Its subsystems; of a fleet, those of the first member. */
+  path: string[];
+  age: MeasuredTimes;
+  reaction: MeasuredTimes;
+  /** Calls of the last subsystem that gave no command. */
+  withheld: number;
+  /** A time is above its bound. */
+  exceeds: boolean;
+  /** Why nothing is measured. */
+  not_measured?: string;
+  /** Proved for all its members. */
+  bound?: { age_ns: number; reaction_ns: number; exact: boolean };
+  /** Why there is none. */
+  no_bound?: string;
+}
+/** One age for each command, one reaction for each reading. */
+export interface MeasuredTimes {
+  /** 0: there is nothing else. */
+  count: number;
+  least_ns?: number;
+  median_ns?: number;
+  p95_ns?: number;
+  p99_ns?: number;
+  most_ns?: number;
+  /** Numbers of times in equal steps from the least to the greatest; empty: all are equal. */
+  histogram?: number[];
+  /** The greatest one: from the reading, or from an event just after it, to the end of the command. */
+  worst?: {
+    /** Its name; of a fleet, that of one member. */
+    chain: string;
+    from_ns: number;
+    to_ns: number;
+    /** All calls of its subsystems meanwhile. */
+    calls: TimedCall[];
+    /** The way of the value; empty: events are missing. */
+    hops: TimedHop[];
+  };
+}
+/** A call of a transition function. Times are nanoseconds of the run's clock. */
+export interface TimedCall {
+  subsystem: string;
+  behaviour: string;
+  begin: number;
+  end: number;
+}
+/** The way of a value over a channel. Times are nanoseconds of the run's clock. */
+export interface TimedHop {
+  /** FROM->TO */
+  channel: string;
+  /** A subsystem. */
+  from: string;
+  /** A subsystem. */
+  to: string;
+  written: number;
+  read: number;
 }
 /** A change of the specification, and the bounds of the chain with it. Other chains may get worse. */
 export interface TimedChange {

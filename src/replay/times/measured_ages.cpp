@@ -1,23 +1,15 @@
-#include "cli/recordings/measured_ages.hpp"
-
-#include <fmt/format.h>
+#include "replay/times/measured_ages.hpp"
 
 #include <algorithm>
-#include <array>
 #include <map>
 #include <utility>
 
-#include "tessera/printable.hpp"
 #include "timing/declared.hpp"
 
-namespace tessera::cli {
+namespace tessera::replay {
 namespace {
 
 using nlohmann::json;
-
-std::string in_ms(std::int64_t ns) { return fmt::format("{:.3f} ms", static_cast<double>(ns) * 1e-6); }
-std::string in_ms(std::optional<std::int64_t> ns) { return ns ? in_ms(*ns) : "none"; }
-double in_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 /// The bounds of each group: the largest of its chains.
 void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
@@ -48,24 +40,7 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   }
 }
 
-void put_row(std::string& text, const char* name, const replay::MeasuredTimes& times,
-             std::optional<std::int64_t> bound) {
-  text +=
-      fmt::format("  {:<9}{:>9}{:>13}{:>13}{:>13}{:>13}{:>13}{:>13}{}\n", name, times.count,
-                  in_ms(times.least), in_ms(times.median), in_ms(times.p95), in_ms(times.p99),
-                  in_ms(times.most), in_ms(bound), bound && times.most > *bound ? "  above the bound" : "");
-}
-
-void put_worst(std::string& text, const char* what, const AgesOfChain& one,
-               const replay::MeasuredTimes& times, std::span<const std::string> names) {
-  const std::string in =
-      names.size() > 1 && times.worst_recording < names.size() ? " in " + names[times.worst_recording] : "";
-  const std::string of = one.measured.chains > 1 ? " (" + times.worst_chain + ")" : "";
-  text += fmt::format("  {}: {}, from {:.6f} s to {:.6f} s{}{}\n", what, in_ms(times.most),
-                      in_seconds(times.worst_from_ns), in_seconds(times.worst_to_ns), in, of);
-}
-
-json times_json(const replay::MeasuredTimes& times, std::span<const std::string> names) {
+json times_json(const MeasuredTimes& times, std::span<const std::string> names) {
   json one{{"count", times.count}};
   if (times.count == 0) return one;
   one.update({{"least_ns", times.least},
@@ -100,10 +75,10 @@ std::vector<std::vector<std::string>> ways_along(
 }
 
 /// Those that the specification names, over the channels that it means.
-std::vector<replay::MeasuredChain> named_chains(const spec::Model& model) {
-  std::vector<replay::MeasuredChain> chains;
+std::vector<MeasuredChain> named_chains(const spec::Model& model) {
+  std::vector<MeasuredChain> chains;
   for (const spec::TimedChain& named : *model.timing.chains) {
-    replay::MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
+    MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
     for (const spec::InstanceId instance : named.path)
       chain.subsystems.push_back(model.instance_path(instance));
     for (const std::vector<spec::ChannelId>& hop : named.hops) {
@@ -135,7 +110,7 @@ std::string fleet_name_of(const std::string& name) {
   return result;
 }
 
-std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
+std::vector<MeasuredChain> measured_chains(const spec::Model& model) {
   if (model.timing.chains) return named_chains(model);
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::string>> channels;
   for (const spec::ChannelId id : model.channels.ids()) {
@@ -144,7 +119,7 @@ std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
     if (channel.model.valid()) continue;
     channels[{channel.from.instance.value, channel.to.instance.value}].push_back(model.channel_name(channel));
   }
-  std::vector<replay::MeasuredChain> chains;
+  std::vector<MeasuredChain> chains;
   for (const spec::Agent& agent : model.agents) {
     const auto& subsystems = model.definition_of(agent).subsystems;
     for (const spec::DefinedSubsystemId from : subsystems.ids())
@@ -154,7 +129,7 @@ std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
           continue;
         const std::vector<spec::InstanceId> path{agent.instance(from), agent.first_instance,
                                                  agent.instance(to)};
-        replay::MeasuredChain chain;
+        MeasuredChain chain;
         chain.ways = ways_along(path, channels);
         if (chain.ways.empty()) continue;
         for (const spec::InstanceId instance : path) {
@@ -168,46 +143,17 @@ std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
   return chains;
 }
 
-std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings, const spec::Model& model) {
-  replay::Ages ages(measured_chains(model));
-  for (const Recording& recording : recordings) ages.add(recording);
+std::vector<AgesOfChain> beside_bounds(std::vector<ChainAges> measured, const spec::Model& model) {
   std::vector<AgesOfChain> all;
-  for (replay::ChainAges& one : ages.finish()) all.push_back({std::move(one), {}, {}, false, {}});
+  for (ChainAges& one : measured) all.push_back({std::move(one), {}, {}, false, {}});
   add_bounds(model, all);
   return all;
 }
 
-std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::string> names) {
-  std::string text;
-  for (const AgesOfChain& one : all) {
-    const replay::ChainAges& measured = one.measured;
-    if (!text.empty()) text += "\n";
-    text += printable(measured.group);
-    if (measured.chains > 1) text += fmt::format(" ({} agents)", measured.chains);
-    text += "\n";
-    if (measured.age.count == 0) {
-      text += "  nothing is measured: " + measured.why + "\n";
-      continue;
-    }
-    constexpr std::array columns{"min", "median", "p95", "p99", "max", "at most"};
-    text += fmt::format("  {:<9}{:>9}", "", "count");
-    for (const char* column : columns) text += fmt::format("{:>13}", column);
-    text += "\n";
-    put_row(text, "age", measured.age, one.age_ns);
-    if (measured.reaction.count > 0) put_row(text, "reaction", measured.reaction, one.reaction_ns);
-    put_worst(text, "oldest command", one, measured.age, names);
-    if (measured.reaction.count > 0) put_worst(text, "slowest reaction", one, measured.reaction, names);
-    if (measured.withheld > 0)
-      text += fmt::format("  {} {} of the last subsystem gave no command: failed, or the safe command held\n",
-                          measured.withheld, measured.withheld == 1 ? "call" : "calls");
-    if (!one.why.empty()) text += "  no bound: " + one.why + "\n";
-  }
-  if (std::ranges::any_of(all, &AgesOfChain::exceeds))
-    text +=
-        "\nA time above its bound: a call took longer than its `takes`, a thread had to wait for a "
-        "processor,\n"
-        "or something failed. See tessera replay --takes.\n";
-  return text;
+std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings, const spec::Model& model) {
+  Ages ages(measured_chains(model));
+  for (const Recording& recording : recordings) ages.add(recording);
+  return beside_bounds(ages.finish(), model);
 }
 
 json ages_json(const std::vector<AgesOfChain>& all, std::span<const std::string> names) {
@@ -229,4 +175,4 @@ json ages_json(const std::vector<AgesOfChain>& all, std::span<const std::string>
   return chains;
 }
 
-}  // namespace tessera::cli
+}  // namespace tessera::replay

@@ -4,6 +4,7 @@
 #include <map>
 #include <utility>
 
+#include "spec/model/chain_ways.hpp"
 #include "timing/declared.hpp"
 
 namespace tessera::replay {
@@ -19,7 +20,7 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   const timing::Bounds bounds(declared.system);
   std::map<std::string, std::uint64_t> judged;
   for (const timing::DeclaredChain& chain : declared.chains) {
-    const auto found = of_group.find(fleet_name_of(chain.name));
+    const auto found = of_group.find(spec::fleet_name_of(chain.name));
     if (found == of_group.end()) continue;
     AgesOfChain& one = *found->second;
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
@@ -55,90 +56,19 @@ json times_json(const MeasuredTimes& times, std::span<const std::string> names) 
   return one;
 }
 
-/// From each subsystem of the path to the next one, all ways over the channels.
-std::vector<std::vector<std::string>> ways_along(
-    const std::vector<spec::InstanceId>& path,
-    const std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::string>>& channels) {
-  std::vector<std::vector<std::string>> ways{{}};
-  for (std::size_t at = 0; at + 1 < path.size(); ++at) {
-    std::vector<std::vector<std::string>> longer;
-    const auto found = channels.find({path[at].value, path[at + 1].value});
-    if (found == channels.end()) return {};
-    for (const std::string& channel : found->second)
-      for (std::vector<std::string> way : ways) {
-        way.push_back(channel);
-        longer.push_back(std::move(way));
-      }
-    ways = std::move(longer);
-  }
-  return ways;
-}
-
-/// Those that the specification names, over the channels that it means.
-std::vector<MeasuredChain> named_chains(const spec::Model& model) {
-  std::vector<MeasuredChain> chains;
-  for (const spec::TimedChain& named : *model.timing.chains) {
-    MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
-    for (const spec::InstanceId instance : named.path)
-      chain.subsystems.push_back(model.instance_path(instance));
-    for (const std::vector<spec::ChannelId>& hop : named.hops) {
-      std::vector<std::vector<std::string>> longer;
-      for (const spec::ChannelId channel : hop) {
-        if (model.channels[channel].model.valid()) continue;
-        for (std::vector<std::string> way : chain.ways) {
-          way.push_back(model.channel_name(model.channels[channel]));
-          longer.push_back(std::move(way));
-        }
-      }
-      chain.ways = std::move(longer);
-    }
-    if (!chain.ways.empty()) chains.push_back(std::move(chain));
-  }
-  return chains;
-}
-
 }  // namespace
 
-std::string fleet_name_of(const std::string& name) {
-  std::string result;
-  bool inside = false;
-  for (const char c : name) {
-    if (c == ']') inside = false;
-    if (!inside) result += c;
-    if (c == '[') inside = true;
-  }
-  return result;
-}
-
 std::vector<MeasuredChain> measured_chains(const spec::Model& model) {
-  if (model.timing.chains) return named_chains(model);
-  std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::string>> channels;
-  for (const spec::ChannelId id : model.channels.ids()) {
-    const spec::Channel& channel = model.channels[id];
-    // The firings of a model of its own do not say which one moves the value.
-    if (channel.model.valid()) continue;
-    channels[{channel.from.instance.value, channel.to.instance.value}].push_back(model.channel_name(channel));
-  }
   std::vector<MeasuredChain> chains;
-  for (const spec::Agent& agent : model.agents) {
-    const auto& subsystems = model.definition_of(agent).subsystems;
-    for (const spec::DefinedSubsystemId from : subsystems.ids())
-      for (const spec::DefinedSubsystemId to : subsystems.ids()) {
-        if (subsystems[from].kind != spec::SubsystemKind::receptor ||
-            subsystems[to].kind != spec::SubsystemKind::effector)
-          continue;
-        const std::vector<spec::InstanceId> path{agent.instance(from), agent.first_instance,
-                                                 agent.instance(to)};
-        MeasuredChain chain;
-        chain.ways = ways_along(path, channels);
-        if (chain.ways.empty()) continue;
-        for (const spec::InstanceId instance : path) {
-          chain.subsystems.push_back(model.instance_path(instance));
-          chain.name += (chain.name.empty() ? "" : " -> ") + chain.subsystems.back();
-        }
-        chain.group = fleet_name_of(chain.name);
-        chains.push_back(std::move(chain));
-      }
+  for (const spec::ChainWays& one : spec::chain_ways(model)) {
+    MeasuredChain& chain =
+        chains.emplace_back(MeasuredChain{one.name, spec::fleet_name_of(one.name), {}, {}});
+    for (const spec::InstanceId instance : one.path)
+      chain.subsystems.push_back(model.instance_path(instance));
+    for (const std::vector<spec::ChannelId>& way : one.ways) {
+      std::vector<std::string>& names = chain.ways.emplace_back();
+      for (const spec::ChannelId channel : way) names.push_back(model.channel_name(model.channels[channel]));
+    }
   }
   return chains;
 }

@@ -25,9 +25,6 @@ struct AgesOfChain {
   }
 };
 
-/// "robot[].control": the members of a fleet have one name.
-[[nodiscard]] std::string fleet_name_of(const std::string& name);
-
 /// Those that the specification names; else each receptor -> control -> effector of one agent.
 [[nodiscard]] std::vector<MeasuredChain> measured_chains(const spec::Model& model);
 

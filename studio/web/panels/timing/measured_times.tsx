@@ -59,7 +59,6 @@ function OfChain({ measured, chain, recording }: OfChainProps) {
   const [worst, open] = useState<Shown | null>(null);
   if (measured.age.count === 0)
     return <p className="faint">Nothing could be measured: {measured.not_measured ?? "no command reflects a reading"}.</p>;
-  const run = worst === null ? undefined : worstOf(measured[worst]);
   const above = (["age", "reaction"] as const).some((one) => {
     const [most, bound] = [measured[one].most_ns, chain[one].at_most_ns];
     return most !== undefined && bound !== null && most > bound;
@@ -67,7 +66,13 @@ function OfChain({ measured, chain, recording }: OfChainProps) {
   return (
     <>
       {(["reaction", "age"] as const).map((of) => (
-        <OfTime key={of} of={of} {...{ measured, chain, recording }} isOpen={worst === of} onWorst={() => open(of)} />
+        <OfTime
+          key={of}
+          of={of}
+          {...{ measured, chain, recording }}
+          isOpen={worst === of}
+          onOpen={(shown) => open(shown ? of : null)}
+        />
       ))}
       {above && (
         <p className="problem-hint">
@@ -81,25 +86,28 @@ function OfChain({ measured, chain, recording }: OfChainProps) {
           command held.
         </p>
       )}
-      {worst && run && <WorstCase of={worst} {...{ run, measured, recording }} onClose={() => open(null)} />}
     </>
   );
 }
 
-function OfTime(props: OfChainProps & { of: Shown; isOpen: boolean; onWorst: () => void }) {
-  const { measured, chain, of, recording, isOpen, onWorst } = props;
+function OfTime(props: OfChainProps & { of: Shown; isOpen: boolean; onOpen: (shown: boolean) => void }) {
+  const { measured, chain, of, recording, isOpen, onOpen } = props;
   const studio = useStudio();
   const times = measured[of];
   const bound = chain[of].at_most_ns;
   const run = worstOf(times);
   const show = async () => {
     if (!run) return;
-    onWorst();
+    onOpen(true);
     const path = run.hops.length > 0 ? [run.hops[0]!.from, ...run.hops.map(({ to }) => to)] : measured.path;
     studio.measured.mark({ recording, run, path, shown: of });
     // The shortest time that the timeline offers: the run is as wide as it can be.
     studio.watched.set({ seconds: run.to - run.from < 1e9 ? 1 : 3 });
     await studio.goTo({ recording, time: run.from });
+  };
+  const close = () => {
+    onOpen(false);
+    studio.measured.mark(null);
   };
   const name = of === "age" ? "Age" : "Reaction";
   return (
@@ -109,29 +117,18 @@ function OfTime(props: OfChainProps & { of: Shown; isOpen: boolean; onWorst: () 
       <p className="faint">{saidTimes(times, bound)}.</p>
       {run && (
         <div className="buttons">
-          <button aria-pressed={isOpen} onClick={() => void show()}>
-            Show the longest {of}: {shownTime(run.to - run.from)}
+          <button aria-expanded={isOpen} onClick={() => void (isOpen ? close() : show())}>
+            {isOpen ? "Hide" : "Show"} the longest {of}: {shownTime(run.to - run.from)}
           </button>
         </div>
       )}
+      {run && isOpen && <WorstCase {...{ of, run, measured, recording }} />}
     </div>
   );
 }
 
 /** The worst case of a recording: the run, and its moment in the recording. */
-function WorstCase({
-  of,
-  run,
-  measured,
-  recording,
-  onClose,
-}: {
-  of: Shown;
-  run: TimedRun;
-  measured: MeasuredChain;
-  recording: string;
-  onClose: () => void;
-}) {
+function WorstCase({ of, run, measured, recording }: { of: Shown; run: TimedRun; measured: MeasuredChain; recording: string }) {
   const studio = useStudio();
   const replay = useStore(studio.recordings.store, (all) => all.open.find(({ name }) => name === recording) ?? null);
   return (
@@ -147,14 +144,6 @@ function WorstCase({
         </button>
         <button disabled={!replay} onClick={() => replay?.seek(run.to)}>
           To its end
-        </button>
-        <button
-          onClick={() => {
-            studio.measured.mark(null);
-            onClose();
-          }}
-        >
-          Close
         </button>
       </div>
     </section>

@@ -53,7 +53,7 @@ export function RunDrawing({ run, path, shown, now = null, onSeek }: RunDrawingP
               part.kind !== "works" && (
                 <rect
                   key={at}
-                  className={`run-part ${part.kind}${pointed === at ? " pointed" : ""}`}
+                  className={`run-part part-${part.kind}${pointed === at ? " pointed" : ""}`}
                   x={part.x}
                   y={part.y}
                   width={part.width}
@@ -96,7 +96,7 @@ export function RunDrawing({ run, path, shown, now = null, onSeek }: RunDrawingP
             onPointerEnter={() => point(at)}
             onPointerLeave={() => point(null)}
           >
-            <span className={`swatch ${part.kind}`} />
+            <span className={`swatch part-${part.kind}`} />
             <span>{part.text}</span>
             <span className="ns">{shownTime(part.to - part.from)}</span>
           </li>

@@ -55,14 +55,14 @@ json way_json(const replay::RecordedWay& way) {
   for (const replay::RecordedWay::Call& call : way.calls)
     calls.push_back({{"subsystem", call.subsystem},
                      {"behaviour", call.behaviour},
-                     {"begin", call.begin_ns},
-                     {"end", call.end_ns}});
+                     {"begin_ns", call.begin_ns},
+                     {"end_ns", call.end_ns}});
   for (const replay::RecordedWay::Hop& hop : way.hops)
     hops.push_back({{"channel", hop.channel},
                     {"from", hop.from},
                     {"to", hop.to},
-                    {"written", hop.written_ns},
-                    {"read", hop.read_ns}});
+                    {"written_ns", hop.written_ns},
+                    {"read_ns", hop.read_ns}});
   return {{"calls", std::move(calls)}, {"hops", std::move(hops)}};
 }
 

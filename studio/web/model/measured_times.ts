@@ -9,8 +9,7 @@ export const measuredOf = (all: readonly MeasuredChain[], chain: TimedChain): Me
   all.find((one) => chainKey(one) === chainKey(chain));
 
 /** The worst case as a run; undefined: nothing was measured. */
-export const worstOf = ({ worst }: MeasuredTimes): TimedRun | undefined =>
-  worst && { from: worst.from_ns, to: worst.to_ns, calls: worst.calls, hops: worst.hops };
+export const worstOf = ({ worst }: MeasuredTimes): TimedRun | undefined => worst;
 
 export interface Histogram {
   /** Shares of the width and of the height, from the left and from the bottom. */

@@ -7,8 +7,8 @@ export type Shown = "age" | "reaction";
 
 /** A run of a chain: from the reading, or an event just after it, to the end of the command. Times in nanoseconds. */
 export interface TimedRun {
-  from: number;
-  to: number;
+  from_ns: number;
+  to_ns: number;
   /** The calls of its subsystems meanwhile. */
   calls: readonly TimedCall[];
   /** The way of the value; empty: it is not known. */
@@ -33,18 +33,18 @@ export const lanesOf = ({ hops }: TimedRun, path: readonly string[]): readonly s
 
 /** The calls through which the value goes, one for each subsystem; undefined: its call is not known. */
 export function carriersOf(run: TimedRun, path: readonly string[]): (TimedCall | undefined)[] {
-  const { hops, to, calls } = run;
+  const { hops, to_ns: to, calls } = run;
   if (hops.length === 0) return [];
   return lanesOf(run, path).map((subsystem, lane) => {
-    const until = hops[lane]?.written ?? to;
-    const own = calls.filter((call) => call.subsystem === subsystem && call.end <= until);
-    return own.reduce<TimedCall | undefined>((latest, one) => (latest && latest.end > one.end ? latest : one), undefined);
+    const until = hops[lane]?.written_ns ?? to;
+    const own = calls.filter((call) => call.subsystem === subsystem && call.end_ns <= until);
+    return own.reduce<TimedCall | undefined>((latest, one) => (latest && latest.end_ns > one.end_ns ? latest : one), undefined);
   });
 }
 
 /** The parts of the time of a run, in their order; none: the way of the value is not known. */
 export function partsOf(run: TimedRun, path: readonly string[], shown: Shown): RunPart[] {
-  const { hops, from, to } = run;
+  const { hops, from_ns: from, to_ns: to } = run;
   const lanes = lanesOf(run, path);
   const carriers = carriersOf(run, path);
   const parts: RunPart[] = [];
@@ -62,13 +62,13 @@ export function partsOf(run: TimedRun, path: readonly string[], shown: Shown): R
           : lane === carriers.length - 1 && shown === "age"
             ? `until ${who} begins its last call that uses the value`
             : `until the next call of ${who} begins, which uses the value`;
-      add("waits", lane, call.begin, before);
-      add("works", lane, call.end, `${who} computes (${call.behaviour})`);
+      add("waits", lane, call.begin_ns, before);
+      add("works", lane, call.end_ns, `${who} computes (${call.behaviour})`);
     }
     const hop = hops[lane];
     if (!hop) return add("waits", lane, to, `until the command of ${who} is given`);
-    add("waits", lane, hop.written, `${who} waits in its sends`);
-    add("stands", lane, hop.read, `the value waits in the channel until ${last(hop.to)} receives it`);
+    add("waits", lane, hop.written_ns, `${who} waits in its sends`);
+    add("stands", lane, hop.read_ns, `the value waits in the channel until ${last(hop.to)} receives it`);
   });
   return parts;
 }
@@ -108,8 +108,8 @@ export interface DrawnRun {
 /** The places of all parts of a run in a drawing of this width. */
 export function drawnRun(run: TimedRun, path: readonly string[], shown: Shown, width: number): DrawnRun {
   const { side, top, lane: laneHeight, name, bar, below } = runSizes;
-  const free = Math.max(1, run.to - run.from) * margin;
-  const [first, final] = [run.from - free, run.to + free];
+  const free = Math.max(1, run.to_ns - run.from_ns) * margin;
+  const [first, final] = [run.from_ns - free, run.to_ns + free];
   const scale = (width - 2 * side) / (final - first);
   const x = (time: number) => side + (Math.min(final, Math.max(first, time)) - first) * scale;
   const timeAt = (at: number) => Math.min(final, Math.max(first, first + (at - side) / scale));
@@ -118,10 +118,12 @@ export function drawnRun(run: TimedRun, path: readonly string[], shown: Shown, w
   const carriers = carriersOf(run, path);
   const calls = run.calls.flatMap((call): DrawnCall[] => {
     const lane = lanes.findIndex(({ subsystem }) => subsystem === call.subsystem);
-    if (lane < 0 || call.end < first || call.begin > final) return [];
-    const left = x(call.begin);
+    if (lane < 0 || call.end_ns < first || call.begin_ns > final) return [];
+    const left = x(call.begin_ns);
     // A call that takes no time is seen, too.
-    return [{ call, lane, x: left, y: lanes[lane]!.y, width: Math.max(2, x(call.end) - left), carries: carriers[lane] === call }];
+    return [
+      { call, lane, x: left, y: lanes[lane]!.y, width: Math.max(2, x(call.end_ns) - left), carries: carriers[lane] === call },
+    ];
   });
   const parts = partsOf(run, path, shown).map((part) => ({
     ...part,
@@ -131,13 +133,13 @@ export function drawnRun(run: TimedRun, path: readonly string[], shown: Shown, w
   }));
   const arrows = run.hops.map((hop, at) => ({
     hop,
-    x1: x(hop.written),
+    x1: x(hop.written_ns),
     y1: middle(at),
-    x2: x(hop.read),
+    x2: x(hop.read_ns),
     y2: middle(at + 1),
   }));
-  const begin = { x: x(run.from), y: middle(0) };
-  const end = { x: x(run.to), y: middle(lanes.length - 1) };
+  const begin = { x: x(run.from_ns), y: middle(0) };
+  const end = { x: x(run.to_ns), y: middle(lanes.length - 1) };
   const line =
     run.hops.length === 0
       ? []

@@ -19,15 +19,15 @@ export function drawMarkedRun(
   context.save();
   context.fillStyle = colours.accent;
   context.globalAlpha = 0.12;
-  context.fillRect(x(run.from), 0, Math.max(2, x(run.to) - x(run.from)), height);
+  context.fillRect(x(run.from_ns), 0, Math.max(2, x(run.to_ns) - x(run.from_ns)), height);
   context.globalAlpha = 1;
   const points = [
-    { time: run.from, subsystem: path[0] ?? "" },
-    ...run.hops.flatMap(({ from, to, written, read }) => [
-      { time: written, subsystem: from },
-      { time: read, subsystem: to },
+    { time: run.from_ns, subsystem: path[0] ?? "" },
+    ...run.hops.flatMap(({ from, to, written_ns, read_ns }) => [
+      { time: written_ns, subsystem: from },
+      { time: read_ns, subsystem: to },
     ]),
-    { time: run.to, subsystem: path.at(-1) ?? "" },
+    { time: run.to_ns, subsystem: path.at(-1) ?? "" },
   ].flatMap(({ time, subsystem }) => {
     const middle = y(subsystem);
     return middle === undefined ? [] : [{ x: x(time), y: middle }];

@@ -40,7 +40,9 @@ export function TimelineLanes({
             draw={(context, size, colours) =>
               drawTimeline(context, size, colours, { track, seconds, scrolled: scrolled(), marked })
             }
-            of={() => `${track.id} ${track.now} ${track.firings} ${seconds} ${scrolled()} ${marked?.run.from} ${marked?.run.to}`}
+            of={() =>
+              `${track.id} ${track.now} ${track.firings} ${seconds} ${scrolled()} ${marked?.run.from_ns} ${marked?.run.to_ns}`
+            }
             onPick={onSeek && ((x, width) => onSeek(timeAt(track, seconds, x, width)))}
           />
         </div>

@@ -102,8 +102,8 @@ function OfTime(props: OfChainProps & { of: Shown; isOpen: boolean; onOpen: (sho
     const path = run.hops.length > 0 ? [run.hops[0]!.from, ...run.hops.map(({ to }) => to)] : measured.path;
     studio.measured.mark({ recording, run, path, shown: of });
     // The shortest time that the timeline offers: the run is as wide as it can be.
-    studio.watched.set({ seconds: run.to - run.from < 1e9 ? 1 : 3 });
-    await studio.goTo({ recording, time: run.from });
+    studio.watched.set({ seconds: run.to_ns - run.from_ns < 1e9 ? 1 : 3 });
+    await studio.goTo({ recording, time: run.from_ns });
   };
   const close = () => {
     onOpen(false);
@@ -118,7 +118,7 @@ function OfTime(props: OfChainProps & { of: Shown; isOpen: boolean; onOpen: (sho
       {run && (
         <div className="buttons">
           <button aria-expanded={isOpen} onClick={() => void (isOpen ? close() : show())}>
-            {isOpen ? "Hide" : "Show"} the longest {of}: {shownTime(run.to - run.from)}
+            {isOpen ? "Hide" : "Show"} the longest {of}: {shownTime(run.to_ns - run.from_ns)}
           </button>
         </div>
       )}
@@ -134,15 +134,15 @@ function WorstCase({ of, run, measured, recording }: { of: Shown; run: TimedRun;
   return (
     <section className="worst-run" aria-label={`The longest ${of} in the recording`}>
       <h4>
-        The longest {of}, from {(run.from / 1e9).toFixed(3)} s to {(run.to / 1e9).toFixed(3)} s
+        The longest {of}, from {(run.from_ns / 1e9).toFixed(3)} s to {(run.to_ns / 1e9).toFixed(3)} s
       </h4>
       {measured.chains > 1 && <p className="faint">{measured[of].worst?.chain}</p>}
       {replay ? <FollowedRun {...{ run, measured, of, replay }} /> : <RunDrawing run={run} path={measured.path} shown={of} />}
       <div className="buttons">
-        <button disabled={!replay} onClick={() => replay?.seek(run.from)}>
+        <button disabled={!replay} onClick={() => replay?.seek(run.from_ns)}>
           To its beginning
         </button>
-        <button disabled={!replay} onClick={() => replay?.seek(run.to)}>
+        <button disabled={!replay} onClick={() => replay?.seek(run.to_ns)}>
           To its end
         </button>
       </div>

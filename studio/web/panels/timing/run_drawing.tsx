@@ -9,7 +9,7 @@ import { niceStep } from "../plots/draw_timeline";
 const letter = 6.2;
 
 /** "21.5 ms": from the beginning of the run. */
-const since = (run: TimedRun, time: number) => shownTime(Math.max(0, time - run.from));
+const since = (run: TimedRun, time: number) => shownTime(Math.max(0, time - run.from_ns));
 
 interface RunDrawingProps {
   run: TimedRun;
@@ -33,7 +33,7 @@ export function RunDrawing({ run, path, shown, now = null, onSeek }: RunDrawingP
           width={width}
           height={drawn.height}
           role="img"
-          aria-label={`The run from the ${shown === "age" ? "reading" : "event"} to the command: ${shownTime(run.to - run.from)}`}
+          aria-label={`The run from the ${shown === "age" ? "reading" : "event"} to the command: ${shownTime(run.to_ns - run.from_ns)}`}
           className={onSeek ? "seekable" : ""}
           onClick={onSeek && ((event) => onSeek(drawn.timeAt(event.clientX - event.currentTarget.getBoundingClientRect().left)))}
           onPointerLeave={() => point(null)}
@@ -77,7 +77,7 @@ export function RunDrawing({ run, path, shown, now = null, onSeek }: RunDrawingP
           ))}
           <WayOfValue drawn={drawn} run={run} shown={shown} />
           <Dimension drawn={drawn} run={run} width={width} />
-          {now !== null && now >= run.from && now <= run.to && (
+          {now !== null && now >= run.from_ns && now <= run.to_ns && (
             <line
               className="run-now"
               x1={drawn.x(now)}
@@ -109,7 +109,7 @@ export function RunDrawing({ run, path, shown, now = null, onSeek }: RunDrawingP
 
 /** Milliseconds since the reading or the event. */
 function Axis({ run, drawn, width }: { run: TimedRun; drawn: DrawnRun; width: number }) {
-  const span = run.to - run.from;
+  const span = run.to_ns - run.from_ns;
   const step = niceStep(Math.max(1, span) / Math.max(2, Math.min(8, width / 60)));
   const bottom = drawn.height - runSizes.below;
   const unit = step >= 1e9 ? { ns: 1e9, name: "s" } : step >= 1e5 ? { ns: 1e6, name: "ms" } : { ns: 1e3, name: "us" };
@@ -117,7 +117,7 @@ function Axis({ run, drawn, width }: { run: TimedRun; drawn: DrawnRun; width: nu
   return (
     <g className="run-axis">
       {times.map((time) => {
-        const x = drawn.x(run.from + time);
+        const x = drawn.x(run.from_ns + time);
         return (
           <g key={time}>
             <line x1={x} x2={x} y1={runSizes.top} y2={bottom} />
@@ -136,7 +136,7 @@ function Axis({ run, drawn, width }: { run: TimedRun; drawn: DrawnRun; width: nu
 
 function Call({ one, run, pointed, onPoint }: { one: DrawnCall; run: TimedRun; pointed: boolean; onPoint: () => void }) {
   const { call, x, y, width, carries } = one;
-  const text = `${call.subsystem}.${call.behaviour}: from ${call.begin < run.from ? "before" : since(run, call.begin)} to ${since(run, call.end)}, ${shownTime(call.end - call.begin)}`;
+  const text = `${call.subsystem}.${call.behaviour}: from ${call.begin_ns < run.from_ns ? "before" : since(run, call.begin_ns)} to ${since(run, call.end_ns)}, ${shownTime(call.end_ns - call.begin_ns)}`;
   return (
     <g onPointerEnter={onPoint}>
       <rect
@@ -167,10 +167,10 @@ function WayOfValue({ drawn, run, shown }: { drawn: DrawnRun; run: TimedRun; sho
       {arrows.map(({ hop, x1, y1, x2, y2 }) => (
         <g key={hop.channel}>
           <circle cx={x1} cy={y1} r={3.5}>
-            <title>{`written into ${hop.channel} after ${since(run, hop.written)}`}</title>
+            <title>{`written into ${hop.channel} after ${since(run, hop.written_ns)}`}</title>
           </circle>
           <path d={arrowHead(x1, y1, x2, y2)}>
-            <title>{`${hop.to} receives it after ${since(run, hop.read)}`}</title>
+            <title>{`${hop.to} receives it after ${since(run, hop.read_ns)}`}</title>
           </path>
         </g>
       ))}
@@ -202,7 +202,7 @@ function arrowHead(x1: number, y1: number, x2: number, y2: number): string {
 function Dimension({ drawn, run, width }: { drawn: DrawnRun; run: TimedRun; width: number }) {
   const { begin, end } = drawn;
   const y = 22;
-  const text = shownTime(run.to - run.from);
+  const text = shownTime(run.to_ns - run.from_ns);
   const middle = Math.min(width - 40, Math.max(40, (begin.x + end.x) / 2));
   return (
     <g className="run-dimension">

@@ -28,7 +28,7 @@ struct AgesOfChain {
 /// Those that the specification names; else each receptor -> control -> effector of one agent.
 [[nodiscard]] std::vector<MeasuredChain> measured_chains(const spec::Model& model);
 
-/// What was measured, with the bounds of the model.
+/// Adds the bounds of the model to measured times.
 [[nodiscard]] std::vector<AgesOfChain> beside_bounds(std::vector<ChainAges> measured,
                                                      const spec::Model& model);
 

@@ -56,14 +56,7 @@ export interface Requests {
   "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
   /** About a text as it is typed; saves nothing. */
   "POST /api/language": { body: LanguageQuestion; status: 200; answer: LanguageAnswer };
-  "POST /api/verify": {
-    body: VerifyRequest;
-    status: 202;
-    answer: {
-      /** Names the job. */
-      job: string;
-    };
-  };
+  "POST /api/verify": { body: VerifyRequest; status: 202; answer: { job: string } };
   "GET /api/verify/JOB": { status: 200; answer: VerifyAnswer };
   "DELETE /api/verify/JOB": { status: 200; answer: Nothing };
   "GET /api/controllers": {
@@ -252,14 +245,7 @@ export interface Requests {
     answer: CommandDone;
   };
   /** 403: the project is not trusted. */
-  "POST /api/runs": {
-    body: RunRequest;
-    status: 202;
-    answer: {
-      /** Names the run. */
-      run: string;
-    };
-  };
+  "POST /api/runs": { body: RunRequest; status: 202; answer: { run: string } };
   "GET /api/runs": { status: 200; answer: RunListed[] };
   "GET /api/runs/RUN": { status: 200; answer: RunInfo };
   "GET /api/runs/RUN/coverage": { status: 200; answer: Coverage };
@@ -275,37 +261,13 @@ export interface Requests {
     /** The newest first. */
     answer: RecordingInfo[];
   };
-  "GET /api/recordings/NAME": {
-    query?: {
-      /** Nanoseconds of the run's clock. */
-      from?: string;
-      /** Nanoseconds of the run's clock. */
-      to?: string;
-    };
-    status: 200;
-    answer: Recording;
-  };
+  /** `from` and `to` are nanoseconds of the run's clock. */
+  "GET /api/recordings/NAME": { query?: { from?: string; to?: string }; status: 200; answer: Recording };
   "GET /api/recordings/NAME/coverage": { status: 200; answer: Coverage };
-  "GET /api/recordings/NAME/poses": {
-    query?: {
-      /** Nanoseconds of the run's clock. */
-      from?: string;
-      /** Nanoseconds of the run's clock. */
-      to?: string;
-    };
-    status: 200;
-    answer: RecordedPoses;
-  };
-  "GET /api/recordings/NAME/arrays": {
-    query: {
-      /** Nanoseconds of the run's clock. */
-      from?: string;
-      /** Nanoseconds of the run's clock. */
-      to?: string;
-    };
-    status: 200;
-    answer: RecordedArrays;
-  };
+  /** `from` and `to` are nanoseconds of the run's clock. */
+  "GET /api/recordings/NAME/poses": { query?: { from?: string; to?: string }; status: 200; answer: RecordedPoses };
+  /** `from` and `to` are nanoseconds of the run's clock. */
+  "GET /api/recordings/NAME/arrays": { query: { from?: string; to?: string }; status: 200; answer: RecordedArrays };
   /** 409: somebody else has changed the notes, or they are not the studio's; the answer has `notes` as they are. */
   "PUT /api/recordings/NAME/notes": { body: NotesRequest; status: 200; answer: { notes: Notes | null } };
   "POST /api/sweeps": {
@@ -433,13 +395,11 @@ export interface VerifyRequest {
   timeout?: string;
 }
 export interface VerifyRunning {
-  /** Names the job. */
   job: string;
   state: "running";
   result: null;
 }
 export interface VerifyEnd {
-  /** Names the job. */
   job: string;
   state: "done" | "stopped";
   result: VerifyReport | VerifyProblem;
@@ -607,9 +567,7 @@ export interface MeasuredChain {
   path: string[];
   age: MeasuredTimes;
   reaction: MeasuredTimes;
-  /** Calls of the last subsystem that gave no command. */
   withheld: number;
-  /** A time is above its bound. */
   exceeds: boolean;
   /** Why nothing is measured. */
   not_measured?: string;
@@ -641,24 +599,22 @@ export interface MeasuredTimes {
     hops: TimedHop[];
   };
 }
-/** A call of a transition function. Times are nanoseconds of the run's clock. */
+/** A call of a transition function, in nanoseconds of the run's clock. No behaviour: the subsystem has several. */
 export interface TimedCall {
   subsystem: string;
-  /** Empty: the subsystem has several. */
   behaviour: string;
   begin_ns: number;
   end_ns: number;
 }
-/** The way of a value over a channel. Times are nanoseconds of the run's clock. */
+/**
+ * The way of a value over a channel between two subsystems, in nanoseconds of the run's clock. It is read for
+ * the last time before it is used.
+ */
 export interface TimedHop {
-  /** FROM->TO */
   channel: string;
-  /** The subsystem that writes. */
   from: string;
-  /** The subsystem that reads. */
   to: string;
   written_ns: number;
-  /** For the last time before it is used. */
   read_ns: number;
 }
 /** A change of the specification, and the bounds of the chain with it. Other chains may get worse. */
@@ -814,7 +770,6 @@ export interface DeploymentRequest {
   kind: "deployment";
 }
 export interface RunListed {
-  /** Names the run. */
   run: string;
   state: RunState;
   kind: RunKind;
@@ -825,7 +780,6 @@ export interface RunListed {
   t: number;
 }
 export interface RunInfo {
-  /** Names the run. */
   run: string;
   state: RunState;
   kind: RunKind;
@@ -1380,12 +1334,10 @@ export interface LayoutEvent {
   revision: string;
 }
 export interface VerifyStarted {
-  /** Names the job. */
   job: string;
   state: "running";
 }
 export interface VerifyProgress {
-  /** Names the job. */
   job: string;
   state: "running";
   property: string;
@@ -1396,12 +1348,10 @@ export interface VerifyProgress {
 }
 /** Output of the build, or of the controller. */
 export interface LineEvent {
-  /** Names the run. */
   run: string;
   line: string;
 }
 export interface RunEvent {
-  /** Names the run. */
   run: string;
   state: RunState;
   why: string;
@@ -1412,7 +1362,6 @@ export interface RunEvent {
   firings: number;
 }
 export interface FiringsEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1426,7 +1375,6 @@ export interface FiringsEvent {
 }
 /** The report of a controller about itself. */
 export interface SubsystemsEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1435,7 +1383,6 @@ export interface SubsystemsEvent {
 }
 /** The state of all processes of a deployed system, and their knowledge of each other. */
 export interface DeploymentEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1450,7 +1397,6 @@ export interface DeploymentEvent {
 }
 /** Values of the buffers that changed since the last such event. */
 export interface ValuesEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1461,7 +1407,6 @@ export interface ValuesEvent {
 }
 /** All parameters: when the run begins, and when one has taken a value. */
 export interface ParametersEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1469,21 +1414,18 @@ export interface ParametersEvent {
 }
 /** The notices since the last such event. */
 export interface NoticesEvent {
-  /** Names the run. */
   run: string;
   notices: Notice[];
   /** Older ones that are left out: there were too many of their kind. */
   dropped: number;
 }
 export interface ArraysEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
   arrays: Arrays;
 }
 export interface PoseEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1492,14 +1434,12 @@ export interface PoseEvent {
   heading: number;
 }
 export interface SceneEvent {
-  /** Names the run. */
   run: string;
   hash: string;
   /** As in SceneShown. */
   bodies: [string, string][];
 }
 export interface PosesEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "cli/recordings/measured_ages.hpp"
 #include "cli/timing/time_texts.hpp"
+#include "replay/times/measured_ages.hpp"
 
 namespace tessera::cli {
 namespace {
@@ -32,7 +32,7 @@ std::optional<PromisedTimes> promised_times(const std::filesystem::path& scenari
 
 Reenactment compare(const PromisedTimes& promised, const Recording& recording, const spec::Model& model) {
   const char* const name = promised.is_age ? "age" : "reaction";
-  std::vector<replay::MeasuredChain> chains = measured_chains(model);
+  std::vector<replay::MeasuredChain> chains = replay::measured_chains(model);
   std::erase_if(chains, [&](const replay::MeasuredChain& chain) { return chain.name != promised.chain; });
   const std::string promise = times_text(name, promised.from_ns, promised.to_ns);
   const std::string head = promised.chain + ": ";

@@ -10,20 +10,17 @@
 namespace tessera::cli {
 namespace {
 
-using timing::CallOfRun;
-using timing::Time;
-
 /// "80 ms", to the nanosecond.
-std::string instant(Time ns) { return fmt::format("{:.12g} ms", static_cast<double>(ns) / 1e6); }
+std::string instant_text(timing::Time ns) { return fmt::format("{:.12g} ms", static_cast<double>(ns) / 1e6); }
 
-class Story {
+class RunStory {
  public:
-  Story(const timing::WorstRun& run, const timing::Declared& declared, const spec::Model& model)
+  RunStory(const timing::WorstRun& run, const timing::Declared& declared, const spec::Model& model)
       : run_(run), declared_(declared), model_(model) {}
 
   std::string tell(bool is_age) {
     const std::uint32_t root = channel(run_.hops.front()).from;
-    const CallOfRun first = writer(run_.hops.front());
+    const timing::CallOfRun first = writer(run_.hops.front());
     if (is_age) {
       say(run_.from, path(root) + " reads its device");
     } else {
@@ -38,7 +35,7 @@ class Story {
       if (hop.looked >= 0 && hop.looked <= hop.written && hop.read > hop.written)
         say(hop.looked, to + " has received before that, and does so again an iteration later");
       say(hop.read, to + (is_age ? " receives it" : " receives it, or a newer one"));
-      const CallOfRun user = user_of(hop, at);
+      const timing::CallOfRun user = user_of(hop, at);
       say(user.begin, to + " uses it in its next iteration");
       if (at + 1 == run_.hops.size()) say(run_.to, to + " has given its command" + took(user));
     }
@@ -46,36 +43,38 @@ class Story {
   }
 
  private:
-  void say(Time at, const std::string& what) { text_ += fmt::format("    {:>12}  {}\n", instant(at), what); }
+  void say(timing::Time at, const std::string& what) {
+    text_ += fmt::format("    {:>12}  {}\n", instant_text(at), what);
+  }
   [[nodiscard]] const timing::Channel& channel(const timing::HopOfRun& hop) const {
     return declared_.system.channels[hop.channel];
   }
   [[nodiscard]] std::string path(std::uint32_t subsystem) const {
     return model_.instance_path(spec::InstanceId{subsystem});
   }
-  [[nodiscard]] CallOfRun writer(const timing::HopOfRun& hop) const {
-    CallOfRun last;
-    for (const CallOfRun& call : run_.calls)
+  [[nodiscard]] timing::CallOfRun writer(const timing::HopOfRun& hop) const {
+    timing::CallOfRun last;
+    for (const timing::CallOfRun& call : run_.calls)
       if (call.subsystem == channel(hop).from && call.end <= hop.written) last = call;
     return last;
   }
   /// The call that is based on the value.
-  [[nodiscard]] CallOfRun user_of(const timing::HopOfRun& hop, std::size_t at) const {
+  [[nodiscard]] timing::CallOfRun user_of(const timing::HopOfRun& hop, std::size_t at) const {
     const bool is_last = at + 1 == run_.hops.size();
-    for (const CallOfRun& call : run_.calls)
+    for (const timing::CallOfRun& call : run_.calls)
       if (call.subsystem == channel(hop).to && call.begin >= hop.read && (!is_last || call.end == run_.to))
         return call;
     return {};
   }
   /// " (its call took 8 ms, the longest)"
-  [[nodiscard]] std::string took(const CallOfRun& call) const {
+  [[nodiscard]] std::string took(const timing::CallOfRun& call) const {
     const timing::Subsystem& one = declared_.system.subsystems[call.subsystem];
-    const Time takes = call.end - call.begin;
+    const timing::Time takes = call.end - call.begin;
     const char* const how = one.shortest == one.longest ? ""
                             : takes == one.longest      ? ", the longest"
                             : takes == one.shortest     ? ", the shortest"
                                                         : "";
-    return fmt::format(" (its call took {}{})", instant(takes), how);
+    return fmt::format(" (its call took {}{})", instant_text(takes), how);
   }
 
   const timing::WorstRun& run_;
@@ -86,15 +85,16 @@ class Story {
 
 }  // namespace
 
-std::string story_of(const timing::WorstRun& run, bool is_age, Time bound, const timing::Declared& declared,
-                     const spec::Model& model) {
+std::string story_of(const timing::WorstRun& run, bool is_age, timing::Time bound,
+                     const timing::Declared& declared, const spec::Model& model) {
   const char* const name = is_age ? "age" : "reaction";
   const std::string head =
-      run.reaches
-          ? fmt::format("  a run with that {}, from {} to {}:\n", name, instant(run.from), instant(run.to))
-          : fmt::format("  no run was found with {} {}; the nearest takes {}, from {} to {}:\n", name,
-                        time_text(bound), time_text(run.time()), instant(run.from), instant(run.to));
-  return head + Story(run, declared, model).tell(is_age);
+      run.reaches ? fmt::format("  a run with that {}, from {} to {}:\n", name, instant_text(run.from),
+                                instant_text(run.to))
+                  : fmt::format("  no run was found with {} {}; the nearest takes {}, from {} to {}:\n", name,
+                                time_text(bound), time_text(run.time()), instant_text(run.from),
+                                instant_text(run.to));
+  return head + RunStory(run, declared, model).tell(is_age);
 }
 
 std::optional<RunToWrite> run_to_write(const spec::Model& model, const std::string& name,

@@ -22,13 +22,14 @@ std::vector<HopOfRun> hops_back(const Chain& chain, const RunLog& log, std::uint
   return hops;
 }
 
-/// From the first reading after that one: on each channel the first value that reflects it.
+/// From the first reading after that one: on each channel the first value that reflects it. Empty: a channel has none.
 std::vector<HopOfRun> hops_on(const Chain& chain, const RunLog& log, std::int64_t reading) {
   std::vector<HopOfRun> hops(chain.size());
   for (std::size_t h = 0; h < chain.size(); ++h) {
     const auto write = std::ranges::upper_bound(log.writes[h], reading, {}, &RunLog::Write::reading);
     const auto number = static_cast<std::uint32_t>(write - log.writes[h].begin());
     const auto read = std::ranges::lower_bound(log.reads[h], number, {}, &RunLog::Read::write);
+    if (write == log.writes[h].end() || read == log.reads[h].end()) return {};
     hops[h] = {chain[h], write->at, read->at, read == log.reads[h].begin() ? -1 : std::prev(read)->at};
   }
   return hops;
@@ -41,7 +42,8 @@ WorstRun told(const System& system, const Climb::Goal& goal, const Chain& chain,
   run.from = log.calls[system.channels[chain.front()].from][reached.reading].begin;
   run.to = command.at;
   run.reaches = reached.time >= goal.bound;
-  run.hops = goal.age ? hops_back(chain, log, command.call) : hops_on(chain, log, reached.reading);
+  if (!goal.age) run.hops = hops_on(chain, log, reached.reading);
+  if (run.hops.empty()) run.hops = hops_back(chain, log, command.call);
   for (std::uint32_t i = 0; i < log.calls.size(); ++i) {
     run.subsystems.push_back(i);
     if (log.wakes_late[i]) run.on_simulated_clock = false;

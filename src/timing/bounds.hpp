@@ -50,6 +50,7 @@ class Bounds {
   Bounds& operator=(const Bounds&) = delete;
 
   [[nodiscard]] const Occurrences& occurrences() const { return events_; }
+  [[nodiscard]] const Clocked& clocked() const { return clocked_; }
   /// Precondition: each channel of the chain ends where the next one begins.
   [[nodiscard]] ChainBound chain(const Chain& chain) const;
   /// Precondition: it has a bound.

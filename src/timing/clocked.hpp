@@ -25,6 +25,8 @@ class Clocked {
   }
   /// After that time everything repeats.
   [[nodiscard]] Time pattern(std::uint32_t subsystem) const { return all_[subsystem].pattern; }
+  /// Its iterations in that time.
+  [[nodiscard]] Time repeat(std::uint32_t subsystem) const { return all_[subsystem].repeat; }
   /// From then on.
   [[nodiscard]] Time settled(std::uint32_t subsystem) const { return all_[subsystem].settled; }
   /// Iterations before the one with number 0.

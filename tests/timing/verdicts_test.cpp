@@ -153,13 +153,33 @@ TEST(Conduct, TellsRatesWaitsTimeoutsAndStale) {
   EXPECT_LE(all.stale[0].oldest, 78 * ms);
 }
 
-TEST(Conduct, ATimeoutShorterThanTheWaitMayFire) {
-  const Conduct all = conduct(", timeout: 30 ms", "rate: 50 Hz, stale: 40 ms");
+/// What that timeout, and that `stale`, of the motor do.
+std::pair<Fires, Fires> fire(const std::string& timeout, const std::string& stale,
+                             const std::string& motor = "rate: 50 Hz, ") {
+  const Conduct all = conduct(", timeout: " + timeout, motor + "stale: " + stale);
+  EXPECT_EQ(all.waits.size(), 1U);
+  EXPECT_EQ(all.stale.size(), 1U);
+  return {all.waits.at(0).fires, all.stale.at(0).fires};
+}
+
+TEST(Conduct, ATimeoutNeverMayOrMustFire) {
+  // Values come every 44 to 56 ms, and are read by then. If no timeout fired, the motor would begin every 40 or 60 ms,
+  // and wait at least 40 ms for each value that comes before 60 ms have passed.
+  EXPECT_EQ(fire("56 ms", "78 ms"), std::pair(Fires::never, Fires::never));
+  EXPECT_EQ(fire("55 ms", "77 ms"), std::pair(Fires::may, Fires::may));
+  EXPECT_EQ(fire("40 ms", "50 ms"), std::pair(Fires::may, Fires::may));
+  EXPECT_EQ(fire("39 ms", "44 ms"), std::pair(Fires::must, Fires::may));
+  EXPECT_EQ(fire("1 ms", "43 ms"), std::pair(Fires::must, Fires::must));
+  // Without a rate, it waits 50 ms less its call on average.
+  EXPECT_EQ(fire("47 ms", "43 ms", "").first, Fires::must);
+  EXPECT_EQ(fire("48 ms", "43 ms", "").first, Fires::may);
+}
+
+TEST(Conduct, AWaitThatIsEndedByItsTimeoutLastsNoLonger) {
+  const Conduct all = conduct(", timeout: 30 ms");
   ASSERT_EQ(all.waits.size(), 1U);
-  EXPECT_EQ(all.waits[0].fires, Fires::may);
   EXPECT_EQ(all.waits[0].longest, 30 * ms);
-  ASSERT_EQ(all.stale.size(), 1U);
-  EXPECT_EQ(all.stale[0].fires, Fires::may);
+  EXPECT_EQ(all.waits[0].certain, 40 * ms);
 }
 
 TEST(Conduct, ACallLongerThanThePeriodMayOverrun) {

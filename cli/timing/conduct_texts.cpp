@@ -80,7 +80,7 @@ class ConductWords {
       return {path(wait.subsystem),
               fmt::format("the timeout of its {} {} fires in every run: again and again, the wait would last "
                           "at least {}, and the timeout is {}",
-                          what, whom, time_text(wait.certain), time_text(wait.timeout)),
+                          what, whom, least_time_text(wait.certain), time_text(wait.timeout)),
               true};
     std::string text = fmt::format("its {} waits {} {}", what, at_most_text(wait.longest), whom);
     if (wait.timeout > 0)
@@ -89,11 +89,11 @@ class ConductWords {
   }
 
   [[nodiscard]] ConductLine line(const timing::StaleVerdict& stale) const {
+    const bool must = stale.fires == timing::Fires::must;
     return {path(stale.subsystem),
-            fmt::format("the value of {} gets {} old: `stale` ({}) {}", channel(stale.channel),
-                        stale.fires == timing::Fires::must
-                            ? fmt::format("at least {}, again and again,", time_text(stale.certain))
-                            : at_most_text(stale.oldest),
+            fmt::format("the value of {} gets {}: `stale` ({}) {}", channel(stale.channel),
+                        must ? fmt::format("at least {} old, again and again", least_time_text(stale.certain))
+                             : at_most_text(stale.oldest) + " old",
                         time_text(stale.stale), fires_text(stale.fires)),
             stale.fires != timing::Fires::never};
   }

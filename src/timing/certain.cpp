@@ -19,7 +19,7 @@ Certain::Certain(const Bounds& bounds)
       waiting[events_[partner_of(z)].subsystem].push_back(events_[z].subsystem);
   std::vector<std::uint32_t> order(all.size());
   std::iota(order.begin(), order.end(), 0);
-  const auto own = [&](std::uint32_t i) { return std::max(all[i].period, all[i].shortest); };
+  const auto own = [&](std::uint32_t i) { return std::max({all[i].period, all[i].shortest, Time{1}}); };
   std::ranges::sort(order, std::ranges::greater{}, own);
   mean_.assign(all.size(), 0);
   for (const std::uint32_t slowest : order) {
@@ -27,7 +27,7 @@ Certain::Certain(const Bounds& bounds)
     while (!level.empty()) {
       const std::uint32_t i = level.back();
       level.pop_back();
-      if (mean_[i] > 0) continue;
+      if (mean_[i] > 0) continue;  // by a slower one
       mean_[i] = own(slowest);
       level.insert(level.end(), waiting[i].begin(), waiting[i].end());
     }

@@ -28,7 +28,7 @@ class Certain {
   [[nodiscard]] bool knows(EventId partner) const;
   [[nodiscard]] Time earliest(EventId partner, Time number) const;
   [[nodiscard]] Time latest(EventId partner, Time number) const;
-  /// The first number from which on everything repeats, after the given time, and how many numbers that takes.
+  /// The first number from which on everything repeats, and how many numbers that takes.
   struct Pattern {
     Time first = 0, count = 0;
   };
@@ -40,8 +40,7 @@ class Certain {
   const Events& events_;
   const Occurrences& occurrences_;
   const Clocked& clocked_;
-  std::vector<Time>
-      mean_;  ///< per subsystem: the iterations of a long time are at least so far apart on average
+  std::vector<Time> mean_;  ///< per subsystem: in the long run, least time between its iterations
 };
 
 }  // namespace tessera::timing

@@ -36,6 +36,8 @@ class Clocked {
   /// When that write, or end of the call, occurs in the iteration of that number.
   [[nodiscard]] Time latest(EventId y, Time number) const;
   [[nodiscard]] Time earliest(EventId y, Time number) const;
+  /// Most time between two of its iterations.
+  [[nodiscard]] Time gap(std::uint32_t subsystem) const;
   /// As Occurrences::staleness, where the values of the channel drive its receiver; else unbounded.
   [[nodiscard]] Time staleness(std::uint32_t channel) const;
 

@@ -28,12 +28,10 @@ class Judge {
  private:
   RateVerdict rate(std::uint32_t i) {
     const Events& events = bounds_.events();
-    RateVerdict verdict{i,
-                        bounds_.periodic(i),
-                        system_.subsystems[i].period,
-                        bounds_.gap(events.start(i)),
-                        !bounds_.never_overruns(i),
-                        i};
+    const Time period = system_.subsystems[i].period, longest_time = all_.between_iterations(i);
+    // The first one begins at time 0, and the others at instants of the grid.
+    const bool keeps = bounds_.periodic(i) || (longest_time <= period && !bounds_.begins_late(i));
+    RateVerdict verdict{i, keeps, period, longest_time, !bounds_.never_overruns(i), i};
     Time longest = -1;
     for (EventId z = events.start(i); z <= events.end(i); ++z) {
       if (bounds_.wait_of(z) == Occurrences::Wait::none || bounds_.wait(z) <= longest) continue;

@@ -106,7 +106,7 @@ class Shown {
     const Subsystem& one = drawn_.system.subsystems[i];
     if (one.processor >= 0) EXPECT_LE(seen_.response[i], plus(all_.response(i), drawn_.system.latency));
     if (one.period == 0 || all_.begins_late(i)) return;
-    EXPECT_LE(seen_.release_gap[i], all_.gap(all_.events().start(i))) << "subsystem " << i;
+    EXPECT_LE(seen_.release_gap[i], bounds_.between_iterations(i)) << "subsystem " << i;
     if (all_.periodic(i)) EXPECT_LE(seen_.release_gap[i], one.period) << "subsystem " << i;
     if (all_.never_overruns(i)) EXPECT_EQ(seen_.overruns[i], 0) << "subsystem " << i;
   }

@@ -25,14 +25,15 @@ void hold(const char* what, std::size_t index, std::int64_t most_ns, timing::Tim
   EXPECT_LE(most_ns, bound >= unbounded ? INT64_MAX : bound * tick_ns) << what << " " << index;
 }
 
-void hold_subsystems(const Observed& seen, const Occurrences& bounds) {
+void hold_subsystems(const Observed& seen, const Bounds& all) {
+  const Occurrences& bounds = all.occurrences();
   for (std::uint32_t i = 0; i < seen.net().subsystems.size(); ++i) {
     const ::timing::Subsystem& one = seen.net().subsystems[i];
     if (one.period == 0 || (one.catch_up && !bounds.never_overruns(i))) continue;
     std::int64_t gap = 0;
     for (std::size_t k = 1; k < seen.called[i].size(); ++k)
       gap = std::max(gap, seen.called[i][k] - seen.called[i][k - 1]);
-    hold("time between calls of", i, gap, bounds.gap(bounds.events().start(i)));
+    hold("time between calls of", i, gap, all.between_iterations(i));
     if (bounds.periodic(i)) hold("period of", i, gap, one.period);
   }
 }
@@ -123,7 +124,7 @@ void try_out(::timing::Case drawn, std::uint64_t seed, Total& total) {
   const bool is_long_enough = all < timing::longest_pattern;
   if (is_long_enough) until += 3 * all;
   ASSERT_TRUE(run(seen, seed, until, seed % 2 == 0));
-  hold_subsystems(seen, bounds.occurrences());
+  hold_subsystems(seen, bounds);
   hold_timeouts(seen, bounds.occurrences());
   if (is_long_enough) total.must_fire += hold_certain(seen, bounds);
   hold_chains(seen, bounds);

@@ -6,7 +6,9 @@
 #include <vector>
 
 #include "follower.hpp"
+#include "timing/certain.hpp"
 #include "timing/conduct.hpp"
+#include "timing/drift.hpp"
 
 namespace tessera::timing {
 namespace {
@@ -180,6 +182,44 @@ TEST(Conduct, AWaitThatIsEndedByItsTimeoutLastsNoLonger) {
   ASSERT_EQ(all.waits.size(), 1U);
   EXPECT_EQ(all.waits[0].longest, 30 * ms);
   EXPECT_EQ(all.waits[0].certain, 40 * ms);
+}
+
+TEST(Conduct, ADrivenSubsystemKeepsTheRateOfItsSource) {
+  const Judged judged(
+      {.sensor = "rate: 50 Hz",
+       .control = "rate: 50 Hz",
+       .line = "{ from: \"robot.sensor.line\", to: \"robot.control.line\", receive: blocking }"});
+  ASSERT_TRUE(judged.reading.model) << judged.reading.report();
+  for (const RateVerdict& rate : conduct_of(judged.declared, Bounds(judged.declared.system)).rates) {
+    EXPECT_TRUE(rate.keeps) << rate.subsystem;
+    EXPECT_EQ(rate.longest, 20 * ms) << rate.subsystem;
+  }
+}
+
+TEST(Conduct, IsToldOfARingInWhichNothingSaysWhatItTakes) {
+  System ring{{{.sends = {0}, .receives = {1}}, {.sends = {1}, .receives = {0}}},
+              {{0, 1, false, true}, {1, 0, false, true}}};
+  for (Subsystem& one : ring.subsystems) one.shortest = 0, one.longest = unbounded;
+  const Bounds bounds(ring);
+  const Certain certain(bounds);
+  EXPECT_EQ(certain.wait(bounds.occurrences().events().read(0)), 0);
+  EXPECT_FALSE(certain.gets_stale(0, 1));
+}
+
+TEST(Drift, NamesARateThatGoesIntoTheOthers) {
+  const auto drift = [](const std::string& sensor) {
+    const Judged judged({.sensor = "rate: " + sensor, .motion = no_waits});
+    EXPECT_TRUE(judged.reading.model) << judged.reading.report();
+    return drift_of(Bounds(judged.declared.system), judged.declared.chains.at(0).ways.at(0));
+  };
+  EXPECT_FALSE(drift("50 Hz"));
+  EXPECT_FALSE(drift("31.25 Hz"));
+  const auto camera = drift("30 Hz");
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->period, 33'333'333);
+  EXPECT_THAT(camera->better, ElementsAre(25 * ms, 50 * ms));
+  // No other rate, no drift; two are enough.
+  EXPECT_THAT(drift("7 Hz")->better, ElementsAre(100 * ms, 200 * ms));
 }
 
 TEST(Conduct, ACallLongerThanThePeriodMayOverrun) {

@@ -9,7 +9,7 @@
 
 #include "cli/timing/conduct_texts.hpp"
 #include "cli/timing/time_texts.hpp"
-#include "timing/drift.hpp"
+#include "timing/conduct/drift.hpp"
 #include "timing/words.hpp"
 
 namespace tessera::cli {

@@ -1,6 +1,6 @@
 #include "timing/conduct.hpp"
 
-#include "timing/certain.hpp"
+#include "timing/conduct/certain.hpp"
 
 namespace tessera::timing {
 namespace {

@@ -12,7 +12,7 @@
 
 namespace tessera::timing {
 
-/// What a system looks like; each has its own way of joining subsystems.
+/// The way in which subsystems are joined.
 enum class Shape : std::uint8_t {
   fan_in,
   fan_out,

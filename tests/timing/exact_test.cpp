@@ -47,7 +47,7 @@ Line draw(std::uint64_t seed) {
 /// The times of single calls; the others are as short as they can be.
 using Calls = std::vector<std::map<Time, Time>>;
 
-/// The longest age and reaction of a run. At one instant, who comes later in the chain goes first.
+/// The longest age and reaction of a run. At one instant, the later ones in the chain go first.
 struct Run {
   Time age = 0, reaction = 0;
 
@@ -69,7 +69,7 @@ struct Run {
         if (finish(i) < finish(next)) next = i;
       const Time now = finish(next);
       if (now > until) break;
-      // What the call used was received at the end of the iteration before.
+      // The call uses the value that was received at the end of the iteration before.
       const Time value = next == 0 ? iteration[0] * system.subsystems[0].period : held[next];
       if (next == 0) readings.push_back(value);
       if (next + 1 == count) {
@@ -89,7 +89,7 @@ struct Run {
   }
 };
 
-/// Who should write late takes longest, and who should look too early takes shortest.
+/// A call that should write late takes longest, and one that should look too early takes shortest.
 Run worst_run(const System& system, Time bound, bool for_age) {
   const auto& all = system.subsystems;
   Time pattern = 1;

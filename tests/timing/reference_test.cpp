@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "drawn_shapes.hpp"
-#include "timing/certain.hpp"
+#include "timing/conduct/certain.hpp"
 #include "timing/steps.hpp"
 
 namespace tessera::timing {
@@ -72,7 +72,7 @@ void compare(const Drawn& drawn) {
   }
 }
 
-/// What a simulation of the reference shows, beside the bounds.
+/// A simulation by the reference, beside the bounds.
 class Shown {
  public:
   Shown(const Drawn& drawn, const Bounds& bounds, std::uint64_t seed)

@@ -11,7 +11,7 @@
 
 #include "drawn_run.hpp"
 #include "drawn_shapes.hpp"
-#include "timing/certain.hpp"
+#include "timing/conduct/certain.hpp"
 
 namespace tessera::timing_test {
 namespace {
@@ -100,7 +100,7 @@ std::uint64_t systems_asked(std::uint64_t usual) {
   return asked == nullptr ? usual : std::strtoull(asked, nullptr, 10);
 }
 
-/// What occurred in the runs of many systems.
+/// The events in the runs of many systems.
 struct Total {
   std::uint64_t commands = 0, must_fire = 0;
 };

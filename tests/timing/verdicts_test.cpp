@@ -6,9 +6,9 @@
 #include <vector>
 
 #include "follower.hpp"
-#include "timing/certain.hpp"
 #include "timing/conduct.hpp"
-#include "timing/drift.hpp"
+#include "timing/conduct/certain.hpp"
+#include "timing/conduct/drift.hpp"
 
 namespace tessera::timing {
 namespace {
@@ -155,7 +155,7 @@ TEST(Conduct, TellsRatesWaitsTimeoutsAndStale) {
   EXPECT_LE(all.stale[0].oldest, 78 * ms);
 }
 
-/// What that timeout, and that `stale`, of the motor do.
+/// The verdicts on that timeout, and that `stale`, of the motor.
 std::pair<Fires, Fires> fire(const std::string& timeout, const std::string& stale,
                              const std::string& motor = "rate: 50 Hz, ") {
   const Conduct all = conduct(", timeout: " + timeout, motor + "stale: " + stale);

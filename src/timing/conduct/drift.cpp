@@ -1,4 +1,4 @@
-#include "timing/drift.hpp"
+#include "timing/conduct/drift.hpp"
 
 #include <algorithm>
 #include <numeric>

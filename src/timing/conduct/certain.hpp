@@ -5,7 +5,7 @@
 
 namespace tessera::timing {
 
-/// What happens again and again in every run that goes on: there is no last time.
+/// Events that occur again and again in every run that goes on: there is no last time.
 ///
 /// Source: docs/theory/timing.md.
 class Certain {

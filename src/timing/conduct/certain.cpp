@@ -1,4 +1,4 @@
-#include "timing/certain.hpp"
+#include "timing/conduct/certain.hpp"
 
 #include <algorithm>
 #include <functional>
@@ -47,7 +47,7 @@ bool Certain::knows(EventId partner) const {
 Time Certain::earliest(EventId partner, Time number) const { return clocked_.earliest(partner, number); }
 Time Certain::latest(EventId partner, Time number) const { return clocked_.latest(partner, number); }
 
-/// Of the partner together with a subsystem of that period; 0: the partner alone. count 0: it is too long.
+/// The partner repeats together with a subsystem of that period; 0: alone. count 0: that takes too long.
 Certain::Pattern Certain::pattern_of(EventId partner, Time period) const {
   const std::uint32_t i = events_[partner].subsystem;
   const Time own = clocked_.pattern(i), other = period == 0 ? 1 : period / std::gcd(own, period);

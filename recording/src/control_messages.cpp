@@ -37,6 +37,9 @@ void members(Is<Snapshot::Subsystem> auto& one, auto& each) {
   each("called_at_s", one.called_at_s);
   each("call_s", one.call_s);
   each("longest_call_s", one.longest_call_s);
+  each("slow_calls", one.slow_calls, by_need);
+  each("late_wakeups", one.late_wakeups, by_need);
+  each("latest_wakeup_s", one.latest_wakeup_s, by_need);
   each("memory", one.memory, by_need);
 }
 

@@ -30,7 +30,7 @@ using Recorded = std::tuple<Duration, Fault, std::string>;
   std::vector<Recorded> faults;
   for (const auto& [event, text] : recording->entries)
     if (event.kind() == Event::Kind::fault)
-      faults.emplace_back(Duration(event.time_ns), static_cast<Fault>(event.version), text);
+      faults.emplace_back(Duration(event.time_ns), event.fault(), text);
   return faults;
 }
 

@@ -291,6 +291,20 @@ struct Process {
   std::string_view interface;  ///< network interface of its machine; empty: none given
 };
 
+/// A chain of subsystems from a receptor to an effector, with what is proved of its times. A row stands for the
+/// chains of all members of a fleet.
+struct Chain {
+  std::string_view name;         ///< "joints to motors"; of a fleet "robot[].eye -> robot[].control -> ..."
+  Duration age{0}, reaction{0};  ///< at most; zero: there is no bound
+};
+
+/// A way of values along a chain: channels, each of which ends where the next one begins.
+struct ChainWay {
+  std::uint32_t chain;                            ///< into System::chains
+  std::initializer_list<std::uint32_t> channels;  ///< into System::channels
+  std::uint32_t member = UINT32_MAX;              ///< of the fleet; UINT32_MAX: there is none
+};
+
 /// Something that behaviours use: "energy", in "J".
 struct Resource {
   std::string_view name, unit;
@@ -320,6 +334,9 @@ struct System {
   /// A thread goes on at most so long after it may; zero: the specification does not say it.
   Duration latency{0};
   std::span<const Resource> resources{};
+  std::span<const Chain> chains{};  ///< their ages are measured; empty: the specification says no times
+  /// Without those over a network, or over a channel with a communication model of its own.
+  std::span<const ChainWay> chain_ways{};
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

@@ -22,7 +22,7 @@ struct SharedProcessor {
 };
 
 /// Compares the calls of a subsystem with the `takes` of its behaviours, and the wake-ups of its thread with `latency`:
-/// the assumptions of the bounds of ages. Of calls on a shared processor, the time in which the others ran is left out.
+/// the assumptions of the bounds of ages. On a shared processor, the time in which the others ran is left out.
 ///
 /// Threads: the subsystem's. Allocates nothing after it was made.
 class Overtimes {
@@ -33,7 +33,7 @@ class Overtimes {
     Duration longest{0};
     Time longest_at{};
   };
-  /// What took too long, and the how manieth such case it is.
+  /// A case of overtime, and the how manieth one it is.
   struct Finding {
     Duration took{0}, allowed{0};
     std::uint64_t number = 0;

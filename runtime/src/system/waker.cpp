@@ -18,7 +18,7 @@ std::int64_t monotonic_ns() {
 void WakeWord::wake() {
   // A sleeper that looks for work later reads this exchange first, and with it the
   // changes that caused the wake-up.
-  // Stored before: the sleeper reads it after the exchange. Of two that wake it, the second may store a later moment.
+  // Stored before: the sleeper reads it after the exchange. If two wake it, the second may store a later moment.
   if (state_.load(std::memory_order_relaxed) >= asleep)
     woken_ns_.store(monotonic_ns(), std::memory_order_relaxed);
   if (state_.exchange(woken, std::memory_order_acq_rel) < asleep) return;

@@ -1040,11 +1040,8 @@ export interface Outcome {
     iterations: number;
     overruns: number;
     errors: number;
-    /** Calls that took longer than `takes` says. */
     slow_calls?: number;
-    /** How often its thread went on later than `latency` says. */
     late_wakeups?: number;
-    /** The most time until its thread went on after it might. */
     latest_wakeup_s?: number;
   }[];
   /** The behaviours with calls that took longer than `takes` says; absent: there are none. */
@@ -1072,14 +1069,11 @@ export interface MeasureOutcome {
 }
 /** A behaviour with calls that took longer than `takes` says. */
 export interface SlowCalls {
-  /** "robot.control.follow" */
   behaviour: string;
   calls: number;
-  /** Those that took longer. */
   slow: number;
   declared_ns: number;
   longest_ns: number;
-  /** When the longest one began. */
   longest_at_ns: number;
 }
 /** The part of the net that a run has reached, as counted by `tessera simulate --coverage`. */

@@ -37,6 +37,7 @@ import { Sweeps } from "./plots/sweeps";
 import { Timing } from "./timing";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
+import { Worst } from "./worst";
 
 const kept = "tessera.view";
 
@@ -71,6 +72,7 @@ export class Studio {
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
   readonly timing = new Timing(this.api, this.draft);
+  readonly worst = new Worst(this.api);
   readonly measured = new Measured(this.api, this.draft);
   readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);

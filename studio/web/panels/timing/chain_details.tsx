@@ -72,22 +72,24 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
           <SharedBy structure={structure} agent={agent} />
         </div>
       ))}
-      <div className="tried" role="status">
-        {changed.length > 0 && then && (
-          <p>
-            With {changed.map(({ subsystem }) => saidTried(subsystem.path, tried.get(subsystem.path)!)).join("; ")}:{" "}
-            {saidChain(then)}
-          </p>
+      <div className={changed.length > 0 ? "tried" : ""}>
+        <div role="status">
+          {changed.length > 0 && then && (
+            <p>
+              With {changed.map(({ subsystem }) => saidTried(subsystem.path, tried.get(subsystem.path)!)).join("; ")}:{" "}
+              {saidChain(then)}
+            </p>
+          )}
+        </div>
+        {changed.length > 0 && (
+          <div className="buttons">
+            <button className="primary" disabled={!fresh || !written} onClick={() => void write()}>
+              Write the new {tries}
+            </button>
+            <button onClick={() => studio.timing.forget()}>Back to the present {tries}</button>
+          </div>
         )}
       </div>
-      {changed.length > 0 && (
-        <div className="buttons">
-          <button className="primary" disabled={!fresh || !written} onClick={() => void write()}>
-            Write the new {tries}
-          </button>
-          <button onClick={() => studio.timing.forget()}>Back to the present {tries}</button>
-        </div>
-      )}
       {!written && (
         <p className="problem-hint">A behaviour says in another form what it takes: write its new time into the text by hand.</p>
       )}

@@ -27,7 +27,7 @@ export function TakesSlider({ timed, path, tried }: { timed: TimedSubsystem; pat
       <input
         id={id}
         type="range"
-        aria-label={`Longest call of ${path}`}
+        aria-label={`${path}: its calls take at most`}
         min={0}
         max={choices.length - 1}
         step={1}

@@ -44,7 +44,7 @@ function Run({ found, chain, text }: { found: Timing; chain: TimedChain; text: s
         {!busy && why && <p className="faint">There is no such run: {why}.</p>}
         {!busy && run && (
           <p>
-            {tried.size > 0 && "With the times that are tried: "}
+            {tried.size > 0 && "These are the times that are tried. "}
             {saidRun(run, of)}
           </p>
         )}
@@ -57,6 +57,6 @@ function Run({ found, chain, text }: { found: Timing; chain: TimedChain; text: s
 /** Whether the run takes as long as is proved. */
 function saidRun(run: WorstRun, of: Shown): string {
   const took = shownTime(run.to_ns - run.from_ns);
-  if (run.reaches) return `this run takes as long as any can: ${of === "age" ? "an age" : "a reaction"} of ${took}.`;
-  return `the longest run found takes ${took}; at most ${shownTime(run.at_most_ns)} is proved.`;
+  if (run.reaches) return `This run takes as long as any can: ${of === "age" ? "an age" : "a reaction"} of ${took}.`;
+  return `The longest run found takes ${took}; at most ${shownTime(run.at_most_ns)} is proved.`;
 }

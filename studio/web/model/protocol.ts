@@ -916,6 +916,15 @@ export interface Subsystem {
   /** Duration of the last call. */
   call_s: number;
   longest_call_s: number;
+  /** Calls that took longer than `takes` says. Absent: none. */
+  slow_calls?: number;
+  /** How often its thread went on later than `latency` says. Absent: never. */
+  late_wakeups?: number;
+  /**
+   * The most time until its thread went on after it might. On the steady clock, unless another subsystem goes
+   * first on its processor.
+   */
+  latest_wakeup_s?: number;
   /**
    * The fields of its memory as they were at the end of the last iteration. Absent: it has none. The studio leaves
    * it out, since its `values` have it.
@@ -1026,7 +1035,17 @@ export interface Outcome {
   checks?: CheckOutcome[];
   /** By name; null: never taken. */
   measures?: { [k: string]: MeasureOutcome | null };
-  subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
+  subsystems: {
+    path: string;
+    iterations: number;
+    overruns: number;
+    errors: number;
+    slow_calls?: number;
+    late_wakeups?: number;
+    latest_wakeup_s?: number;
+  }[];
+  /** The behaviours with calls that took longer than `takes` says; absent: there are none. */
+  overtime?: SlowCalls[];
 }
 export interface CheckOutcome {
   name: string;
@@ -1047,6 +1066,15 @@ export interface MeasureOutcome {
   last: number;
   /** `m/s`. Missing: it has none, or it is not known. */
   unit?: string;
+}
+/** A behaviour with calls that took longer than `takes` says. */
+export interface SlowCalls {
+  behaviour: string;
+  calls: number;
+  slow: number;
+  declared_ns: number;
+  longest_ns: number;
+  longest_at_ns: number;
 }
 /** The part of the net that a run has reached, as counted by `tessera simulate --coverage`. */
 export interface Coverage {

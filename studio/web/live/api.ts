@@ -11,7 +11,7 @@ import type {
   RunRequest,
   SweepRequest,
 } from "../model/protocol";
-import type { WorstQuestion } from "./worst";
+import type { WorstQuestion } from "./times/worst";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {

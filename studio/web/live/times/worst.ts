@@ -1,7 +1,7 @@
-import type { OtherTimes, WorstRun } from "../model/protocol";
-import type { Shown } from "../model/timed_run";
-import { type Api, message } from "./api";
-import { Store } from "./store";
+import type { OtherTimes, WorstRun } from "../../model/protocol";
+import type { Shown } from "../../model/timed_run";
+import { type Api, message } from "../api";
+import { Store } from "../store";
 
 /** The question for the slowest run of a chain. */
 export interface WorstQuestion {

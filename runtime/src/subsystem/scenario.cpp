@@ -47,7 +47,7 @@ class Reading {
   }
 
  private:
-  [[nodiscard]] std::optional<Problem> read_times(const nlohmann::json& json, Scenario::Times& times) const {
+  [[nodiscard]] std::optional<Problem> read_times(const nlohmann::json& json, ForcedTimes& times) const {
     bool is_wrong = false;
     times.end = Time(Duration(json.at("to_ns").get<std::int64_t>()));
     times.calls.resize(system_.instances.size());

@@ -12,6 +12,19 @@
 
 namespace tessera {
 
+/// A call in a run that shows how old a command can be (tessera verify --explain CHAIN).
+struct ForcedCall {
+  Duration takes{};
+  Duration late{};         ///< from its release until it begins
+  std::int32_t order = 0;  ///< of those that can act at one instant, the smaller one goes first
+};
+struct ForcedTimes {
+  Time end{};  ///< of the command
+  std::vector<std::vector<ForcedCall>>
+      calls;                         ///< per instance, in their order; later ones are drawn as usual
+  std::vector<std::uint32_t> place;  ///< per instance: the smaller one goes first among equals
+};
+
 /// A run of the net that a controller follows under the simulated clock: which subsystem fires which
 /// transition, in which order. The upper layers are not part of it; they follow by themselves.
 struct Scenario {
@@ -24,19 +37,7 @@ struct Scenario {
   };
   std::vector<Step> steps;
 
-  /// The times of calls, in a run that shows how old a command can be (tessera verify --explain CHAIN). Then there are
-  /// no steps, and the run ends with the command.
-  struct Call {
-    Duration takes{};
-    Duration late{};         ///< from its release until it begins
-    std::int32_t order = 0;  ///< of those that can act at one instant, the smaller one goes first
-  };
-  struct Times {
-    Time end{};                            ///< of the command
-    std::vector<std::vector<Call>> calls;  ///< per instance, in their order; later ones are drawn as usual
-    std::vector<std::uint32_t> place;      ///< per instance: the smaller one goes first among equals
-  };
-  std::optional<Times> times{};
+  std::optional<ForcedTimes> times{};  ///< then there are no steps, and the run ends with the command
 
   /// The transitions that an instance has to fire, in order.
   [[nodiscard]] Script of_instance(std::uint32_t instance) const;

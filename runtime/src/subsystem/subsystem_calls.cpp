@@ -18,7 +18,7 @@ namespace tessera {
 Time SubsystemExecutor::release() {
   const Duration waited = std::exchange(waited_, Duration::zero());
   ++releases_made_;
-  const Scenario::Call* const forced = forced_call();
+  const ForcedCall* const forced = forced_call();
   const Duration late = forced == nullptr ? Duration::zero() : forced->late;
   if (!releases_.have_rate()) return late == Duration::zero() ? Time::min() : now() + late;
   renew_time();
@@ -48,7 +48,7 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     token.phase = Phase::running;
     token.due = Time::min();
     if (simulated_) {
-      const Scenario::Call* const forced = forced_call();
+      const ForcedCall* const forced = forced_call();
       token.due = begin + (forced == nullptr ? operations_.draw_time(behaviour) : forced->takes);
     }
     if (watchdog > Duration::zero() && token.due > begin + watchdog)

@@ -72,7 +72,7 @@ class SubsystemExecutor {
   }
   /// The one with the smallest number goes first of those that can act at one instant.
   [[nodiscard]] std::int32_t order() const {
-    const Scenario::Call* const call = forced_call();
+    const ForcedCall* const call = forced_call();
     return call == nullptr ? 0 : call->order;
   }
   /// Fires the next transition of the script. waiting: not yet, step again at the deadline, or never
@@ -196,7 +196,7 @@ class SubsystemExecutor {
   // Calls.
   [[nodiscard]] Time release();
   /// The one that runs, or comes next. nullptr: its times are not forced.
-  [[nodiscard]] const Scenario::Call* forced_call() const {
+  [[nodiscard]] const ForcedCall* forced_call() const {
     const std::size_t index = releases_made_ == 0 ? 0 : releases_made_ - 1;
     return index < forced_.size() ? &forced_[index] : nullptr;
   }
@@ -252,7 +252,7 @@ class SubsystemExecutor {
   Scenario::Script script_;   // to follow
   std::size_t followed_ = 0;  // of the script
 
-  std::span<const Scenario::Call> forced_;  // times of calls
+  std::span<const ForcedCall> forced_;  // times of calls
   std::size_t releases_made_ = 0;
 
   Time returns_{};  // simulated: the return of a call that the watchdog precedes

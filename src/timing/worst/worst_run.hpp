@@ -22,13 +22,13 @@ struct CallOfRun {
   /// the earlier one in WorstRun::subsystems.
   std::int8_t order = 0;
 };
-/// A channel on the way. Of an age: when the value was written that the command is based on, and when it was received
-/// for the last time before it was used. Of a reaction: when the first value was written that reflects the event, and
+/// A channel on the way. For an age: when the value was written that the command is based on, and when it was received
+/// for the last time before it was used. For a reaction: when the first value was written that reflects the event, and
 /// when such a value was received first.
 struct HopOfRun {
   std::uint32_t channel = 0;
   Time written = 0, read = 0;
-  Time looked = -1;  ///< of a reaction: the receive before that one, which came too early; -1: none
+  Time looked = -1;  ///< for a reaction: the receive before that one, which came too early; -1: none
 };
 struct WorstRun {
   Time from = 0;         ///< the reading of the device; for a reaction, an event just after that reading

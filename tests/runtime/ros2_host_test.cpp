@@ -109,7 +109,7 @@ TEST(ShownInRos2, StatusesTellOfFaultsNewOverrunsWaitsAndStops) {
   snapshot.subsystems[1].late_wakeups = 1;
   shown = statuses.of(snapshot);
   EXPECT_EQ(shown[1].level, warn);
-  EXPECT_EQ(shown[1].message, "overtime: 3 new");
+  EXPECT_EQ(shown[1].message, "overtime: 3 new; waits for robot.control (2.0 s)");
   snapshot.subsystems[0].errors = 1;
   snapshot.subsystems[1].ended = true;
   shown = statuses.of(snapshot);

@@ -41,7 +41,7 @@ test("a reaction that is too slow is found by Verify, explained by its parts, an
     assert.ok(reaction > 150, `${reaction} ms`);
 
     // Another rate is tried by the keys alone; nothing is written.
-    const slider = page.getByRole("slider", { name: "arm.control" });
+    const slider = page.getByRole("slider", { name: "arm.control", exact: true });
     await slider.focus();
     for (let step = 0; step < 4; step += 1) await page.keyboard.press("ArrowRight");
     assert.equal(await slider.getAttribute("aria-valuetext"), "40 Hz");

@@ -44,7 +44,7 @@ export function carriersOf(run: TimedRun, path: readonly string[]): (TimedCall |
 
 /** The parts of the time of a run, in their order; none: the way of the value is not known. */
 export function partsOf(run: TimedRun, path: readonly string[], shown: Shown): RunPart[] {
-  const { hops, from_ns: from, to_ns: to } = run;
+  const { hops, calls, from_ns: from, to_ns: to } = run;
   const lanes = lanesOf(run, path);
   const carriers = carriersOf(run, path);
   const parts: RunPart[] = [];
@@ -56,9 +56,12 @@ export function partsOf(run: TimedRun, path: readonly string[], shown: Shown): R
   carriers.forEach((call, lane) => {
     const who = last(lanes[lane]!);
     if (call) {
+      const isReadBefore = calls.some(
+        (one) => one.subsystem === lanes[lane] && one.begin_ns > from && one.begin_ns < call.begin_ns,
+      );
       const before =
         lane === 0
-          ? `${who} has just read its device: until it reads again`
+          ? `${who} has just read its device: until ${isReadBefore ? "the reading that comes through, as newer ones replace those before" : "it reads again"}`
           : lane === carriers.length - 1 && shown === "age"
             ? `until ${who} begins its last call that uses the value`
             : `until the next call of ${who} begins, which uses the value`;

@@ -1,3 +1,4 @@
+import { useEffect, useRef } from "react";
 import { useStore, useStudio } from "../../hooks/use";
 import type { Edit, TimedChain, TimedSubsystem, Timing } from "../../model/protocol";
 import { findThing, sharersOf, withoutIndex, type Agent, type Structure, type Subsystem } from "../../model/structure/structure";
@@ -46,9 +47,15 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
     if (!written || !(await studio.change(written))) return;
     for (const { subsystem } of changed) studio.timing.try(subsystem.path, { period_ns: undefined, longest_ns: undefined });
   };
+  const [details, isTried] = [useRef<HTMLElement>(null), changed.length > 0];
+  // What is tried stands over the end of the panel: the slider that was moved must not be below it.
+  useEffect(() => {
+    const active = document.activeElement;
+    if (isTried && then && details.current?.contains(active)) active?.scrollIntoView({ block: "nearest" });
+  }, [isTried, then]);
   const tries = nameOfTried([...tried.values()]);
   return (
-    <section aria-label={chainName(chain)}>
+    <section ref={details} aria-label={chainName(chain)}>
       <h2>{chainName(chain)}</h2>
       {chain.named && <p className="path">{chainTitle(chain.path)}</p>}
       <p>{saidChain(chain)}</p>

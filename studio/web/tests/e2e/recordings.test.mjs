@@ -220,3 +220,27 @@ test("of a run that is too fast to be drawn, all firings are counted, and the pa
     const shown = await page.locator('[data-sheet="robot.control.follow"] .firings').allTextContents();
     assert.ok(shown.some((text) => /^≥/.test(text)) && !shown.some((text) => /^×/.test(text)), shown.join());
   }));
+
+test("the longest reaction of a recording is measured, drawn, and marked at its moment, though nothing is proved", () =>
+  onBuiltNet(lineFollower, async (page) => {
+    await tab(page, "Structure").click();
+    await tab(page, "Run").click();
+    await page.getByRole("textbox", { name: "Speed" }).fill("0");
+    await page.getByRole("textbox", { name: "For" }).fill("2s");
+    await button(page, "Run").click();
+    await page.getByTestId("run-state").getByText("Ended").waitFor();
+    // The recording of the run that has ended is measured without being opened.
+    await button(page, "Panels").click();
+    await page.getByRole("menuitemcheckbox", { name: "Timing" }).click();
+    const show = page.getByRole("button", { name: /^Show the longest reaction: [\d.]+ ms$/ });
+    await show.waitFor();
+    await show.press("Enter");
+    const worst = page.getByRole("region", { name: "The longest reaction in the recording" });
+    await worst.getByRole("img", { name: /^The run from the event to the command/ }).waitFor();
+    const parts = await worst.getByRole("list", { name: "The parts of the time" }).locator(".ns").allInnerTexts();
+    assert.ok(parts.length > 2, parts.join());
+    const [, from, to] = /from ([\d.]+) s to ([\d.]+) s/.exec(await worst.getByRole("heading").innerText());
+    await until(page, () => Math.abs(momentOf(page) / 1e9 - Number(from)) < 0.001, "the moment of the event");
+    await button(page, "To its end").press("Enter");
+    await until(page, () => Math.abs(momentOf(page) / 1e9 - Number(to)) < 0.001, "the moment of the command");
+  }));

@@ -41,7 +41,7 @@ test("a reaction that is too slow is found by Verify, explained by its parts, an
     assert.ok(reaction > 150, `${reaction} ms`);
 
     // Another rate is tried by the keys alone; nothing is written.
-    const slider = page.getByRole("slider", { name: "arm.control" });
+    const slider = page.getByRole("slider", { name: "arm.control", exact: true });
     await slider.focus();
     for (let step = 0; step < 4; step += 1) await page.keyboard.press("ArrowRight");
     assert.equal(await slider.getAttribute("aria-valuetext"), "40 Hz");
@@ -76,6 +76,47 @@ test("a reaction that is too slow is found by Verify, explained by its parts, an
     await button(page, "Undo").click();
     await noProblems(page);
     assert.equal(await draftText(page), undefined);
+  }));
+
+test("the slowest run is drawn over time, and a shorter call is tried and written, by the keys alone", () =>
+  onPage(folder("slow_arm"), async (page, server) => {
+    const before = server.text();
+    await noProblems(page);
+    await openFromVerdict(page);
+    await button(page, "Show the slowest run").press("Enter");
+    const run = page.getByRole("region", { name: "The slowest run" });
+    await run.getByRole("img", { name: /^The run from the event to the command: \d+ ms$/ }).waitFor();
+    const parts = run.getByRole("list", { name: "The parts of the time" });
+    const sum = async () => (await parts.locator(".ns").allInnerTexts()).reduce((all, text) => all + Number.parseFloat(text), 0);
+    const reaction = page.getByRole("row", { name: chain }).getByRole("cell").nth(1);
+    // The run of this chain reaches its bound: its parts are all of it.
+    assert.equal(await sum(), Number.parseFloat(await reaction.innerText()));
+    await run.getByText("as long as any can").waitFor();
+    await button(page, "Age").press("Enter");
+    await run.getByRole("img", { name: /^The run from the reading/ }).waitFor();
+
+    const slider = page.getByRole("slider", { name: "arm.control: its calls take at most" });
+    await slider.focus();
+    for (let step = 0; step < 3; step += 1) await page.keyboard.press("ArrowLeft");
+    assert.equal(await slider.getAttribute("aria-valuetext"), "10 ms");
+    await page.getByText("With arm.control with calls of 10 ms at most").waitFor();
+    // The slider is not below what stands over the end of the panel.
+    const isSeen = () =>
+      slider.evaluate((one) => {
+        const { left, top, width, height } = one.getBoundingClientRect();
+        return document.elementFromPoint(left + width / 2, top + height / 2) === one;
+      });
+    await until(page, isSeen, "the slider in sight");
+    const complaints = [];
+    const judge = await judges(page, complaints);
+    await judge("the slowest run, and other times that are tried");
+    assert.deepEqual(complaints, []);
+    await button(page, "Write the new time").press("Enter");
+    await until(page, async () => (await draftText(page)) !== undefined, "the new time in the text");
+    assert.deepEqual(changes(before, await draftText(page)), [
+      "-      behaviours: { reach: { takes: 5..20 ms } }",
+      "+      behaviours: { reach: { takes: 5..10 ms } }",
+    ]);
   }));
 
 test("the change that helps most is computed and applied; axe has no complaint about the panel", () =>

@@ -47,6 +47,11 @@ test("the parts of a run follow the value, and add up to its time", () => {
   expect(parts[0]!.text).toContain("until it reads again");
 });
 
+test("readings that are replaced on the way are told", () => {
+  const calls = [...reaction.calls, call("sensor", "watch", 90, 91)];
+  expect(partsOf({ ...reaction, calls }, path, "reaction")[0]!.text).toContain("replace those before");
+});
+
 test("an age begins with the call that reads, and ends with the last command of the value", () => {
   const age = { ...reaction, from_ns: 100 * ms };
   expect(partsOf(age, path, "age")[0]).toMatchObject({ kind: "works", lane: 0 });

@@ -39,18 +39,32 @@ struct Command {
   std::int64_t given = 0, sampled = 0;
 };
 
+/// The times of calls in a run. drawn: the runtime draws each of them. mixed: subsystems differ in that.
+enum class Effort : std::uint8_t { drawn, longest, shortest, mixed };
+
 /// A drawn system, and what a run of it shows.
 struct Observed {
   ::timing::Case drawn;
-  bool longest = false;  ///< each call takes as long as it may; else the runtime draws
+  Effort effort = Effort::drawn;
+  std::uint64_t seed = 0;
   std::array<std::vector<std::int64_t>, most_subsystems> called;
   std::array<std::vector<Command>, most_chains> commands;
   std::array<std::vector<std::int64_t>, most_chains> samples;
   std::vector<std::uint64_t> send_timeouts, receive_timeouts;
 
   [[nodiscard]] const ::timing::Net& net() const { return drawn.net; }
-  [[nodiscard]] timing::Time least_time_of(std::size_t subsystem) const {
-    return longest ? net().subsystems[subsystem].wcet : net().subsystems[subsystem].bcet;
+  /// The shortest and the longest time of a call of the subsystem in this run.
+  [[nodiscard]] std::pair<timing::Time, timing::Time> takes_of(std::size_t subsystem) const {
+    const ::timing::Subsystem& one = net().subsystems[subsystem];
+    constexpr std::array each{Effort::drawn, Effort::longest, Effort::shortest};
+    switch (effort == Effort::mixed ? each[(seed + subsystem * 7) % each.size()] : effort) {
+      case Effort::longest:
+        return {one.wcet, one.wcet};
+      case Effort::shortest:
+        return {one.bcet, one.bcet};
+      default:
+        return {one.bcet, one.wcet};
+    }
   }
   [[nodiscard]] std::uint32_t first_of(std::size_t chain) const {
     return static_cast<std::uint32_t>(net().channels[drawn.chains[chain].front()].from);
@@ -137,8 +151,8 @@ class SubsystemRows {
  public:
   SubsystemRows(const Observed& seen, std::size_t index) : net_(seen.net()) {
     const ::timing::Subsystem& one = net_.subsystems[index];
-    behaviours_.push_back(
-        {"run", Duration(seen.least_time_of(index) * tick_ns), Duration(one.wcet * tick_ns)});
+    const auto [shortest, longest] = seen.takes_of(index);
+    behaviours_.push_back({"run", Duration(shortest * tick_ns), Duration(longest * tick_ns)});
     namespace rows = testing::named;
     places_ = {{"in"},
                {"out"},

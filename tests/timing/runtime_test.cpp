@@ -77,7 +77,7 @@ std::uint64_t hold_certain(const Observed& seen, const Bounds& bounds) {
 void hold_chains(const Observed& seen, const Bounds& bounds) {
   for (std::size_t chain = 0; chain < seen.drawn.chains.size(); ++chain) {
     const ChainBound bound = bounds.chain(timing::chain_of(seen.drawn.chains[chain]));
-    const timing::Time least = seen.least_time_of(seen.last_of(chain));
+    const timing::Time least = seen.takes_of(seen.last_of(chain)).first;
     const std::vector<Command>& commands = seen.commands[chain];
     std::int64_t age = 0, reaction = 0;
     for (const Command& command : commands) age = std::max(age, command.given - command.sampled);
@@ -114,7 +114,8 @@ void try_out(::timing::Case drawn, std::uint64_t seed, Total& total) {
   SCOPED_TRACE("seed " + std::to_string(seed));
   Observed seen;
   seen.drawn = std::move(drawn);
-  seen.longest = seed % 3 == 0;
+  seen.effort = static_cast<Effort>(seed / 10 % 4);
+  seen.seed = seed;
   seen.drawn.net.latency = 0;  // the simulated clock has none
   std::erase_if(seen.drawn.chains, repeats);
   if (seen.drawn.chains.size() > most_chains) seen.drawn.chains.resize(most_chains);
@@ -127,7 +128,7 @@ void try_out(::timing::Case drawn, std::uint64_t seed, Total& total) {
   const timing::Time all = timing::pattern_of_all(bounds, timing::longest_pattern);
   const bool is_long_enough = all < timing::longest_pattern;
   if (is_long_enough) until += 3 * all;
-  ASSERT_TRUE(run(seen, seed, until, seed % 2 == 0));
+  ASSERT_TRUE(run(seen, seed, until, seed / 40 % 2 == 0));
   hold_subsystems(seen, bounds);
   hold_timeouts(seen, bounds.occurrences());
   if (is_long_enough) total.must_fire += hold_certain(seen, bounds);

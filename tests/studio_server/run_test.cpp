@@ -232,8 +232,9 @@ TEST_F(RunOfTheStudio, AttachesToAControllerThatSomebodyElseHasStartedAndLetsGoO
   // The first one may say where the segment begins only.
   EXPECT_FALSE(
       events_->next("firings", [](const json& data) { return !data.at("firings").empty(); }).is_null());
-  const json value = events_->next("values").at("values");
-  EXPECT_FALSE(value.empty());
+  // So may the values: a segment begins with none.
+  EXPECT_FALSE(
+      events_->next("values", [](const json& data) { return !data.at("values").empty(); }).is_null());
   const json shown = events_->next("subsystems");
   EXPECT_EQ(shown.at("run"), run);
   EXPECT_TRUE(shown.at("subsystems").at(0).at("iterations").is_number());

@@ -55,6 +55,19 @@ void members(Is<Snapshot::Wait> auto& one, auto& each) {
   each("since_s", one.since_s);
 }
 
+void members(Is<Snapshot::Chain> auto& one, auto& each) {
+  each("name", one.name);
+  each("members", one.members);
+  each("commands", one.commands);
+  each("over", one.over);
+  each("age_s", one.age_s, by_need);
+  each("longest_age_s", one.longest_age_s, by_need);
+  each("reaction_s", one.reaction_s, by_need);
+  each("longest_reaction_s", one.longest_reaction_s, by_need);
+  each("proved_age_s", one.proved_age_s, by_need);
+  each("proved_reaction_s", one.proved_reaction_s, by_need);
+}
+
 void members(Is<Snapshot::Link> auto& one, auto& each) {
   each("process", one.process);
   each("host", one.host, by_need);
@@ -103,6 +116,7 @@ void members(Is<Snapshot> auto& one, auto& each) {
   each("subsystems", one.subsystems);
   each("channels", one.channels);
   each("waits", one.waits);
+  each("chains", one.chains, by_need);
   each("links", one.links, by_need);
   each.flat("paused", one.control);
   each("deployment", one.deployment, by_need);

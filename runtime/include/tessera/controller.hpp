@@ -103,6 +103,18 @@ struct RunOptions {
   Substitutes* substitutes = nullptr;
 };
 
+/// The times of a chain as a run has measured them; of the chains of a fleet, the longest ones. A command is based on a
+/// reading of the first device of the chain.
+struct ChainTimes {
+  std::string name;
+  std::uint64_t members = 0;      ///< chains: the number of agents of a fleet
+  std::uint64_t commands = 0;     ///< those that are based on a reading
+  std::uint64_t over = 0;         ///< commands at which an age or a reaction exceeded its bound
+  std::optional<Duration> age{};  ///< of the last command; nullopt: there is none yet, also for the others
+  std::optional<Duration> longest_age{}, reaction{}, longest_reaction{};
+  std::optional<Duration> proved_age{}, proved_reaction{};  ///< at most; nullopt: nothing is proved
+};
+
 /// The result of a run.
 struct RunSummary {
   Duration simulated{};  ///< time on the run's clock
@@ -130,6 +142,7 @@ struct RunSummary {
     std::uint64_t iterations = 0, overruns = 0, errors = 0;
   };
   std::vector<PerSubsystem> subsystems;
+  std::vector<ChainTimes> chains;
   struct PlantedFault {
     std::string text;  ///< as RunOptions::inject
     bool happened = false;

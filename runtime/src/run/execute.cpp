@@ -203,6 +203,7 @@ template <class Run>
     summary.subsystems.push_back(
         {executor->path(), operations.iterations(), executor->overruns(), operations.errors()});
   }
+  summary.chains = assembly.chains.times();
   for (const std::string& device : unsafe)
     if (lane != nullptr)
       lane->text(Event::Kind::safe, ending.at, static_cast<std::uint32_t>(SafeEvent::refused),

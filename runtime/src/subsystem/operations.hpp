@@ -108,6 +108,7 @@ class Operations final : public ContextServices {
   void read_receptors(Time now);
   [[nodiscard]] bool read_receptor(std::size_t index, Time now);
   void send_commands(Time now);
+  void finish_readings(Time now);
   void fail_late(std::uint64_t missed);
   void check_watchdog(Time now);
   void check_outputs();
@@ -122,6 +123,7 @@ class Operations final : public ContextServices {
   SubsystemParts parts_;
   Context& context_;
   RunControl& control_;
+  const Clock& clock_;
   RecordingLane* lane_;
   Reports reports_;
   ChannelValues channels_;

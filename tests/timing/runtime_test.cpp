@@ -1,5 +1,6 @@
 // Random systems on the runtime, under the simulated clock and with `takes` as it draws it, beside their bounds.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
@@ -7,14 +8,17 @@
 #include <cstdint>
 #include <cstdlib>
 #include <deque>
+#include <filesystem>
 #include <string>
 #include <utility>
 
 #include "named_net.hpp"
 #include "nets/flat_net.hpp"
 #include "reference.hpp"
+#include "replay/times/ages.hpp"
 #include "tessera/buffer.hpp"
 #include "tessera/controller.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::timing_test {
 namespace {
@@ -45,6 +49,7 @@ struct Observed {
   std::array<std::vector<Command>, most_chains> commands;
   std::array<std::vector<std::int64_t>, most_chains> samples;
   std::vector<std::uint64_t> send_timeouts, receive_timeouts;
+  std::vector<ChainTimes> measured;  ///< by the run itself, chain by chain
 
   [[nodiscard]] const ::timing::Net& net() const { return drawn.net; }
   [[nodiscard]] timing::Time least_time_of(std::size_t subsystem) const {
@@ -248,8 +253,39 @@ class SubsystemRows {
   SubsystemNet net_of_it_{};
 };
 
-/// false: the run has not begun.
-[[nodiscard]] bool run(Observed& seen, std::uint64_t seed, ::timing::Tick until, bool interleave) {
+/// A program cannot write a list of a number of elements that only the running program knows. all: outlives it.
+std::initializer_list<std::uint32_t> list_of(const std::vector<std::uint32_t>& all) {
+  struct List {
+    const std::uint32_t* first;
+    std::size_t count;
+  };
+  return std::bit_cast<std::initializer_list<std::uint32_t>>(List{all.data(), all.size()});
+}
+
+std::string chain_name(std::size_t chain) { return "chain " + std::to_string(chain); }
+
+/// The rows of the chains, with their bounds.
+struct ChainRows {
+  ChainRows(const Observed& seen, const Bounds& bounds) {
+    for (std::size_t chain = 0; chain < seen.drawn.chains.size(); ++chain) {
+      const timing::Chain& channels = channels_.emplace_back(timing::chain_of(seen.drawn.chains[chain]));
+      const ChainBound bound = bounds.chain(channels);
+      const auto proved = [](timing::Time most) { return Duration(most >= unbounded ? 0 : most * tick_ns); };
+      chains.push_back({names_.emplace_back(chain_name(chain)), proved(bound.age), proved(bound.reaction)});
+      ways.push_back({static_cast<std::uint32_t>(chain), list_of(channels)});
+    }
+  }
+  std::vector<tessera::Chain> chains;
+  std::vector<ChainWay> ways;
+
+ private:
+  std::deque<timing::Chain> channels_;
+  std::deque<std::string> names_;
+};
+
+/// recording: its file; empty: none. false: the run has not begun.
+[[nodiscard]] bool run(Observed& seen, const Bounds& bounds, std::uint64_t seed, ::timing::Tick until,
+                       bool interleave, const std::string& recording) {
   const ::timing::Net& net = seen.net();
   observed = &seen;
   seen.send_timeouts.assign(net.channels.size(), 0);
@@ -281,15 +317,20 @@ class SubsystemRows {
   }
   System system{tables_version,       "drawn", "", "", {}, instances, channels, &testing::system_page,
                 &testing::agent_page, {},      {}};
+  const ChainRows chain_rows(seen, bounds);
+  system.chains = chain_rows.chains;
+  system.chain_ways = chain_rows.ways;
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   RunOptions options;
   options.duration = Duration(until * tick_ns);
   options.seed = seed;
   options.interleave = interleave;
+  options.recording = recording;
   std::string error;
   const std::optional<RunSummary> summary = execute(system, options, error);
   EXPECT_TRUE(summary) << error;
+  if (summary) seen.measured = summary->chains;
   return summary.has_value();
 }
 
@@ -342,6 +383,50 @@ void hold_chains(const Observed& seen, const Bounds& bounds) {
   }
 }
 
+/// What the run itself has measured exceeds no bound.
+void hold_measured(const Observed& seen) {
+  ASSERT_EQ(seen.measured.size(), seen.drawn.chains.size());
+  for (const ChainTimes& chain : seen.measured) {
+    EXPECT_EQ(chain.over, 0U) << chain.name;
+    if (chain.proved_age && chain.longest_age) {
+      EXPECT_LE(*chain.longest_age, *chain.proved_age) << chain.name;
+    }
+    if (chain.proved_reaction && chain.longest_reaction) {
+      EXPECT_LE(*chain.longest_reaction, *chain.proved_reaction) << chain.name;
+    }
+  }
+}
+
+/// What the run itself has measured is what its recording tells.
+void compare_with_recording(const Observed& seen, const std::string& file) {
+  std::vector<replay::MeasuredChain> chains;
+  for (std::size_t chain = 0; chain < seen.drawn.chains.size(); ++chain) {
+    replay::MeasuredChain& one = chains.emplace_back();
+    one.name = one.group = chain_name(chain);
+    std::vector<std::string>& way = one.ways.emplace_back();
+    const auto name_of = [](int subsystem) { return "a" + std::to_string(subsystem) + ".control"; };
+    one.subsystems.push_back(name_of(static_cast<int>(seen.first_of(chain))));
+    for (const int channel : seen.drawn.chains[chain]) {
+      one.subsystems.push_back(name_of(seen.net().channels[static_cast<std::size_t>(channel)].to));
+      way.emplace_back(port_of(static_cast<std::size_t>(channel)));
+    }
+  }
+  std::string error;
+  const std::optional<Recording> recording = read_recording(file, error);
+  ASSERT_TRUE(recording) << error;
+  replay::Ages ages(chains);
+  ages.add(*recording);
+  const std::vector<replay::ChainAges> told = ages.finish();
+  ASSERT_EQ(told.size(), seen.measured.size());
+  for (std::size_t chain = 0; chain < told.size(); ++chain) {
+    const ChainTimes& measured = seen.measured[chain];
+    EXPECT_EQ(measured.commands, told[chain].age.count) << measured.name << " " << told[chain].why;
+    EXPECT_EQ(measured.longest_age.value_or(Duration(0)).count(), told[chain].age.most) << measured.name;
+    EXPECT_EQ(measured.longest_reaction.value_or(Duration(0)).count(), told[chain].reaction.most)
+        << measured.name;
+  }
+}
+
 /// Whether a chain uses a channel twice, whose values would then come from two places.
 bool repeats(const ::timing::Chain& chain) {
   for (auto one = chain.begin(); one != chain.end(); ++one)
@@ -357,6 +442,7 @@ TEST(Runtime, ExceedsNoBound) {
   constexpr std::array families{Family::any, Family::periodic, Family::driven, Family::blocking,
                                 Family::ring};
   std::uint64_t commands = 0;
+  const std::string file = ::testing::TempDir() + "timing_runtime." + std::to_string(getpid());
   for (std::uint64_t seed = 1; seed <= systems && !HasFailure(); ++seed) {
     Observed seen;
     seen.drawn = ::timing::draw(seed, families[seed % families.size()]);
@@ -370,12 +456,16 @@ TEST(Runtime, ExceedsNoBound) {
     for (const ::timing::Subsystem& one : seen.net().subsystems)
       longest = std::max({longest, one.period, one.wcet});
     SCOPED_TRACE("seed " + std::to_string(seed));
-    if (!run(seen, seed, 40 * longest, seed % 2 == 0)) return;
+    const bool records = seed % 4 < 2;
+    if (!run(seen, bounds, seed, 40 * longest, seed % 2 == 0, records ? file : "")) return;
     hold_subsystems(seen, bounds.occurrences());
     hold_timeouts(seen, bounds.occurrences());
     hold_chains(seen, bounds);
+    hold_measured(seen);
+    if (records) compare_with_recording(seen, file);
     for (const std::vector<Command>& of_chain : seen.commands) commands += of_chain.size();
   }
+  std::filesystem::remove(file);
   EXPECT_GT(commands, systems);
 }
 

@@ -877,6 +877,8 @@ export interface SubsystemsSeen {
   t: number;
   subsystems: Subsystem[];
   channels: Channel[];
+  /** Measured and proved times; absent: the specification says no times. */
+  chains?: Chain[];
 }
 /** The present state of a subsystem, and its counts so far. */
 export interface Subsystem {
@@ -914,6 +916,27 @@ export interface Channel {
   marked: string[];
   /** Since when a value is on the way to another process without an answer; absent: none is. */
   sending_since_s?: number;
+}
+/** The times of a chain so far, and what is proved. The chains of a fleet are one, with the longest times of all. */
+export interface Chain {
+  /** "joints to motors" */
+  name: string;
+  /** The number of chains. */
+  members: number;
+  /** Those that are based on a reading. */
+  commands: number;
+  /** Commands with a time over its bound. */
+  over: number;
+  /** Of the last command; absent: there is none yet. */
+  age_s?: number;
+  longest_age_s?: number;
+  /** Of the last command; absent: there is none yet. */
+  reaction_s?: number;
+  longest_reaction_s?: number;
+  /** At most; absent: nothing is proved. */
+  proved_age_s?: number;
+  /** At most; absent: nothing is proved. */
+  proved_reaction_s?: number;
 }
 export interface DeploymentSeen {
   /** Nanoseconds of the run's clock. */
@@ -1003,6 +1026,8 @@ export interface Outcome {
   injected?: { fault: string; happened: boolean }[];
   world_s?: number;
   track?: string;
+  /** Measured and proved times; absent: the specification says no times. */
+  chains?: Chain[];
   /** Those of the simulated world. */
   checks?: CheckOutcome[];
   /** By name; null: never taken. */
@@ -1367,6 +1392,8 @@ export interface SubsystemsEvent {
   t: number;
   subsystems: Subsystem[];
   channels: Channel[];
+  /** Measured and proved times; absent: the specification says no times. */
+  chains?: Chain[];
 }
 /** The state of all processes of a deployed system, and their knowledge of each other. */
 export interface DeploymentEvent {

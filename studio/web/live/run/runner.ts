@@ -212,6 +212,7 @@ export class Runner {
   private told(info: RunEvent | RunInfo): void {
     const { state, why, outcome, marking, firings } = info;
     this.store.set({ state, why, outcome });
+    if (outcome?.chains) this.store.set({ measured: outcome.chains });
     this.setMarked(marking, firings);
     if ("values" in info) {
       this.store.set({ netHash: info.net_hash });
@@ -297,12 +298,13 @@ export class Runner {
     }, 100);
   }
 
-  private reported({ t, subsystems }: SubsystemsEvent): void {
+  private reported({ t, subsystems, chains }: SubsystemsEvent): void {
     this.track?.reached(t);
     const behaviours = new Map(subsystems.flatMap(({ path, behaviour }) => (behaviour === null ? [] : [[path, behaviour]])));
     const known = this.store.get().behaviours;
     if (behaviours.size !== known.size || [...behaviours].some(([path, name]) => known.get(path) !== name))
       this.store.set({ behaviours });
+    if (chains) this.store.set({ measured: chains });
   }
 
   /** The event is repeated when the file has come through a tunnel. */

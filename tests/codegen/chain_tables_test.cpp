@@ -53,7 +53,7 @@ TEST(ChainTables, TheMembersOfAFleetShareARow) {
 TEST(ChainTables, ASpecificationThatSaysNoTimesHasNone) {
   const std::string text = read_file(line_follower_spec);
   ASSERT_EQ(text.find("takes"), std::string::npos);
-  EXPECT_EQ(system_of(text).find("chain"), std::string::npos);
+  EXPECT_EQ(system_of(text).find("tessera::Chain"), std::string::npos);
 }
 
 }  // namespace

@@ -1,6 +1,6 @@
 import type { NamedBreakpoint } from "./breakpoints";
 import type { Outcome, PanelShown, ParameterShown, RunKind, RunListed, RunState, StartRequest } from "../../model/protocol";
-import type { MeasuredChain } from "../../model/measured_chains";
+import type { ChainOfRun } from "../../model/ages_of_run";
 
 /** The settings of the form for the next run. */
 export interface Wishes {
@@ -26,7 +26,7 @@ export interface RunnerState {
   /** Behaviour by path of subsystem, as reported by the controller. */
   behaviours: ReadonlyMap<string, string>;
   /** How old commands are, as the run tells. */
-  measured: readonly MeasuredChain[];
+  measured: readonly ChainOfRun[];
   /** The parameters of the run, with their values. */
   parameters: readonly ParameterShown[];
   panels: readonly PanelShown[];

@@ -3,7 +3,7 @@ import { useStudio } from "../../hooks/use";
 import type { TimedBound, TimedChain, Timing } from "../../model/protocol";
 import { chainKey, chainName, shownTime, verdictOf, type Verdict } from "../../model/timing";
 import { Icon } from "../icons";
-import { MeasuredTime } from "./measured_time";
+import { TimeOfRun } from "./time_of_run";
 
 const marks = { holds: "check", violated: "cross", unknown: "question", none: "question" } as const;
 const spoken: Record<Verdict, string> = {
@@ -60,15 +60,15 @@ export function ChainTable({ found, other, chosen }: { found: Timing; other: Tim
                 {chain.why ? (
                   <td colSpan={2} className="why">
                     no bound
-                    <MeasuredTime chain={chain} what="age" />
+                    <TimeOfRun chain={chain} what="age" />
                   </td>
                 ) : (
                   <>
-                    <Bound bound={chain.age} other={others.get(key)?.age} measured={<MeasuredTime chain={chain} what="age" />} />
+                    <Bound bound={chain.age} other={others.get(key)?.age} measured={<TimeOfRun chain={chain} what="age" />} />
                     <Bound
                       bound={chain.reaction}
                       other={others.get(key)?.reaction}
-                      measured={<MeasuredTime chain={chain} what="reaction" />}
+                      measured={<TimeOfRun chain={chain} what="reaction" />}
                     />
                   </>
                 )}

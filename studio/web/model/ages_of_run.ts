@@ -1,10 +1,10 @@
-import type { Chain as MeasuredChain, TimedChain } from "./protocol";
+import type { Chain as ChainOfRun, TimedChain } from "./protocol";
 import { withoutIndex } from "./structure/selection";
 import { shownTime } from "./timing";
 
 /** The times of chains that a run has measured. */
 
-export type { MeasuredChain };
+export type { ChainOfRun };
 
 /** "robot[].eye", "robot[3].eye" and "robot.eye" have one name. */
 const nameOfAll = (name: string): string =>
@@ -14,10 +14,10 @@ const nameOfAll = (name: string): string =>
     .join(" -> ");
 
 /** What a run has measured of a chain of the specification; of a fleet, the longest times of all its members. */
-export function measuredOf(
+export function chainOfRun(
   { named, name, path }: Pick<TimedChain, "named" | "name" | "path">,
-  measured: readonly MeasuredChain[],
-): MeasuredChain | undefined {
+  measured: readonly ChainOfRun[],
+): ChainOfRun | undefined {
   const wanted = nameOfAll(named ? name : path.join(" -> "));
   return measured.find((one) => nameOfAll(one.name) === wanted);
 }
@@ -33,7 +33,7 @@ export interface Measured {
 const inNs = (seconds: number): number => Math.round(seconds * 1e9);
 
 /** The longest time so far; null: there is none yet. */
-export function longestOf(chain: MeasuredChain | undefined, what: "age" | "reaction"): Measured | null {
+export function longestOf(chain: ChainOfRun | undefined, what: "age" | "reaction"): Measured | null {
   const longest = what === "age" ? chain?.longest_age_s : chain?.longest_reaction_s;
   const proved = what === "age" ? chain?.proved_age_s : chain?.proved_reaction_s;
   if (longest === undefined) return null;

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
-import { longestOf, measuredOf, saidMeasured, type MeasuredChain } from "../../model/measured_chains";
+import { longestOf, chainOfRun, saidMeasured, type ChainOfRun } from "../../model/ages_of_run";
 
-const measured = (name: string, change: Partial<MeasuredChain> = {}): MeasuredChain => ({
+const measured = (name: string, change: Partial<ChainOfRun> = {}): ChainOfRun => ({
   name,
   members: 1,
   commands: 100,
@@ -15,20 +15,20 @@ const named = (name: string) => ({ name, named: true, path });
 
 test("a chain finds what a run has measured of it, by its name or by its path", () => {
   const all = [measured("joints to motors"), measured("robot.sensor -> robot.control -> robot.motor")];
-  expect(measuredOf(named("joints to motors"), all)).toBe(all[0]);
-  expect(measuredOf({ name: "", named: false, path }, all)).toBe(all[1]);
-  expect(measuredOf(named("another"), all)).toBeUndefined();
+  expect(chainOfRun(named("joints to motors"), all)).toBe(all[0]);
+  expect(chainOfRun({ name: "", named: false, path }, all)).toBe(all[1]);
+  expect(chainOfRun(named("another"), all)).toBeUndefined();
 });
 
 test("the chains of a fleet are one in both", () => {
   const one = [measured("cart[].eye -> cart[].control -> cart[].wheels", { members: 3 })];
   const members = ["cart[0].eye", "cart[0].control", "cart[0].wheels"];
-  expect(measuredOf({ name: "", named: false, path: members }, one)).toBe(one[0]);
-  expect(measuredOf(named("look[0]"), [measured("look[]")])).toBeDefined();
+  expect(chainOfRun({ name: "", named: false, path: members }, one)).toBe(one[0]);
+  expect(chainOfRun(named("look[0]"), [measured("look[]")])).toBeDefined();
 });
 
 test("a measured time is said with the bound of the run, if that is another one or is exceeded", () => {
-  const said = (change: Partial<MeasuredChain>, shown: number | null) => {
+  const said = (change: Partial<ChainOfRun>, shown: number | null) => {
     const longest = longestOf(measured("a", change), "age");
     return longest && saidMeasured(longest, shown);
   };

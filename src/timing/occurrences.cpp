@@ -154,13 +154,14 @@ void Occurrences::judge(Component& component) {
   find_periodic(component);
 }
 
+/// A lossy wait for an event of its own component never gets a bound: that event has none at first, so that z has none,
+/// nor has the component.
 void Occurrences::bound_own_waits(const Component& component) {
   for (const EventId z : component.events) {
     const Wait kind = wait_of(z);
     if (kind != Wait::lossy && kind != Wait::timed) continue;
     const EventId partner = partner_of(z);
     Time most = std::max(gap_[partner], first_[partner]);
-    if (kind == Wait::lossy && same_component(partner, z)) most = unbounded;
     // A value that is taken back before its reader is awake is missed.
     if (events_[z].kind == Event::Kind::read && !holds_on(z) &&
         system_.channels[events_[z].channel].send_timeout <= wake_up(z))

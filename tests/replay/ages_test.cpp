@@ -176,6 +176,21 @@ TEST(Ages, AnEventWhoseFirstCommandIsNotGivenHasNoReaction) {
   EXPECT_EQ(ages.reaction.most, 82 * ms);
 }
 
+TEST(Ages, ACallOfWhichOvertimeIsOnlyToldGivesItsReading) {
+  const auto age_with = [](std::uint32_t fault) {
+    WrittenRun run;
+    run.start();
+    run.add(100, 0, Event::Kind::call).add(101, 0, Event::Kind::fault, 0, fault);
+    run.fire(102, 0, Step::begin_sending).move(102, 0, 0, 1).end(102, 0);
+    run.move(105, 1, 0, 3).end(105, 1).call(1, 110, 112).move(112, 1, 1, 1).end(112, 1);
+    run.move(115, 2, 1, 3).end(115, 2).call(2, 120, 122).end(122, 2);
+    return measured({run.recording}).age;
+  };
+  const auto overtime = static_cast<std::uint32_t>(Fault::overtime);
+  EXPECT_EQ(age_with(overtime | told_fault).most, 22 * ms);
+  EXPECT_EQ(age_with(overtime).count, 0U);
+}
+
 TEST(Ages, TimesThatDependOnLostEventsAreLeftOut) {
   WrittenRun run;
   run.start().pass(100, 1);

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
-/// A sensor and a motor with the same rate. What the motor receives in an iteration is used by the next one.
+/// A sensor and a motor with the same rate. The motor uses in an iteration what it has received in the one before.
 struct SensorAndMotor {
   explicit SensorAndMotor(Chain chain, Script motor = {}) {
     motor.acts = true;

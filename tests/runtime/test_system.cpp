@@ -184,6 +184,7 @@ const System& TestSystem::system() {
              liveliness_};
   system_.chains = chains;
   system_.chain_ways = chain_ways;
+  system_.latency = latency;
   hash_ = net_of(system_).hash();
   system_.net_hash = hash_;
   return system_;

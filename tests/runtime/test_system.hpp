@@ -80,6 +80,7 @@ class TestSystem {
   Devices devices;
   std::vector<tessera::Chain> chains;
   std::vector<ChainWay> chain_ways;
+  Duration latency{0};
   std::vector<DriverOption> panel;  ///< before `add`: its receptors are panels with these options
 
  private:

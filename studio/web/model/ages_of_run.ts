@@ -13,7 +13,7 @@ const nameOfAll = (name: string): string =>
     .map((one) => withoutIndex(one.replace("[]", "")))
     .join(" -> ");
 
-/** What a run has measured of a chain of the specification; of a fleet, the longest times of all its members. */
+/** The times of a chain of the specification in a run; of a fleet, the longest ones of all its members. */
 export function chainOfRun(
   { named, name, path }: Pick<TimedChain, "named" | "name" | "path">,
   measured: readonly ChainOfRun[],

@@ -64,10 +64,7 @@ export interface Requests {
     /** Sockets on which a controller listens. */
     answer: string[];
   };
-  /**
-   * How old a command can be: the bounds of all chains, for the times of the text or others. 422: the text has
-   * errors, or there is no such subsystem.
-   */
+  /** The bounds of all chains, with the times of the text or others. 422: it has errors, or no such subsystem. */
   "POST /api/timing": {
     body: {
       text: string;
@@ -91,10 +88,7 @@ export interface Requests {
     status: 200;
     answer: { chains: MeasuredChain[] };
   };
-  /**
-   * The single changes of rates, modes and processors that make a time of a chain smaller. 422: there is no such
-   * chain.
-   */
+  /** The single changes that make a time of a chain smaller. 422: there is no such chain. */
   "POST /api/timing/changes": {
     body: {
       text: string;
@@ -635,10 +629,7 @@ export interface TimedChange {
   age_ns: number | null;
   reaction_ns: number | null;
 }
-/**
- * A run from the start of the system, in which a command is as old as it can be, or nearly. Times are those of
- * the run.
- */
+/** A run from the start in which a command is as old as it can be, or nearly. Times are those of the run. */
 export interface WorstRun {
   /** The reading of the device; for a reaction, an event just after it. */
   from_ns: number;
@@ -720,10 +711,7 @@ export interface LayoutAnswer {
 export interface BoxPositions {
   [k: string]: [number, number];
 }
-/**
- * The controllers that drive devices now: those of this user in real time, on real devices or in a simulated
- * world.
- */
+/** The controllers of this user in real time that drive devices now, real or simulated ones. */
 export interface Driving {
   controllers: {
     name: string;
@@ -896,7 +884,6 @@ export interface SubsystemsSeen {
   t: number;
   subsystems: Subsystem[];
   channels: Channel[];
-  /** Measured and proved times; absent: the specification says no times. */
   chains?: Chain[];
 }
 /** The present state of a subsystem, and its counts so far. */
@@ -918,10 +905,16 @@ export interface Subsystem {
   /** Duration of the last call. */
   call_s: number;
   longest_call_s: number;
+  /** Calls that took longer than `takes` says. Absent: none. */
+  slow_calls?: number;
+  /** How often its thread went on later than `latency` says. Absent: never. */
+  late_wakeups?: number;
   /**
-   * The fields of its memory as they were at the end of the last iteration. Absent: it has none. The studio leaves
-   * it out, since its `values` have it.
+   * The most time until its thread went on after it might. On the steady clock, unless another subsystem goes
+   * first on its processor.
    */
+  latest_wakeup_s?: number;
+  /** Its memory at the end of the last iteration. Absent: it has none, or the studio has it in `values`. */
   memory?: MemoryField[];
 }
 export interface MemoryField {
@@ -936,9 +929,8 @@ export interface Channel {
   /** Since when a value is on the way to another process without an answer; absent: none is. */
   sending_since_s?: number;
 }
-/** The times of a chain so far, and what is proved. The chains of a fleet are one, with the longest times of all. */
+/** A chain, or those of a fleet with their longest times. Times that are not there, or not proved, are absent. */
 export interface Chain {
-  /** "joints to motors" */
   name: string;
   /** The number of chains. */
   members: number;
@@ -946,15 +938,11 @@ export interface Chain {
   commands: number;
   /** Commands with a time over its bound. */
   over: number;
-  /** Of the last command; absent: there is none yet. */
   age_s?: number;
   longest_age_s?: number;
-  /** Of the last command; absent: there is none yet. */
   reaction_s?: number;
   longest_reaction_s?: number;
-  /** At most; absent: nothing is proved. */
   proved_age_s?: number;
-  /** At most; absent: nothing is proved. */
   proved_reaction_s?: number;
 }
 export interface DeploymentSeen {
@@ -971,10 +959,7 @@ export interface DeploymentSeen {
 export interface ProcessSeen {
   name: string;
   agents: string[];
-  /**
-   * silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine, and not heard
-   * on the network.
-   */
+  /** silent: it sends nothing any more; gone: it has died; absent: neither found on this machine nor heard. */
   state: "running" | "silent" | "ended" | "gone" | "absent";
   /** It has been in this state for so long. */
   since_s: number | null;
@@ -1045,13 +1030,22 @@ export interface Outcome {
   injected?: { fault: string; happened: boolean }[];
   world_s?: number;
   track?: string;
-  /** Measured and proved times; absent: the specification says no times. */
   chains?: Chain[];
   /** Those of the simulated world. */
   checks?: CheckOutcome[];
   /** By name; null: never taken. */
   measures?: { [k: string]: MeasureOutcome | null };
-  subsystems: { path: string; iterations: number; overruns: number; errors: number }[];
+  subsystems: {
+    path: string;
+    iterations: number;
+    overruns: number;
+    errors: number;
+    slow_calls?: number;
+    late_wakeups?: number;
+    latest_wakeup_s?: number;
+  }[];
+  /** The behaviours with calls that took longer than `takes` says; absent: there are none. */
+  overtime?: SlowCalls[];
 }
 export interface CheckOutcome {
   name: string;
@@ -1072,6 +1066,15 @@ export interface MeasureOutcome {
   last: number;
   /** `m/s`. Missing: it has none, or it is not known. */
   unit?: string;
+}
+/** A behaviour with calls that took longer than `takes` says. */
+export interface SlowCalls {
+  behaviour: string;
+  calls: number;
+  slow: number;
+  declared_ns: number;
+  longest_ns: number;
+  longest_at_ns: number;
 }
 /** The part of the net that a run has reached, as counted by `tessera simulate --coverage`. */
 export interface Coverage {
@@ -1405,7 +1408,6 @@ export interface SubsystemsEvent {
   t: number;
   subsystems: Subsystem[];
   channels: Channel[];
-  /** Measured and proved times; absent: the specification says no times. */
   chains?: Chain[];
 }
 /** The state of all processes of a deployed system, and their knowledge of each other. */

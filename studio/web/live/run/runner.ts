@@ -211,8 +211,7 @@ export class Runner {
   /** Called by an event, or with the whole state of the run. */
   private told(info: RunEvent | RunInfo): void {
     const { state, why, outcome, marking, firings } = info;
-    this.store.set({ state, why, outcome });
-    if (outcome?.chains) this.store.set({ measured: outcome.chains });
+    this.store.set({ state, why, outcome, ...(outcome?.chains && { measured: outcome.chains }) });
     this.setMarked(marking, firings);
     if ("values" in info) {
       this.store.set({ netHash: info.net_hash });
@@ -309,8 +308,7 @@ export class Runner {
 
   /** The event is repeated when the file has come through a tunnel. */
   private sawScene({ hash, bodies }: SceneShown): void {
-    const { track } = this;
-    if (track && track.world?.scene.hash !== hash) track.world = new LiveWorld({ hash, bodies });
+    if (this.track && this.track.world?.scene.hash !== hash) this.track.world = new LiveWorld({ hash, bodies });
   }
 
   private sawPoses(frame: PoseFrame): void {

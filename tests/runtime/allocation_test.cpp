@@ -76,7 +76,8 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   system.connect(a, "x", b, "x", buffered, 0ms, 1ms);
   // Every command is too old.
   system.chains = {{"a to b", Duration(1), Duration(1)}};
-  system.chain_ways = {{0, {0}}};
+  static constexpr std::initializer_list<std::uint32_t> channels{0};
+  system.chain_ways = {{0, channels}};
   RunOptions options = simulated(duration);
   options.clock = clock;
   options.recording = scratch_file("run");

@@ -13,6 +13,8 @@ using namespace std::chrono_literals;
 namespace tessera::testing {
 namespace {
 
+constexpr std::initializer_list<std::uint32_t> first_channel{0}, second_channel{1};
+
 /// A sensor and a motor with the same rate. The motor uses in an iteration what it has received in the one before.
 struct SensorAndMotor {
   explicit SensorAndMotor(Chain chain, Script motor = {}) {
@@ -21,7 +23,7 @@ struct SensorAndMotor {
     const auto to = system.add("robot.motor", nets::async_receiver, motor, 10ms, 0ms, Kind::effector);
     system.connect(from, "x", to, "x", asynchronous);
     system.chains = {chain};
-    system.chain_ways = {{0, {0}}};
+    system.chain_ways = {{0, first_channel}};
   }
   TestSystem system;
 };
@@ -100,7 +102,7 @@ TEST(CommandAges, TheMembersOfAFleetShareARow) {
     system.connect(from, "x", to, "x", asynchronous);
   }
   system.chains = {{"cart[].eye -> cart[].wheel", 15ms, 0ms}};
-  system.chain_ways = {{0, {0}, 0}, {0, {1}, 1}};
+  system.chain_ways = {{0, first_channel, 0}, {0, second_channel, 1}};
   RunOptions options = simulated(100ms);
   options.recording = scratch_file("run");
   const RunSummary summary = run(system, options);

@@ -28,10 +28,10 @@ inline std::string chain_name(std::size_t chain) { return "chain " + std::to_str
 
 /// The rows of the chains, with their bounds.
 struct ChainRows {
-  ChainRows(const std::vector<::timing::Chain>& drawn, const timing::Bounds& bounds) {
+  ChainRows(const std::vector<::timing::Chain>& drawn, const timing::Bounds* bounds) {
     for (std::size_t chain = 0; chain < drawn.size(); ++chain) {
       const timing::Chain& channels = channels_.emplace_back(timing::chain_of(drawn[chain]));
-      const timing::ChainBound bound = bounds.chain(channels);
+      const timing::ChainBound bound = bounds->chain(channels);
       const auto proved = [](timing::Time most) {
         return Duration(most >= timing::unbounded ? 0 : most * tick_ns);
       };

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -43,7 +47,9 @@ struct Observed {
   std::array<std::vector<Command>, most_chains> commands;
   std::array<std::vector<std::int64_t>, most_chains> samples;
   std::vector<std::uint64_t> send_timeouts, receive_timeouts;
-  std::vector<ChainTimes> measured;  ///< by the run itself, chain by chain
+  const timing::Bounds* bounds = nullptr;  ///< of the chains that the run measures; nullptr: none
+  std::string recording;                   ///< its file; empty: none
+  std::vector<ChainTimes> measured;        ///< by the run itself, chain by chain
 
   [[nodiscard]] const ::timing::Net& net() const { return drawn.net; }
   [[nodiscard]] timing::Time least_time_of(std::size_t subsystem) const {
@@ -247,9 +253,10 @@ class SubsystemRows {
   SubsystemNet net_of_it_{};
 };
 
-/// recording: its file; empty: none. false: the run has not begun.
-[[nodiscard]] inline bool run(Observed& seen, const timing::Bounds& bounds, std::uint64_t seed,
-                              ::timing::Tick until, bool interleave, const std::string& recording) {
+/// false: the run has not begun.
+/// scenario: the times of calls and the order of turns; null: they are drawn.
+[[nodiscard]] inline bool run(Observed& seen, std::uint64_t seed, ::timing::Tick until, bool interleave,
+                              nlohmann::json scenario = nullptr) {
   const ::timing::Net& net = seen.net();
   observed = &seen;
   seen.send_timeouts.assign(net.channels.size(), 0);
@@ -281,7 +288,8 @@ class SubsystemRows {
   }
   System system{tables_version,       "drawn", "", "", {}, instances, channels, &testing::system_page,
                 &testing::agent_page, {},      {}};
-  const ChainRows chain_rows(seen.drawn.chains, bounds);
+  const ChainRows chain_rows(seen.bounds == nullptr ? std::vector<::timing::Chain>{} : seen.drawn.chains,
+                             seen.bounds);
   system.chains = chain_rows.chains;
   system.chain_ways = chain_rows.ways;
   const std::string hash = net_of(system).hash();
@@ -290,9 +298,15 @@ class SubsystemRows {
   options.duration = Duration(until * tick_ns);
   options.seed = seed;
   options.interleave = interleave;
-  options.recording = recording;
+  options.recording = seen.recording;
+  if (!scenario.is_null()) {
+    scenario["net_hash"] = hash;
+    options.scenario = ::testing::TempDir() + "tessera_worst_run_" + std::to_string(getpid()) + ".json";
+    std::ofstream(options.scenario) << scenario;
+  }
   std::string error;
   const std::optional<RunSummary> summary = execute(system, options, error);
+  if (!options.scenario.empty()) std::filesystem::remove(options.scenario);
   EXPECT_TRUE(summary) << error;
   if (summary) seen.measured = summary->chains;
   return summary.has_value();

@@ -145,11 +145,19 @@ void Robot::connect(std::uint32_t from, std::string_view out, std::uint32_t to, 
   channels_.push_back({name, end(from, out), end(to, in), places});
 }
 
+void Robot::measure_ages() {
+  static constexpr std::initializer_list<std::uint32_t> first{0}, both{0, 1};
+  chain_ways_ = {{0, channels_.size() == 1 ? first : both}};
+}
+
 RunSummary Robot::run(RunOptions options) {
   made = 0;
   options.clock = RunOptions::Clock::steady;
   System system{tables_version,        "measured",           "", "", {}, instances_, channels_,
                 &testing::system_page, &testing::agent_page, {}, {}};
+  constexpr std::array chains{Chain{"measured", std::chrono::hours(1), std::chrono::hours(1)}};
+  system.chains = chains;
+  system.chain_ways = chain_ways_;
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   std::string error;

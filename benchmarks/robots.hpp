@@ -50,6 +50,8 @@ class Robot {
   std::uint32_t add(const SubsystemNet& net, Duration period = Duration{0}, int cpu = -1);
   void connect(std::uint32_t from, std::string_view out, std::uint32_t to, std::string_view in,
                std::span<const FusedPlace> places);
+  /// The ages of commands are measured along all channels together.
+  void measure_ages();
   /// Runs the system under the steady clock; aborts with a message when it cannot start or fails.
   RunSummary run(RunOptions options = {});
 
@@ -57,6 +59,7 @@ class Robot {
   std::vector<std::unique_ptr<std::string>> names_;
   std::vector<Instance> instances_;
   std::vector<Channel> channels_;
+  std::vector<ChainWay> chain_ways_;
 };
 
 [[nodiscard]] inline std::int64_t ns_of(clockid_t clock) {

@@ -32,7 +32,7 @@ constexpr Duration flat_out = 300ms;
 enum class Others : std::uint8_t { none, idle };
 
 /// CPU time of an iteration of a subsystem with empty user code, in ns.
-[[nodiscard]] double iteration_ns(const SubsystemNet& net, Others others) {
+[[nodiscard]] double iteration_ns(const SubsystemNet& net, Others others, bool measures_ages = false) {
   constexpr std::uint64_t warm = 20'000, last = 1'020'000;
   std::int64_t begin = 0, end = 0;
   Robot robot([&](std::uint32_t number, Context& context) {
@@ -49,6 +49,7 @@ enum class Others : std::uint8_t { none, idle };
     robot.connect(part, "out", to, "x", asynchronous);
     robot.connect(from, "x", part, "in", asynchronous);
   }
+  if (measures_ages) robot.measure_ages();
   robot.run();
   return static_cast<double>(end - begin) / static_cast<double>(last - warm);
 }
@@ -66,6 +67,21 @@ BENCHMARK_CAPTURE(iteration, eight_firings_shared, nets::relay, Others::idle)
     ->UseManualTime()
     ->Iterations(rounds);
 BENCHMARK_CAPTURE(iteration, six_firings, nets::alone, Others::none)->UseManualTime()->Iterations(rounds);
+
+/// An iteration in which a reading begins and a command ends, beside the same one without a chain.
+void iteration_on_chain(benchmark::State& state) {
+  std::vector<double> with, without, ratio;
+  for (auto _ : state) {
+    without.push_back(iteration_ns(nets::relay, Others::none));
+    with.push_back(iteration_ns(nets::relay, Others::none, /*measures_ages=*/true));
+    ratio.push_back(with.back() / without.back());
+    state.SetIterationTime(with.back() * 1e-9);
+  }
+  state.counters["iteration_ns"] = median(with);
+  state.counters["without_ns"] = median(without);
+  state.counters["ratio"] = median(ratio);
+}
+BENCHMARK(iteration_on_chain)->UseManualTime()->Iterations(rounds);
 
 // -------------------------------------------------------------------------------------------- channels
 

@@ -74,6 +74,23 @@ std::string memory_of(const Snapshot::Subsystem& subsystem) {
                                             : "\n");
 }
 
+/// Measured and proved times of the chains; empty: the specification says no times.
+std::string chain_table(const std::vector<Snapshot::Chain>& chains) {
+  if (chains.empty()) return {};
+  const auto time_of = [](std::optional<double> seconds) { return seconds ? duration_of(*seconds) : "-"; };
+  std::string text =
+      fmt::format("\n{:<60} {:>10} {:>10} {:>10} {:>10}\n", "chain", "last", "longest", "at most", "over");
+  for (const Snapshot::Chain& chain : chains) {
+    const std::string of = chain.members > 1 ? fmt::format(" ({} agents)", chain.members) : "";
+    text += fmt::format("{}{}\n", chain.name, of);
+    text += fmt::format("{:<60} {:>10} {:>10} {:>10} {:>10}\n", "    age", time_of(chain.age_s),
+                        time_of(chain.longest_age_s), time_of(chain.proved_age_s), chain.over);
+    text += fmt::format("{:<60} {:>10} {:>10} {:>10}\n", "    reaction", time_of(chain.reaction_s),
+                        time_of(chain.longest_reaction_s), time_of(chain.proved_reaction_s));
+  }
+  return text;
+}
+
 /// "    overtime: 3 calls longer than its takes; its thread went on late 2 times, at most 1.2 ms"
 std::string overtime_of(const Snapshot::Subsystem& one) {
   std::string text;
@@ -104,6 +121,7 @@ std::string table(const Snapshot& now, const Snapshot& before) {
     text += overtime_of(one);
     text += memory_of(one);
   }
+  text += chain_table(now.chains);
   text += fmt::format("\n{:<60} {}\n", "channel", "state");
   for (const Snapshot::Channel& channel : now.channels) {
     std::string marked;

@@ -161,6 +161,21 @@ TEST(Ages, ACallThatFailedGivesNoCommandAndNoReading) {
   EXPECT_EQ(ages.withheld, 1U);
 }
 
+TEST(Ages, AnEventWhoseFirstCommandIsNotGivenHasNoReaction) {
+  WrittenRun run;
+  run.start().pass(100, 1);
+  run.add(125, 2, Event::Kind::safe, 0, static_cast<std::uint32_t>(SafeEvent::given),
+          "robot.motor.left: emergency stop");
+  run.pass(140, 5);
+  run.add(190, 2, Event::Kind::safe, 0, static_cast<std::uint32_t>(SafeEvent::ended), "robot.motor.left: ");
+  run.pass(200, 9);
+  const ChainAges ages = measured({run.recording});
+  EXPECT_EQ(ages.withheld, 1U);
+  EXPECT_EQ(ages.reaction.count, 1U);
+  EXPECT_EQ(ages.reaction.worst_from_ns, 140 * ms);
+  EXPECT_EQ(ages.reaction.most, 82 * ms);
+}
+
 TEST(Ages, ACallOfWhichOvertimeIsOnlyToldGivesItsReading) {
   const auto age_with = [](std::uint32_t fault) {
     WrittenRun run;

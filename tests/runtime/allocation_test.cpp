@@ -53,7 +53,7 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   *out << cost.allocations << " allocations, " << cost.locks << " locks";
 }
 
-/// The cost of a run of that length, with a recording, log lines, timeouts and a device. Allocations are
+/// The cost of a run of that length, with a recording, log lines, timeouts, a chain and a device. Allocations are
 /// counted until the last call of user code, because the check at the end for stuck subsystems allocates.
 [[nodiscard]] Cost cost_of_a_run(RunOptions::Clock clock, Duration duration) {
   TestSystem system;
@@ -74,6 +74,10 @@ void PrintTo(const Cost& cost, std::ostream* out) {
   const auto a = system.add("robot.a", nets::nb_sender, sender, 3ms);
   const auto b = system.add("robot.b", nets::b_receiver_timed, receiver, 1ms, 20ms, Kind::effector);
   system.connect(a, "x", b, "x", buffered, 0ms, 1ms);
+  // Every command is too old.
+  system.chains = {{"a to b", Duration(1), Duration(1)}};
+  static constexpr std::initializer_list<std::uint32_t> channels{0};
+  system.chain_ways = {{0, channels}};
   RunOptions options = simulated(duration);
   options.clock = clock;
   options.recording = scratch_file("run");

@@ -27,6 +27,7 @@ using nlohmann::json;
   snapshot.channels.emplace_back().name = "a->b";
   snapshot.waits.emplace_back().channel = "a->b";
   snapshot.links.emplace_back().process = "office";
+  snapshot.chains.emplace_back().name = "joints to motors";
   snapshot.emergency = "smoke";
   return snapshot;
 }
@@ -37,6 +38,7 @@ TEST(StatusText, TellsWhatEverybodyMaySee) {
   EXPECT_EQ(whole.at("subsystems").size(), 2U);
   EXPECT_EQ(whole.at("waits").size(), 1U);
   EXPECT_EQ(whole.at("links").size(), 1U);
+  EXPECT_EQ(whole.at("chains").size(), 1U);
   for (const json* one : {&whole, &brief}) {
     EXPECT_EQ(one->at("incarnation"), "7");
     EXPECT_EQ(one->at("emergency"), "smoke");
@@ -47,6 +49,7 @@ TEST(StatusText, TellsWhatEverybodyMaySee) {
   EXPECT_FALSE(whole.contains("brief"));
   EXPECT_EQ(brief.at("brief"), true);
   EXPECT_TRUE(brief.at("subsystems").empty() && brief.at("waits").empty() && !brief.contains("links"));
+  EXPECT_FALSE(brief.contains("chains"));
   EXPECT_LT(texts.brief.size(), 1000U) << "it fits into one packet";
 }
 

@@ -78,6 +78,8 @@ class TestSystem {
   [[nodiscard]] const System& system();
 
   Devices devices;
+  std::vector<tessera::Chain> chains;
+  std::vector<ChainWay> chain_ways;
   Duration latency{0};
   std::vector<DriverOption> panel;  ///< before `add`: its receptors are panels with these options
 

@@ -18,6 +18,7 @@
 #include <utility>
 #include <vector>
 
+#include "chain_rows.hpp"
 #include "named_net.hpp"
 #include "nets/flat_net.hpp"
 #include "reference.hpp"
@@ -26,7 +27,6 @@
 
 namespace tessera::timing_test {
 
-inline constexpr std::int64_t tick_ns = 1'000'000;
 inline constexpr std::size_t most_chains = 4, most_subsystems = 12;
 
 /// A value: when the device was read that it comes from, chain by chain.
@@ -51,6 +51,9 @@ struct Observed {
   std::array<std::vector<Command>, most_chains> commands;
   std::array<std::vector<std::int64_t>, most_chains> samples;
   std::vector<std::uint64_t> send_timeouts, receive_timeouts;
+  const timing::Bounds* bounds = nullptr;  ///< of the chains that the run measures; nullptr: none
+  std::string recording;                   ///< its file; empty: none
+  std::vector<ChainTimes> measured;        ///< by the run itself, chain by chain
 
   [[nodiscard]] const ::timing::Net& net() const { return drawn.net; }
   /// The shortest and the longest time of a call of the subsystem in this run.
@@ -299,12 +302,17 @@ class SubsystemRows {
   }
   System system{tables_version,       "drawn", "", "", {}, instances, channels, &testing::system_page,
                 &testing::agent_page, {},      {}};
+  const ChainRows chain_rows(seen.bounds == nullptr ? std::vector<::timing::Chain>{} : seen.drawn.chains,
+                             seen.bounds);
+  system.chains = chain_rows.chains;
+  system.chain_ways = chain_rows.ways;
   const std::string hash = net_of(system).hash();
   system.net_hash = hash;
   RunOptions options;
   options.duration = Duration(until * tick_ns);
   options.seed = seed;
   options.interleave = interleave;
+  options.recording = seen.recording;
   if (!scenario.is_null()) {
     scenario["net_hash"] = hash;
     options.scenario = ::testing::TempDir() + "tessera_worst_run_" + std::to_string(getpid()) + ".json";
@@ -314,6 +322,7 @@ class SubsystemRows {
   const std::optional<RunSummary> summary = execute(system, options, error);
   if (!options.scenario.empty()) std::filesystem::remove(options.scenario);
   EXPECT_TRUE(summary) << error;
+  if (summary) seen.measured = summary->chains;
   return summary.has_value();
 }
 

@@ -1,11 +1,13 @@
 // Random systems on the runtime, under the simulated clock and with `takes` as it draws it, beside their bounds.
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <string>
 #include <tuple>
 #include <utility>
@@ -13,6 +15,7 @@
 
 #include "drawn_run.hpp"
 #include "drawn_shapes.hpp"
+#include "measured_by_run.hpp"
 #include "timing/conduct/certain.hpp"
 #include "timing/worst/run_scenario.hpp"
 #include "timing/worst/worst_run.hpp"
@@ -128,11 +131,17 @@ void try_out(::timing::Case drawn, std::uint64_t seed, Total& total) {
   const timing::Time all = timing::pattern_of_all(bounds, timing::longest_pattern);
   const bool is_long_enough = all < timing::longest_pattern;
   if (is_long_enough) until += 3 * all;
+  const std::string file = ::testing::TempDir() + "timing_runtime." + std::to_string(getpid());
+  seen.bounds = &bounds;
+  if (seed % 4 < 2) seen.recording = file;
   ASSERT_TRUE(run(seen, seed, until, seed / 40 % 2 == 0));
   hold_subsystems(seen, bounds);
   hold_timeouts(seen, bounds.occurrences());
   if (is_long_enough) total.must_fire += hold_certain(seen, bounds);
   hold_chains(seen, bounds);
+  hold_measured(seen);
+  if (!seen.recording.empty()) compare_with_recording(seen, file);
+  std::filesystem::remove(file);
   for (const std::vector<Command>& of_chain : seen.commands) total.commands += of_chain.size();
 }
 

@@ -45,6 +45,14 @@ struct Snapshot {
     std::string process;      ///< process of the other end; empty: this one
     double since_s = 0;
   };
+  /// The times of a chain, as the run has measured them, and what is proved. Those of a fleet are one, with the longest
+  /// times of all its members.
+  struct Chain {
+    std::string name;
+    std::uint64_t members = 0, commands = 0, over = 0;  ///< over: commands with a time over its bound
+    std::optional<double> age_s, longest_age_s, reaction_s, longest_reaction_s;  ///< nullopt: none yet
+    std::optional<double> proved_age_s, proved_reaction_s;  ///< nullopt: nothing is proved
+  };
   /// The link between this process and another.
   struct Link {
     std::string process, host;  ///< the other one; host empty: none is given
@@ -83,6 +91,7 @@ struct Snapshot {
   std::vector<Subsystem> subsystems;
   std::vector<Channel> channels;
   std::vector<Wait> waits;
+  std::vector<Chain> chains;
   std::vector<Link> links;  ///< with `process`
   std::optional<Control> control;
   std::optional<Deployment> deployment;  ///< only in the first line of a connection

@@ -103,6 +103,18 @@ struct RunOptions {
   Substitutes* substitutes = nullptr;
 };
 
+/// The times of a chain as a run has measured them; of the chains of a fleet, the longest ones. A command is based on a
+/// reading of the first device of the chain.
+struct ChainTimes {
+  std::string name;
+  std::uint64_t members = 0;      ///< chains: the number of agents of a fleet
+  std::uint64_t commands = 0;     ///< those that are based on a reading
+  std::uint64_t over = 0;         ///< commands at which an age or a reaction exceeded its bound
+  std::optional<Duration> age{};  ///< of the last command; nullopt: there is none yet, also for the others
+  std::optional<Duration> longest_age{}, reaction{}, longest_reaction{};
+  std::optional<Duration> proved_age{}, proved_reaction{};  ///< at most; nullopt: nothing is proved
+};
+
 /// The result of a run.
 struct RunSummary {
   Duration simulated{};  ///< time on the run's clock
@@ -132,6 +144,7 @@ struct RunSummary {
     Duration latest_wakeup{0};  ///< the most time until its thread went on after it might
   };
   std::vector<PerSubsystem> subsystems;
+  std::vector<ChainTimes> chains;
   /// A behaviour with calls that took longer than declared.
   struct SlowCalls {
     std::string behaviour;  ///< "robot.control.follow"

@@ -43,9 +43,8 @@ class Assembler {
   }
 
   bool run(LooseParts& loose) {
-    if (!check_version() || !plan_faults() || !bind() || !link_ports() || !compile_plans() || !check_hash() ||
-        !set_values())
-      return false;
+    if (!check_version() || !plan_faults() || !bind() || !link_ports() || !compile_plans()) return false;
+    if (!check_hash() || !set_values()) return false;
     for (std::uint32_t index = 0; index < parts_.size(); ++index)
       for (std::uint32_t port = 0; port < parts_[index].ports.size(); ++port)
         if (!make_loose_channel(index, port, loose)) return false;
@@ -295,11 +294,11 @@ class Assembler {
     const ValueType* const type = !channel.from.is_used() ? value_type(channel.to, Side::receive)
                                                           : value_type(channel.from, Side::send);
     word = std::make_unique<SharedChannel>(initial_marking(channel.places), std::max(sent, received),
-                                           std::max<std::size_t>(channel.slots, 1), type);
+                                           std::max<std::size_t>(channel.slots, 1), type,
+                                           assembly_.chains.readings_in(index));
     if (!connect(channel.from, Side::send, *word) || !connect(channel.to, Side::receive, *word))
       return fail(fmt::format("channel {}: an end uses a slot that it does not have", channel.name));
-    const bool to_itself = channel.from.instance == channel.to.instance;
-    if (clock_.simulated() || to_itself) word->set_single_threaded();
+    if (clock_.simulated() || channel.from.instance == channel.to.instance) word->set_single_threaded();
     return true;
   }
 
@@ -380,6 +379,7 @@ class Assembler {
 
   std::unique_ptr<SubsystemExecutor> make_executor(std::uint32_t index) {
     RecordingLane* lane = assembly_.recorder == nullptr ? nullptr : assembly_.recorder->lane(index);
+    parts_[index].readings = assembly_.chains.readings_of(index);
     return std::make_unique<SubsystemExecutor>(
         index, std::move(parts_[index]), plans_[index], first_transition(index),
         SubsystemExecutor::Shared{assembly_.control, clock_, *waker_, assembly_.options.monitor}, lane);

@@ -6,6 +6,7 @@
 #include <utility>
 #include <vector>
 
+#include "chains/followed_chains.hpp"
 #include "drivers/devices.hpp"
 #include "drivers/panel.hpp"
 #include "drivers/run_control.hpp"
@@ -48,6 +49,7 @@ struct Assembly {
       : part(std::move(its_part)),
         system(part.system),
         options(its_options),
+        chains(part),
         control(static_cast<std::uint32_t>(part.system.instances.size())) {}
   Assembly(const Assembly&) = delete;
   Assembly& operator=(const Assembly&) = delete;
@@ -60,6 +62,7 @@ struct Assembly {
   const ProcessPart part;
   const System& system;  ///< of the part
   const RunOptions& options;
+  FollowedChains chains;
   RunControl control;
   Guardian* guardian = nullptr;  ///< nullptr: none
   RunTally* tally = nullptr;     ///< counts what is not recorded; nullptr: nothing does

@@ -1,5 +1,6 @@
 #include "nets/shared_channel.hpp"
 
+#include <new>
 #include <utility>
 
 namespace tessera {
@@ -20,11 +21,16 @@ void pause() {
 }  // namespace
 
 SharedChannel::SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots,
-                             const ValueType* type)
+                             const ValueType* type, std::size_t readings)
     : word_(marking), slots_(slots), type_(type) {
   assert(marking <= Word::field);
   for (Memory& memory : slots_) {
-    memory.bytes.resize(value_bytes);
+    const std::size_t behind = (value_bytes + alignof(Time) - 1) / alignof(Time) * alignof(Time);
+    memory.bytes.resize(readings == 0 ? value_bytes : behind + readings * sizeof(Time));
+    for (std::size_t index = 0; index < readings; ++index) {
+      Time* const reading = new (memory.bytes.data() + behind + index * sizeof(Time)) Time(Time::min());
+      if (index == 0) memory.readings = reading;
+    }
     if (type_ != nullptr) type_->construct(memory.bytes.data());
   }
 }

@@ -50,9 +50,9 @@ namespace tessera {
 ///          `connect` before they start.
 class alignas(64) SharedChannel {
  public:
-  /// type: of the values, if they are more than their bytes.
+  /// type: of the values, if they are more than their bytes. readings: those that stand beside a value.
   SharedChannel(std::uint32_t marking, std::size_t value_bytes, std::size_t slots = 1,
-                const ValueType* type = nullptr);
+                const ValueType* type = nullptr, std::size_t readings = 0);
   ~SharedChannel();
   SharedChannel(const SharedChannel&) = delete;
   SharedChannel& operator=(const SharedChannel&) = delete;
@@ -94,7 +94,8 @@ class alignas(64) SharedChannel {
 
   /// A value in transit.
   struct Memory {
-    std::vector<std::byte> bytes;
+    std::vector<std::byte> bytes;  ///< of the value, and of what stands behind it
+    Time* readings = nullptr;      ///< on which the value is based (CarriedReadings); behind it
     Time stamp{};
     std::uint64_t sequence = 0;  ///< of the write that stored the value; 0: none yet
     bool valid = false;

@@ -187,7 +187,6 @@ template <class Run>
     ending.failed = true;
     ending.failure = RunSummary::Failure::stuck;
   }
-
   RunSummary summary;
   summary.simulated = ending.at.time_since_epoch();
   summary.wall_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
@@ -210,6 +209,7 @@ template <class Run>
         summary.overtime.push_back({fmt::format("{}.{}", executor->path(), behaviours[at].name), one.calls,
                                     one.slow, one.declared, one.longest, one.longest_at});
   }
+  summary.chains = assembly.chains.times();
   for (const std::string& device : unsafe)
     if (lane != nullptr)
       lane->text(Event::Kind::safe, ending.at, static_cast<std::uint32_t>(SafeEvent::refused),

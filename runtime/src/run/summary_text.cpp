@@ -4,10 +4,40 @@
 
 #include <iterator>
 #include <nlohmann/json.hpp>
+#include <optional>
 
 #include "tessera/judgement.hpp"
 
 namespace tessera {
+
+namespace {
+
+/// Members without a value are left out.
+nlohmann::ordered_json chain_json(const ChainTimes& chain) {
+  nlohmann::ordered_json json{
+      {"name", chain.name}, {"members", chain.members}, {"commands", chain.commands}, {"over", chain.over}};
+  const auto put = [&](const char* name, std::optional<Duration> time) {
+    if (time) json[name] = seconds(*time);
+  };
+  put("longest_age_s", chain.longest_age);
+  put("longest_reaction_s", chain.longest_reaction);
+  put("proved_age_s", chain.proved_age);
+  put("proved_reaction_s", chain.proved_reaction);
+  return json;
+}
+
+std::string chain_line(const ChainTimes& chain) {
+  if (!chain.longest_age) return fmt::format("  {}: no command is based on a reading\n", chain.name);
+  const auto times = [](const char* what, std::optional<Duration> measured, std::optional<Duration> proved) {
+    if (!measured) return std::string();
+    return fmt::format("{} at most {:.6g} ms measured, {}", what, seconds(*measured) * 1e3,
+                       proved ? fmt::format("{:.6g} ms proved", seconds(*proved) * 1e3) : "nothing proved");
+  };
+  const std::string reaction = times("; reaction", chain.longest_reaction, chain.proved_reaction);
+  return fmt::format("  {}: {}{}\n", chain.name, times("age", chain.longest_age, chain.proved_age), reaction);
+}
+
+}  // namespace
 
 std::string summary_json(const RunSummary& summary, const RunOptions& options) {
   const double simulated_s = seconds(summary.simulated);
@@ -48,6 +78,7 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
                                 {"declared_ns", one.declared.count()},
                                 {"longest_ns", one.longest.count()},
                                 {"longest_at_ns", one.longest_at.time_since_epoch().count()}});
+  for (const ChainTimes& chain : summary.chains) json["chains"].push_back(chain_json(chain));
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 
@@ -57,6 +88,7 @@ std::string summary_lines(const RunSummary& summary) {
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     fmt::format_to(std::back_inserter(text), "  {}: {} iterations, {} overruns, {} errors\n", subsystem.path,
                    subsystem.iterations, subsystem.overruns, subsystem.errors);
+  for (const ChainTimes& chain : summary.chains) text += chain_line(chain);
   return text + judgement_lines(summary.judgement);
 }
 

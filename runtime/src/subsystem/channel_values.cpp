@@ -62,6 +62,7 @@ void ChannelValues::write(std::uint32_t port, std::uint16_t slot, Time now, bool
   if (link.end != nullptr) return link.end->write(output.value, now, valid);
   SharedChannel::Memory& memory = link.channel->memory(slot);
   assign(memory.bytes.data(), output.value, output.size, output.type);
+  if (parts_.readings != nullptr) parts_.readings->give(port, memory.readings);
   memory.stamp = now;
   memory.valid = valid;
   memory.sequence = link.channel->next_sequence();
@@ -75,6 +76,7 @@ void ChannelValues::read(std::uint32_t port, std::uint16_t slot, Time now) {
   input.arrival->timed_out = false;
   state.taken_fresh = false;
   const SharedChannel::Memory& memory = link.channel->memory(slot);
+  if (parts_.readings != nullptr) parts_.readings->take(port, memory.readings);
   if (memory.sequence == 0 || memory.sequence == state.sequence) return;
   const bool newer = memory.sequence > state.newest;
   state.newest = std::max(state.newest, memory.sequence);

@@ -62,6 +62,7 @@ bool DeviceCommands::open(std::string& error) {
 
 std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::string_view place,
                                                             std::span<char> room) {
+  have_command_ = false;
   for (const Bindings::RealOutgoing& output : parts_.bindings.real_outputs)
     if (output.finite != nullptr && !output.finite(output.value)) {
       const auto end = fmt::format_to_n(room.data(), room.size(), "output '{}' is not finite", output.name);
@@ -81,6 +82,7 @@ std::optional<DeviceCommands::Failure> DeviceCommands::send(Time now, std::strin
     case Effectors::Answer::refused:
       return refusal(room);
     case Effectors::Answer::taken:
+      have_command_ = true;
       refused_since_ = Time::max();
       limits_.note_sent(now);
       effectors_.record(lane_);

@@ -61,6 +61,8 @@ class DeviceCommands {
   /// Sends the outputs, or gives the safe command where they must not go to the devices. place: where the
   /// token is. nullopt: done. Throws what a driver throws.
   [[nodiscard]] std::optional<Failure> send(Time now, std::string_view place, std::span<char> room);
+  /// Whether the devices have taken what `send` sent last.
+  [[nodiscard]] bool have_command() const { return have_command_; }
   /// Gives the safe command because of a fault, which has not been reported yet.
   void make_safe_after_fault() { give_safe_command({SafeReason::Kind::fault}); }
   /// The fault has been reported. Begins an emergency stop if only an operator may end the safe command.
@@ -103,6 +105,7 @@ class DeviceCommands {
   Effectors effectors_;
   SafeReason last_safe_{};            // why it was given last
   bool has_commanded_ = false;        // a device has taken a command of the transition function
+  bool have_command_ = false;         // the devices have taken the last one
   SafeReason held_{};                 // the safe command stands because of an input
   Time refused_since_ = Time::max();  // since when some device refuses the safe command
   bool heart_failed_ = false;         // the heartbeat of a device has failed

@@ -13,6 +13,7 @@
 #include <string>
 #include <utility>
 
+#include "chains/followed_chains.hpp"
 #include "system/console.hpp"
 
 namespace tessera {
@@ -142,6 +143,7 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   if (std::exchange(has_ended_, false)) began_at_ = now;
   context_.in_behaviour = now - began_at_;
   if (parts_.values != nullptr) parts_.values->call(now, behaviour, iteration_);
+  if (parts_.readings != nullptr) parts_.readings->begin_call(now);
   if (missed > 0) return fail_late(missed);
   if (!parts_.receptors.empty()) {
     const bool read =
@@ -215,8 +217,22 @@ void Operations::finish_call(Time now) {
         survives(Fault::device, behaviour_, "writing a real effector: ", [&] { send_commands(now); }));
     if (overtimes_.fail()) check_overtime(clock_.now());
   }
+  if (parts_.readings != nullptr) finish_readings(now);
   if (parts_.values != nullptr) parts_.values->results(now);
   if (overtimes_.judge_calls()) tell_overtime(clock_.now());
+}
+
+/// The writing of the devices belongs to the age of a command.
+void Operations::finish_readings(Time now) {
+  CarriedReadings& readings = *parts_.readings;
+  readings.end_call(failed_);
+  if (!readings.has_ends()) return;
+  const bool given = !failed_ && (devices_.none() || devices_.have_command());
+  readings.end_command(
+      devices_.none() ? now : clock_.now(), given, failed_, [this](const ChainExcess& excess) {
+        std::array<char, 384> room;
+        reports_.tell(Fault::overtime, place_of_call(behaviour_), text_of(excess, room), lane_);
+      });
 }
 
 void Operations::send_commands(Time now) {

@@ -114,6 +114,7 @@ class Operations final : public ContextServices {
   void read_receptors(Time now);
   [[nodiscard]] bool read_receptor(std::size_t index, Time now);
   void send_commands(Time now);
+  void finish_readings(Time now);
   void fail_late(std::uint64_t missed);
   void check_watchdog(Time now);
   void check_overtime(Time now);

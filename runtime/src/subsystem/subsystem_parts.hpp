@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "chains/carried_readings.hpp"
 #include "drivers/device_life.hpp"
 #include "drivers/driver_watch.hpp"
 #include "links/network_end.hpp"
@@ -49,6 +50,7 @@ struct SubsystemParts {
   std::vector<PortLink> ports;                           ///< as SubsystemNet::ports
   FaultySubsystem* faulty = nullptr;                     ///< `subsystem`, where faults are injected into it
   std::unique_ptr<ValueRecorder> values;                 ///< nullptr: values are not recorded
+  std::unique_ptr<CarriedReadings> readings;             ///< nullptr: it is on no chain
   ParameterChanges* changes = nullptr;                   ///< nullptr: parameters never change
   bool scripted = false;  ///< a test calls a script in place of its transition functions
 };

@@ -8,6 +8,7 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <unordered_map>
 #include <utility>
 #include <vector>
@@ -50,6 +51,22 @@ namespace {
   for (std::size_t place = 0; place < channel.places.size(); ++place)
     if ((marking >> place & 1U) != 0) shown.marked.emplace_back(channel.places[place].name);
   return shown;
+}
+
+[[nodiscard]] Snapshot::Chain show(const ChainTimes& chain) {
+  const auto in_seconds = [](std::optional<Duration> time) {
+    return time ? std::optional(seconds_of(time->count())) : std::nullopt;
+  };
+  return {.name = chain.name,
+          .members = chain.members,
+          .commands = chain.commands,
+          .over = chain.over,
+          .age_s = in_seconds(chain.age),
+          .longest_age_s = in_seconds(chain.longest_age),
+          .reaction_s = in_seconds(chain.reaction),
+          .longest_reaction_s = in_seconds(chain.longest_reaction),
+          .proved_age_s = in_seconds(chain.proved_age),
+          .proved_reaction_s = in_seconds(chain.proved_reaction)};
 }
 
 [[nodiscard]] std::string path_of(const Instance& instance) {
@@ -171,6 +188,7 @@ Snapshot take_snapshot(const Assembly& assembly, const Clock& clock) {
     snapshot.subsystems.push_back(show(assembly, instance));
   for (std::size_t index = 0; index < assembly.channels.size(); ++index)
     snapshot.channels.push_back(show(assembly.system.channels[index], assembly.channels[index].marking()));
+  for (const ChainTimes& chain : assembly.chains.times()) snapshot.chains.push_back(show(chain));
   Waits waits(assembly, snapshot);
   for (std::uint32_t instance = 0; instance < assembly.executors.size(); ++instance) waits.look(instance);
   for (std::size_t index = 0; index < assembly.channels.size(); ++index) waits.show(index);

@@ -11,15 +11,16 @@ constexpr std::size_t longest_reason = 300;
 
 /// Leaves out the second half of the longest list. false: all are empty.
 [[nodiscard]] bool shorten(Snapshot& snapshot) {
-  const std::size_t longest =
-      std::max({snapshot.subsystems.size(), snapshot.waits.size(), snapshot.links.size()});
+  const std::size_t longest = std::max(
+      {snapshot.subsystems.size(), snapshot.waits.size(), snapshot.links.size(), snapshot.chains.size()});
   const auto halve = [&](auto& list) {
     if (list.size() < longest) return false;
     snapshot.left_out += list.size() - list.size() / 2;
     list.resize(list.size() / 2);
     return true;
   };
-  return longest > 0 && (halve(snapshot.subsystems) || halve(snapshot.links) || halve(snapshot.waits));
+  return longest > 0 && (halve(snapshot.subsystems) || halve(snapshot.links) || halve(snapshot.waits) ||
+                         halve(snapshot.chains));
 }
 
 }  // namespace
@@ -36,6 +37,7 @@ StatusTexts status_texts(Snapshot snapshot, std::size_t most_bytes) {
   snapshot.subsystems.clear();
   snapshot.waits.clear();
   snapshot.links.clear();
+  snapshot.chains.clear();
   snapshot.left_out = 0;
   snapshot.brief = true;
   texts.brief = line_of(snapshot);

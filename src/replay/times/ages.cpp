@@ -17,7 +17,7 @@ std::unordered_map<std::string, std::uint32_t> numbered_names(const std::vector<
 }
 
 /// Each reading with the first command that reflects a later one: from just after the reading to the end of that
-/// command. `found(reading, command)`.
+/// command. `found(reading, command)`. If that command was not given, the reading is left out.
 ///
 /// A command of an unknown reading may be the first, so that nothing is known of the readings before it.
 template <class Found>
@@ -28,12 +28,12 @@ void for_reactions(const std::vector<ReadingCommand>& readings, const std::vecto
     const auto is_too_early = [&](const ReadingCommand& command) {
       if (command.start != reading.start) return command.start < reading.start;
       if (command.reading == unknown_reading) return command.time_ns < reading.time_ns;
-      return command.withheld || command.reading <= reading.time_ns;
+      return command.reading <= reading.time_ns;
     };
     while (next < commands.size() && is_too_early(commands[next])) ++next;
     if (next == commands.size()) return;
-    if (commands[next].start == reading.start && is_known(commands[next].reading))
-      found(reading, commands[next]);
+    const ReadingCommand& first = commands[next];
+    if (first.start == reading.start && is_known(first.reading) && !first.withheld) found(reading, first);
   }
 }
 

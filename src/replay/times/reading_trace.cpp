@@ -63,7 +63,8 @@ class Follower {
           break;
       }
       begun = true;
-      after(step, reading_, start_);
+      // A call that fails would have reflected what it had received.
+      after(step, step.failed && arrivals_ ? held_ : reading_, start_);
     }
   }
 

@@ -49,6 +49,19 @@ void add_subsystems(const Snapshot& snapshot, json& event) {
                                    {"latest_wakeup_s", one.latest_wakeup_s}});
   for (const Snapshot::Channel& one : snapshot.channels)
     event["channels"].push_back({{"name", one.name}, {"marked", one.marked}});
+  for (const Snapshot::Chain& one : snapshot.chains) {
+    json& chain = event["chains"].emplace_back(
+        json{{"name", one.name}, {"members", one.members}, {"commands", one.commands}, {"over", one.over}});
+    const auto put = [&](const char* name, std::optional<double> time_s) {
+      if (time_s) chain[name] = *time_s;
+    };
+    put("age_s", one.age_s);
+    put("longest_age_s", one.longest_age_s);
+    put("reaction_s", one.reaction_s);
+    put("longest_reaction_s", one.longest_reaction_s);
+    put("proved_age_s", one.proved_age_s);
+    put("proved_reaction_s", one.proved_reaction_s);
+  }
 }
 
 RunFollower::RunFollower(RecordingStream::Source recording, const Analysis& analysis, Reached* reached)

@@ -64,10 +64,7 @@ export interface Requests {
     /** Sockets on which a controller listens. */
     answer: string[];
   };
-  /**
-   * How old a command can be: the bounds of all chains, for the times of the text or others. 422: the text has
-   * errors, or there is no such subsystem.
-   */
+  /** The bounds of all chains, with the times of the text or others. 422: it has errors, or no such subsystem. */
   "POST /api/timing": {
     body: {
       text: string;
@@ -91,10 +88,7 @@ export interface Requests {
     status: 200;
     answer: { chains: MeasuredChain[] };
   };
-  /**
-   * The single changes of rates, modes and processors that make a time of a chain smaller. 422: there is no such
-   * chain.
-   */
+  /** The single changes that make a time of a chain smaller. 422: there is no such chain. */
   "POST /api/timing/changes": {
     body: {
       text: string;
@@ -635,10 +629,7 @@ export interface TimedChange {
   age_ns: number | null;
   reaction_ns: number | null;
 }
-/**
- * A run from the start of the system, in which a command is as old as it can be, or nearly. Times are those of
- * the run.
- */
+/** A run from the start in which a command is as old as it can be, or nearly. Times are those of the run. */
 export interface WorstRun {
   /** The reading of the device; for a reaction, an event just after it. */
   from_ns: number;
@@ -723,10 +714,7 @@ export interface LayoutAnswer {
 export interface BoxPositions {
   [k: string]: [number, number];
 }
-/**
- * The controllers that drive devices now: those of this user in real time, on real devices or in a simulated
- * world.
- */
+/** The controllers of this user in real time that drive devices now, real or simulated ones. */
 export interface Driving {
   controllers: {
     name: string;
@@ -899,6 +887,7 @@ export interface SubsystemsSeen {
   t: number;
   subsystems: Subsystem[];
   channels: Channel[];
+  chains?: Chain[];
 }
 /** The present state of a subsystem, and its counts so far. */
 export interface Subsystem {
@@ -928,10 +917,7 @@ export interface Subsystem {
    * first on its processor.
    */
   latest_wakeup_s?: number;
-  /**
-   * The fields of its memory as they were at the end of the last iteration. Absent: it has none. The studio leaves
-   * it out, since its `values` have it.
-   */
+  /** Its memory at the end of the last iteration. Absent: it has none, or the studio has it in `values`. */
   memory?: MemoryField[];
 }
 export interface MemoryField {
@@ -945,6 +931,22 @@ export interface Channel {
   marked: string[];
   /** Since when a value is on the way to another process without an answer; absent: none is. */
   sending_since_s?: number;
+}
+/** A chain, or those of a fleet with their longest times. Times that are not there, or not proved, are absent. */
+export interface Chain {
+  name: string;
+  /** The number of chains. */
+  members: number;
+  /** Those that are based on a reading. */
+  commands: number;
+  /** Commands with a time over its bound. */
+  over: number;
+  age_s?: number;
+  longest_age_s?: number;
+  reaction_s?: number;
+  longest_reaction_s?: number;
+  proved_age_s?: number;
+  proved_reaction_s?: number;
 }
 export interface DeploymentSeen {
   /** Nanoseconds of the run's clock. */
@@ -960,10 +962,7 @@ export interface DeploymentSeen {
 export interface ProcessSeen {
   name: string;
   agents: string[];
-  /**
-   * silent: it sends nothing any more; gone: it has died; absent: it was not found on this machine, and not heard
-   * on the network.
-   */
+  /** silent: it sends nothing any more; gone: it has died; absent: neither found on this machine nor heard. */
   state: "running" | "silent" | "ended" | "gone" | "absent";
   /** It has been in this state for so long. */
   since_s: number | null;
@@ -1034,6 +1033,7 @@ export interface Outcome {
   injected?: { fault: string; happened: boolean }[];
   world_s?: number;
   track?: string;
+  chains?: Chain[];
   /** Those of the simulated world. */
   checks?: CheckOutcome[];
   /** By name; null: never taken. */
@@ -1411,6 +1411,7 @@ export interface SubsystemsEvent {
   t: number;
   subsystems: Subsystem[];
   channels: Channel[];
+  chains?: Chain[];
 }
 /** The state of all processes of a deployed system, and their knowledge of each other. */
 export interface DeploymentEvent {

@@ -211,7 +211,7 @@ export class Runner {
   /** Called by an event, or with the whole state of the run. */
   private told(info: RunEvent | RunInfo): void {
     const { state, why, outcome, marking, firings } = info;
-    this.store.set({ state, why, outcome });
+    this.store.set({ state, why, outcome, ...(outcome?.chains && { measured: outcome.chains }) });
     this.setMarked(marking, firings);
     if ("values" in info) {
       this.store.set({ netHash: info.net_hash });
@@ -297,18 +297,18 @@ export class Runner {
     }, 100);
   }
 
-  private reported({ t, subsystems }: SubsystemsEvent): void {
+  private reported({ t, subsystems, chains }: SubsystemsEvent): void {
     this.track?.reached(t);
     const behaviours = new Map(subsystems.flatMap(({ path, behaviour }) => (behaviour === null ? [] : [[path, behaviour]])));
     const known = this.store.get().behaviours;
     if (behaviours.size !== known.size || [...behaviours].some(([path, name]) => known.get(path) !== name))
       this.store.set({ behaviours });
+    if (chains) this.store.set({ measured: chains });
   }
 
   /** The event is repeated when the file has come through a tunnel. */
   private sawScene({ hash, bodies }: SceneShown): void {
-    const { track } = this;
-    if (track && track.world?.scene.hash !== hash) track.world = new LiveWorld({ hash, bodies });
+    if (this.track && this.track.world?.scene.hash !== hash) this.track.world = new LiveWorld({ hash, bodies });
   }
 
   private sawPoses(frame: PoseFrame): void {

@@ -1,5 +1,6 @@
 import type { NamedBreakpoint } from "./breakpoints";
 import type { Outcome, PanelShown, ParameterShown, RunKind, RunListed, RunState, StartRequest } from "../../model/protocol";
+import type { ChainOfRun } from "../../model/ages_of_run";
 
 /** The settings of the form for the next run. */
 export interface Wishes {
@@ -24,6 +25,8 @@ export interface RunnerState {
   problem: string;
   /** Behaviour by path of subsystem, as reported by the controller. */
   behaviours: ReadonlyMap<string, string>;
+  /** How old commands are, as the run tells. */
+  measured: readonly ChainOfRun[];
   /** The parameters of the run, with their values. */
   parameters: readonly ParameterShown[];
   panels: readonly PanelShown[];
@@ -51,6 +54,7 @@ export const idle: RunnerState = {
   speed: 1,
   problem: "",
   behaviours: new Map(),
+  measured: [],
   parameters: [],
   panels: [],
   breakpoints: [],

@@ -1,8 +1,10 @@
+import type { ReactNode } from "react";
 import { useStudio } from "../../hooks/use";
 import type { TimedBound, TimedChain, Timing } from "../../model/protocol";
 import { chainKey, chainName, shownBound, shownTime, verdictOf, type Verdict } from "../../model/timing";
 import { Icon } from "../icons";
 import { TableHead } from "../table_head";
+import { TimeOfRun } from "./time_of_run";
 
 const marks = { holds: "check", violated: "cross", unknown: "question", none: "question" } as const;
 const spoken: Record<Verdict, string> = {
@@ -53,11 +55,16 @@ export function ChainTable({ found, other, chosen }: { found: Timing; other: Tim
                 {chain.why ? (
                   <td colSpan={2} className="why">
                     no bound
+                    <TimeOfRun chain={chain} what="age" />
                   </td>
                 ) : (
                   <>
-                    <Bound bound={chain.age} other={others.get(key)?.age} />
-                    <Bound bound={chain.reaction} other={others.get(key)?.reaction} />
+                    <Bound bound={chain.age} other={others.get(key)?.age} measured={<TimeOfRun chain={chain} what="age" />} />
+                    <Bound
+                      bound={chain.reaction}
+                      other={others.get(key)?.reaction}
+                      measured={<TimeOfRun chain={chain} what="reaction" />}
+                    />
                   </>
                 )}
               </tr>
@@ -71,7 +78,7 @@ export function ChainTable({ found, other, chosen }: { found: Timing; other: Tim
 }
 
 /** A bound, and the one for the rates that are tried. */
-function Bound({ bound, other }: { bound: TimedBound; other: TimedBound | undefined }) {
+function Bound({ bound, other, measured }: { bound: TimedBound; other: TimedBound | undefined; measured: ReactNode }) {
   const { at_most_ns, asked_ns, answer } = bound;
   const differs = other !== undefined && other.at_most_ns !== at_most_ns;
   return (
@@ -79,6 +86,7 @@ function Bound({ bound, other }: { bound: TimedBound; other: TimedBound | undefi
       <span className={differs ? "old" : ""}>{shownBound(at_most_ns)}</span>
       {differs && <strong>{shownBound(other.at_most_ns)}</strong>}
       {asked_ns !== null && <span className="asked-limit">asked: {shownTime(asked_ns)}</span>}
+      {measured}
     </td>
   );
 }

@@ -16,7 +16,7 @@
 /// the hash of the net.
 namespace tessera {
 
-inline constexpr int tables_version = 6;
+inline constexpr int tables_version = 7;
 
 class DriverSetup;
 class RealEffector;
@@ -149,10 +149,26 @@ struct Port {
   std::string_view buffer;
 };
 
+/// A point of the distribution of the times of calls: `below` of 2^32 calls take less than `time`.
+struct TimePoint {
+  Duration time;
+  std::uint32_t below;
+};
+
+/// The use of a resource while a behaviour is the present one.
+struct Use {
+  std::uint16_t resource;  ///< into System::resources
+  double per_second;       ///< in the unit of the resource
+};
+
 struct Behaviour {
   std::string_view name;
   Duration takes{0};    ///< least simulated time of its transition function
   Duration at_most{0};  ///< most; less than `takes`: that is the time of each call
+  /// The distribution between the two; all times between two neighbouring points are equally likely. `below` is 0
+  /// in the first point and UINT32_MAX in the last one. Empty: all times between the two are equally likely.
+  std::span<const TimePoint> times{};
+  std::span<const Use> uses{};
 };
 
 /// The part of the net that one subsystem executes.
@@ -273,6 +289,11 @@ struct Process {
   std::string_view interface;  ///< network interface of its machine; empty: none given
 };
 
+/// Something that behaviours use: "energy", in "J".
+struct Resource {
+  std::string_view name, unit;
+};
+
 struct VerifiedProperty {
   std::string_view name, verdict, method;
 };
@@ -294,6 +315,7 @@ struct System {
   std::span<const std::uint32_t> process_of{};   ///< per instance, into processes
   std::uint32_t domain = 0;                      ///< of DDS
   Duration liveliness{0};  ///< a process that is silent for longer is disconnected for the others
+  std::span<const Resource> resources{};
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

@@ -19,6 +19,28 @@ std::string in_ms(std::int64_t ns) { return fmt::format("{:.3f} ms", static_cast
 std::string in_ms(std::optional<std::int64_t> ns) { return ns ? in_ms(*ns) : "none"; }
 double in_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
+/// "goal to motor, part 2": a recording does not show what a foreign node does, so that only the parts are measured.
+std::string name_of_part(const std::string& chain, std::size_t part) {
+  return fmt::format("{}, part {}", chain, part + 1);
+}
+
+void add_bounds_of_parts(const timing::Bounds& bounds, const timing::DeclaredChain& chain,
+                         const std::map<std::string, AgesOfChain*>& of_group,
+                         std::map<std::string, std::uint64_t>& judged) {
+  for (std::size_t part = 0; part <= chain.foreign.size(); ++part) {
+    const auto found = of_group.find(name_of_part(fleet_name_of(chain.name), part));
+    if (found == of_group.end()) continue;
+    AgesOfChain& one = *found->second;
+    ++judged[one.measured.group];
+    for (const timing::Chain& way : chain.ways) {
+      const timing::ChainBound bound = bounds.chain(timing::parts_of(way, chain.foreign)[part]);
+      if (bound.reaction >= timing::unbounded && one.why.empty()) one.why = "tessera verify says why";
+      one.age_ns = std::max(one.age_ns.value_or(0), bound.age);
+      one.reaction_ns = std::max(one.reaction_ns.value_or(0), bound.reaction);
+    }
+  }
+}
+
 /// The bounds of each group: the largest of its chains.
 void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   std::map<std::string, AgesOfChain*> of_group;
@@ -27,6 +49,10 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   const timing::Bounds bounds(declared.system);
   std::map<std::string, std::uint64_t> judged;
   for (const timing::DeclaredChain& chain : declared.chains) {
+    if (!chain.foreign.empty()) {
+      add_bounds_of_parts(bounds, chain, of_group, judged);
+      continue;
+    }
     const auto found = of_group.find(fleet_name_of(chain.name));
     if (found == of_group.end()) continue;
     AgesOfChain& one = *found->second;
@@ -99,25 +125,38 @@ std::vector<std::vector<std::string>> ways_along(
   return ways;
 }
 
+std::vector<std::vector<std::string>> longer_ways(const std::vector<std::vector<std::string>>& ways,
+                                                  const spec::Model& model,
+                                                  const std::vector<spec::ChannelId>& hop) {
+  std::vector<std::vector<std::string>> longer;
+  for (const spec::ChannelId channel : hop) {
+    if (model.channels[channel].model.valid()) continue;
+    for (std::vector<std::string> way : ways) {
+      way.push_back(model.channel_name(model.channels[channel]));
+      longer.push_back(std::move(way));
+    }
+  }
+  return longer;
+}
+
 /// Those that the specification names, over the channels that it means.
 std::vector<replay::MeasuredChain> named_chains(const spec::Model& model) {
   std::vector<replay::MeasuredChain> chains;
   for (const spec::TimedChain& named : *model.timing.chains) {
-    replay::MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
-    for (const spec::InstanceId instance : named.path)
-      chain.subsystems.push_back(model.instance_path(instance));
-    for (const std::vector<spec::ChannelId>& hop : named.hops) {
-      std::vector<std::vector<std::string>> longer;
-      for (const spec::ChannelId channel : hop) {
-        if (model.channels[channel].model.valid()) continue;
-        for (std::vector<std::string> way : chain.ways) {
-          way.push_back(model.channel_name(model.channels[channel]));
-          longer.push_back(std::move(way));
-        }
+    std::size_t part = 0, at = 0;
+    do {
+      replay::MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
+      if (!named.foreign.empty()) {
+        chain.name = name_of_part(named.name, part);
+        chain.group = name_of_part(chain.group, part);
       }
-      chain.ways = std::move(longer);
-    }
-    if (!chain.ways.empty()) chains.push_back(std::move(chain));
+      const std::size_t end = part < named.foreign.size() ? named.foreign[part].after : named.path.size();
+      for (; at < end; ++at) {
+        chain.subsystems.push_back(model.instance_path(named.path[at]));
+        if (at + 1 < end) chain.ways = longer_ways(chain.ways, model, named.hops[at]);
+      }
+      if (!chain.ways.empty()) chains.push_back(std::move(chain));
+    } while (part++ < named.foreign.size());
   }
   return chains;
 }

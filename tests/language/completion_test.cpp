@@ -113,7 +113,7 @@ TEST(Completion, PathsOfDriversAndProperties) {
 
 TEST(Completion, ChainsOfTiming) {
   const std::string chains = head + "timing:\n  latency: 1 us\n  chains:\n";
-  EXPECT_THAT(proposed(head + "timing:\n  ‸"), ElementsAre("chains", "latency"));
+  EXPECT_THAT(proposed(head + "timing:\n  ‸"), ElementsAre("chains", "latency", "network"));
   EXPECT_THAT(proposed(chains + "    - { ‸"), ElementsAre("name", "path", "age", "reaction"));
   EXPECT_THAT(proposed(chains + "    - { path: [‸] }"),
               IsSupersetOf({"boss.sensor", "boss.control", "robot[i].control"}));
@@ -121,6 +121,9 @@ TEST(Completion, ChainsOfTiming) {
   EXPECT_THAT(proposed(chains + "    - { path: [boss.sensor, boss.control.‸] }"),
               IsSupersetOf({"line", "motion"}));
   EXPECT_THAT(proposed(chains + "    - { age: ‸ }"), Contains("200 ms"));
+  const std::string foreign = chains + "    - { path: [boss.sensor, { node: planner, ";
+  EXPECT_THAT(proposed(foreign + "‸ }] }"), ElementsAre("takes"));
+  EXPECT_THAT(proposed(foreign + "takes: ‸ }] }"), Not(Contains("boss.sensor")));
 }
 
 TEST(Completion, NamesThatAreStillEmptyAreNotOffered) {

@@ -66,6 +66,10 @@ void Ages::add(const Recording& recording) {
       if (const auto found = instances.find(subsystem); found != instances.end())
         wanted.insert(found->second);
   const auto steps = steps_in(recording, wanted);
+  // The numbers of values begin again with the sender, and the receiver may have begun once.
+  const bool has_restarts = std::ranges::any_of(steps, [](const auto& lane) {
+    return std::ranges::count(lane.second.all, Steps::Step::Kind::started, &Steps::Step::kind) > 1;
+  });
 
   for (std::uint32_t index = 0; index < chains_.size(); ++index) {
     const MeasuredChain& chain = chains_[index];
@@ -92,8 +96,10 @@ void Ages::add(const Recording& recording) {
         const auto found = channels.find(channel);
         if (found == channels.end())
           explain("the recording has no channel " + channel);
-        else if (networked.contains(channel))
-          explain(channel + " is between processes");
+        else if (networked.contains(channel) && recording.process)
+          explain(channel + " is between processes, whose recordings have no common clock");
+        else if (networked.contains(channel) && has_restarts)
+          explain(channel + " is between processes, one of which began again");
         else
           hops.push_back(found->second);
       }

@@ -1,7 +1,9 @@
 #include "replay/times/reading_trace.hpp"
 
+#include <algorithm>
 #include <map>
 #include <optional>
+#include <string_view>
 
 #include "replay/source.hpp"
 #include "tessera/transition_role.hpp"
@@ -14,6 +16,8 @@ using Moved = Steps::Step::Kind;
 /// Reads the steps of one subsystem from its events.
 class StepReader {
  public:
+  /// networked: channels between processes. Their events have the number of the value in place of a version.
+  explicit StepReader(const std::set<std::uint32_t>& networked) : networked_(&networked) {}
   void take(const Recording& recording, const Recording::Entry& entry) {
     const Event& event = entry.event;
     if (is_counted(event)) follow_sequence(event);
@@ -71,12 +75,20 @@ class StepReader {
   /// The first firing of an end in an iteration decides: a block that begins otherwise moves no value.
   void follow_channel(Step step, std::uint32_t channel, const Event& event) {
     const auto [moved, is_first] = accessed_.try_emplace(channel, std::nullopt);
-    if (moved->second) steps_.all[*moved->second].last_version = event.version;
+    const bool networked = networked_->contains(channel);
+    if (moved->second) {
+      Steps::Step& step_before = steps_.all[*moved->second];
+      step_before.last_version =
+          networked ? std::max(step_before.last_version, event.version) : event.version;
+      if (networked) step_before.version = step_before.last_version;
+    }
     if (!is_first || (step != Step::transfer && step != Step::overwrite)) return;
     moved->second = steps_.all.size();
-    steps_.all.push_back({Moved::transferred, event.time_ns, channel, event.version, event.version});
+    steps_.all.push_back(
+        {Moved::transferred, event.time_ns, channel, event.version, event.version, false, networked});
   }
 
+  const std::set<std::uint32_t>* networked_;
   Steps steps_;
   std::optional<std::uint32_t> next_;
   /// The channels of this iteration, with the step that moves their value.
@@ -131,7 +143,9 @@ class Follower {
           called_ = step.time_ns;
           break;
         case Moved::transferred:
-          if (arrivals_ && step.channel == *from_) held_ = arrivals_->newest(start_, step.version);
+          // The number of a value is its own; a version is that of the read, which comes after the write.
+          if (arrivals_ && step.channel == *from_)
+            held_ = arrivals_->newest(start_, step.version + (step.is_number ? 1U : 0U));
           break;
         case Moved::finished:
         case Moved::withheld:
@@ -176,8 +190,12 @@ class Sending {
 
 std::unordered_map<std::uint32_t, Steps> steps_in(const Recording& recording,
                                                   const std::set<std::uint32_t>& instances) {
+  std::set<std::uint32_t> networked;
+  const std::set<std::string_view> names(recording.networked.begin(), recording.networked.end());
+  for (std::uint32_t channel = 0; channel < recording.channels.size(); ++channel)
+    if (names.contains(recording.channels[channel])) networked.insert(channel);
   std::unordered_map<std::uint32_t, StepReader> readers;
-  for (const std::uint32_t instance : instances) readers[instance];
+  for (const std::uint32_t instance : instances) readers.emplace(instance, StepReader(networked));
   for (const Recording::Entry& entry : recording.entries)
     if (const auto reader = readers.find(entry.event.instance()); reader != readers.end())
       reader->second.take(recording, entry);

@@ -27,6 +27,7 @@ struct Steps {
     std::uint32_t channel = 0, version = 0;  ///< transferred: of the recording, and of the channel
     std::uint32_t last_version = 0;          ///< transferred: that of the last firing of its block
     bool failed = false;                     ///< withheld: its outputs are those of the call before
+    bool is_number = false;  ///< transferred between processes: `version` is the number of the value
   };
   std::vector<Step> all;
   bool is_whole = false;  ///< its first event is the first one of the run

@@ -117,7 +117,8 @@ bool Bounds::enumerate(const Chain& chain, std::size_t hops, Numbers& numbers) c
     if (reading > end) break;
     Moment written{clocked_.latest(write, k), k + before},
         replaced{clocked_.latest(write, k + 1), k + 1 + before};
-    ChainRoutes way{{written.time - reading, {}}, {replaced.time - reading, {}}};
+    ChainRoutes way{{written.time - reading, {}, reading, pattern},
+                    {replaced.time - reading, {}, reading, pattern}};
     for (std::size_t hop = 0; hop < hops; ++hop) {
       if (!pass(chain[hop], next_of(chain, hop), written, replaced)) return false;
       if (numbers.routes == nullptr) continue;

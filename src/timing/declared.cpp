@@ -22,6 +22,7 @@ class Reader {
     declared_.missing.resize(model.instances.size());
     declared_.all_missing.resize(model.instances.size());
     declared_.differ.resize(model.instances.size());
+    declared_.takes_turns.resize(model.instances.size());
     declared_.stale.resize(model.instances.size());
     declared_.system.latency = model.timing.latency.count();
     for (const spec::InstanceId instance : model.instances.ids()) read(instance);
@@ -56,6 +57,8 @@ class Reader {
     if (subsystem.realtime && subsystem.realtime->cpu) {
       mine.processor = processor(static_cast<int>(*subsystem.realtime->cpu), mine.process);
       mine.priority = static_cast<int>(subsystem.realtime->priority);
+      declared_.takes_turns[instance.value] =
+          subsystem.realtime->policy == spec::RealTime::Policy::round_robin;
     }
     if (subsystem.receive_first)
       miss(instance,

@@ -174,7 +174,8 @@ Rows::Latest Rows::at_event(EventId y, EventId x) const {
   if (bounds_.wait_of(y) == Occurrences::Wait::strict && is_mine(partner)) {
     Time path = tokens(partner) == tokens(y) ? latest_[bounds_.place_in_[partner]].any : 0;
     // A value of the start leaves when the processes have heard each other.
-    if (bounds_.events_[y].kind == Event::Kind::read)
+    const Event& event = bounds_.events_[y];
+    if (event.kind == Event::Kind::read && bounds_.system_.crosses(event.channel))
       path = std::max(path, bounds_.on_the_way(y) - bounds_.events_.least(x));
     late = std::min(late, path);
   }

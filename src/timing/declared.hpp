@@ -11,8 +11,8 @@
 
 namespace tessera::timing {
 
-/// Something that is not of the system answers the commands in the middle of a chain. What comes before it is a chain
-/// of its own, and so is what comes behind.
+/// Something that is not of the system answers the commands in the middle of a chain. The subsystems before it are a
+/// chain of their own, and so are those behind it.
 struct ForeignHop {
   std::string node;
   Time shortest = 0, longest = 0;  ///< from a command to its answer; answers keep the order

@@ -10,9 +10,9 @@
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/recordings/film.hpp"
-#include "cli/recordings/measured_ages.hpp"
-#include "cli/recordings/slow_calls.hpp"
+#include "cli/recordings/overtime.hpp"
 #include "cli/terminal.hpp"
+#include "replay/times/measured_ages.hpp"
 #include "tessera/judgement.hpp"
 #include "tessera/printable.hpp"
 #include "tessera/result.hpp"
@@ -141,7 +141,7 @@ RunOutcome read_outcome(const Controller& controller, const LaunchOptions& optio
     outcome.curves = outcome.summary.value("curves", json::array());
     outcome.summary.erase("curves");
   }
-  outcome.slow_calls = slow_calls_in(files.recording.string(), specification.model);
+  outcome.slow_calls = slow_calls_of(outcome.summary);
   const std::optional<spec::Simulation>& simulation = specification.model.simulation;
   const bool has_world = simulation && !(simulation->world.empty() && options.world.empty());
   if (!has_world) return outcome;
@@ -165,7 +165,6 @@ std::string to_json(const RunOutcome& outcome) {
     result["lateral_error_m"] = {{"mean", line.mean_error_m}, {"max", line.max_error_m}};
   }
   if (!outcome.robots.empty()) result["robots"] = outcome.robots;
-  if (!outcome.slow_calls.empty()) result["overtime"] = slow_calls_json(outcome.slow_calls);
   return result.dump(2) + "\n";
 }
 
@@ -201,7 +200,7 @@ void print(const RunOutcome& outcome) {
              speed_text(summary.value("real_time_factor", 0.0)), summary.value("firings", 0ULL),
              printable(summary.value("ended", "")));
   print_subsystems(summary.value("subsystems", json::array()));
-  fmt::print("{}", slow_calls_text(outcome.slow_calls));
+  fmt::print("{}", overtime_text(summary, outcome.slow_calls));
   fmt::print("{}", printable(judgement_lines(summary.dump())));
   if (outcome.drive && !outcome.drive->is_whole)
     fmt::print(
@@ -223,7 +222,7 @@ std::vector<report::ChainTimes> chain_times_of(const RunOutcome& outcome, const 
   const std::optional<Recording> recording = read_recording(outcome.recording.string(), error);
   if (!recording) throw std::runtime_error(error);
   std::vector<report::ChainTimes> chains;
-  for (const AgesOfChain& one : ages_in({&*recording, 1}, model))
+  for (const replay::AgesOfChain& one : replay::ages_in({&*recording, 1}, model))
     chains.push_back({one.measured.group,
                       one.measured.chains,
                       {one.measured.age, one.age_ns},

@@ -20,7 +20,7 @@ struct RunOutcome {
   std::optional<report::RunPaths> paths;      ///< of a simulated world
   std::optional<sim::Track> floor;            ///< that the world has
   std::vector<report::ChainTimes> chains;     ///< only for a report
-  std::vector<report::SlowCalls> slow_calls;  ///< of a real run, as far as it is recorded
+  std::vector<report::SlowCalls> slow_calls;  ///< from `summary`
   nlohmann::json curves;                      ///< of checks and measures; to_json leaves them out
 };
 

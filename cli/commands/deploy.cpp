@@ -16,6 +16,7 @@
 #include <stdexcept>
 #include <system_error>
 
+#include "cli/recordings/overtime.hpp"
 #include "cli/recordings/process_bags.hpp"
 #include "cli/terminal.hpp"
 #include "cli/unhurried_output.hpp"
@@ -255,6 +256,7 @@ class DeployedRun final : public ProcessSetListener {
           summary.contains("firings") ? summary.at("firings").dump() : std::string("-");
       text += fmt::format("{:<{}}  {:>6}  {:>7.1f} s  {:>10}  {}\n", name_of(number), width, end.starts,
                           std::chrono::duration<double>(end.end.ran).count(), firings, end.how);
+      text += indented(overtime_text(summary, slow_calls_of(summary)));
     }
     if (std::ranges::all_of(placement_.here, [&](std::uint32_t number) {
           std::error_code none;

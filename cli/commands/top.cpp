@@ -74,6 +74,19 @@ std::string memory_of(const Snapshot::Subsystem& subsystem) {
                                             : "\n");
 }
 
+/// "    overtime: 3 calls longer than its takes; its thread went on late 2 times, at most 1.2 ms"
+std::string overtime_of(const Snapshot::Subsystem& one) {
+  std::string text;
+  if (one.slow_calls > 0)
+    text = fmt::format("{} call{} longer than {} takes", one.slow_calls, one.slow_calls == 1 ? "" : "s",
+                       one.slow_calls == 1 ? "its" : "their");
+  if (one.late_wakeups > 0)
+    text += fmt::format("{}its thread went on later than the latency {} time{}, at most {} late",
+                        text.empty() ? "" : "; ", one.late_wakeups, one.late_wakeups == 1 ? "" : "s",
+                        duration_of(one.latest_wakeup_s));
+  return text.empty() ? text : "    overtime: " + text + "\n";
+}
+
 /// The table and the details of one controller.
 std::string table(const Snapshot& now, const Snapshot& before) {
   const double elapsed_s = now.time_s - before.time_s;
@@ -88,6 +101,7 @@ std::string table(const Snapshot& now, const Snapshot& before) {
     text += fmt::format("{:<28} {:<20} {:>18} {:>10} {:>10} {:>9} {:>7}\n", one.path, state_of(one),
                         rate_of(one, before.subsystems[index], elapsed_s), duration_of(one.call_s),
                         duration_of(one.longest_call_s), one.overruns, one.errors);
+    text += overtime_of(one);
     text += memory_of(one);
   }
   text += fmt::format("\n{:<60} {}\n", "channel", "state");

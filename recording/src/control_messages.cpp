@@ -27,16 +27,16 @@ void members(Is<Snapshot::MemoryField> auto& one, auto& each) {
 void members(Is<Snapshot::Subsystem> auto& one, auto& each) {
   each("path", one.path);
   each("behaviour", one.behaviour);
-  each("calling", one.calling);
-  each("ended", one.ended);
+  each("calling", one.calling), each("ended", one.ended);
   each("iterations", one.iterations);
   each("firings", one.firings);
   each("overruns", one.overruns);
   each("errors", one.errors);
   each("period_s", one.period_s);
   each("called_at_s", one.called_at_s);
-  each("call_s", one.call_s);
-  each("longest_call_s", one.longest_call_s);
+  each("call_s", one.call_s), each("longest_call_s", one.longest_call_s);
+  each("slow_calls", one.slow_calls, by_need), each("late_wakeups", one.late_wakeups, by_need);
+  each("latest_wakeup_s", one.latest_wakeup_s, by_need);
   each("memory", one.memory, by_need);
 }
 

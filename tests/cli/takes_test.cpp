@@ -1,7 +1,7 @@
 // `tessera replay --takes`: the times of calls become an edit of the specification.
 #include "../spec/spec_reading.hpp"
 #include "cli/recordings/learned_takes.hpp"
-#include "cli/recordings/slow_calls.hpp"
+#include "cli/recordings/overtime.hpp"
 #include "command.hpp"
 
 namespace tessera::cli_test {
@@ -133,38 +133,34 @@ void make_real(const fs::path& file) {
   write(file, bytes.replace(at, simulated.size(), R"("clock":"steady"   )"));
 }
 
-TEST_F(TakesOfRuns, ACallThatTakesLongerThanDeclaredIsTold) {
-  const fs::path project = built_example("01_line_follower");
+TEST_F(TakesOfRuns, ASlowCallIsInTheProposal) {
+  built_example("01_line_follower");
   ASSERT_EQ(
       tessera("simulate 01_line_follower --for 5s --inject robot.control:stall=30ms@1s --record run.tsr")
           .code,
       0);
-  std::string text = content_of(project / "spec.yaml");
-  text.replace(text.find("follow: {}"), 10, "follow: { takes: 2..8 ms }");
-  text.replace(text.find("drive: {}"), 9, "drive: { takes: 1..2 ms }");
-  const spec::Reading reading(text);
-  ASSERT_TRUE(reading.model) << reading.report();
-  const std::string file = (folder_ / "run.tsr").string();
-  EXPECT_TRUE(cli::slow_calls_in(file, *reading.model).empty());  // simulated
-  make_real(file);
-  const std::vector<report::SlowCalls> slow = cli::slow_calls_in(file, *reading.model);
-  ASSERT_EQ(slow.size(), 1U);
-  EXPECT_EQ(slow[0].behaviour, "robot.control.follow");
-  EXPECT_GT(slow[0].slow, 0U);
-  EXPECT_LE(slow[0].slow, slow[0].calls);
-  EXPECT_EQ(slow[0].declared_ns, 8 * ms);
-  EXPECT_EQ(slow[0].longest_ns, 30 * ms);
-  EXPECT_NE(
-      cli::slow_calls_text(slow).find("took longer than its takes of 8 ms; the longest took 30.000 ms, at "),
-      std::string::npos)
-      << cli::slow_calls_text(slow);
-  // The proposal contains the slow call.
+  make_real(folder_ / "run.tsr");
   const nlohmann::json told = json("replay run.tsr --takes --spec 01_line_follower");
   for (const nlohmann::json& one : told.at("takes"))
     if (one.at("behaviours").at(0) == "robot.control.follow") {
       EXPECT_EQ(one.at("most_ns"), 30 * ms);
       EXPECT_EQ(one.at("proposed").at("text"), "0..36 ms");
     }
+}
+
+TEST(Overtime, OfASummaryIsToldPerBehaviourAndOnceForAllThreads) {
+  const nlohmann::json summary = nlohmann::json::parse(R"({
+    "subsystems": [{"path": "robot.control", "late_wakeups": 1, "latest_wakeup_s": 0.0002},
+                   {"path": "robot.motor", "late_wakeups": 2, "latest_wakeup_s": 0.001204}],
+    "overtime": [{"behaviour": "robot.control.follow", "calls": 500, "slow": 3, "declared_ns": 8000000,
+                  "longest_ns": 30000000, "longest_at_ns": 1500000000}]})");
+  EXPECT_EQ(
+      cli::overtime_text(summary, cli::slow_calls_of(summary)),
+      "overtime: robot.control.follow: 3 of 500 calls took longer than its takes of 8 ms; the longest took "
+      "30.000 ms, at 1.500 s\n"
+      "threads went on at most 1.204 ms late (robot.motor); later than the latency: 3 times\n");
+  const nlohmann::json simulated = nlohmann::json::parse(R"({"subsystems": [{"path": "a.b"}]})");
+  EXPECT_EQ(cli::overtime_text(simulated, cli::slow_calls_of(simulated)), "");
 }
 
 }  // namespace tessera::cli_test

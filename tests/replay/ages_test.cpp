@@ -1,10 +1,12 @@
 // Ages and reactions of runs that are written by hand.
 #include "replay/times/ages.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
+
+#include "replay/times/recorded_way.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -159,6 +161,21 @@ TEST(Ages, ACallThatFailedGivesNoCommandAndNoReading) {
   EXPECT_EQ(ages.withheld, 1U);
 }
 
+TEST(Ages, ACallOfWhichOvertimeIsOnlyToldGivesItsReading) {
+  const auto age_with = [](std::uint32_t fault) {
+    WrittenRun run;
+    run.start();
+    run.add(100, 0, Event::Kind::call).add(101, 0, Event::Kind::fault, 0, fault);
+    run.fire(102, 0, Step::begin_sending).move(102, 0, 0, 1).end(102, 0);
+    run.move(105, 1, 0, 3).end(105, 1).call(1, 110, 112).move(112, 1, 1, 1).end(112, 1);
+    run.move(115, 2, 1, 3).end(115, 2).call(2, 120, 122).end(122, 2);
+    return measured({run.recording}).age;
+  };
+  const auto overtime = static_cast<std::uint32_t>(Fault::overtime);
+  EXPECT_EQ(age_with(overtime | told_fault).most, 22 * ms);
+  EXPECT_EQ(age_with(overtime).count, 0U);
+}
+
 TEST(Ages, TimesThatDependOnLostEventsAreLeftOut) {
   WrittenRun run;
   run.start().pass(100, 1);
@@ -199,6 +216,52 @@ TEST(Ages, WithoutCallsItSaysHowToRecordThem) {
   const ChainAges ages = measured({run.recording});
   EXPECT_EQ(ages.age.count, 0U);
   EXPECT_NE(ages.why.find("--record-values small"), std::string::npos) << ages.why;
+}
+
+RecordedWay way_of(WrittenRun& run, const ExplainedTime& time) {
+  run.recording.behaviours = {{"watch"}, {"follow"}, {"drive"}};
+  RecordedWayReader reader(
+      run.recording, {"", "", {"robot.sensor", "robot.control", "robot.motor"}, {{"line", "motion"}}}, time);
+  for (const Recording::Entry& entry : run.recording.entries) reader.take(run.recording, entry);
+  return reader.finish();
+}
+
+TEST(RecordedWay, TheValueOfACommandIsFollowedBackToItsReading) {
+  WrittenRun run;
+  run.start().pass(100, 1).pass(140, 5).fire(165, 2, Step::skip, 1).end(165, 2).call(2, 170, 172);
+  const RecordedWay way = way_of(run, {ExplainedTime::Of::age, 140 * ms, 172 * ms});
+  ASSERT_EQ(way.hops.size(), 2U);
+  EXPECT_EQ(way.hops[0].channel, "line");
+  EXPECT_EQ(way.hops[0].from, "robot.sensor");
+  EXPECT_EQ(way.hops[0].to, "robot.control");
+  EXPECT_EQ(way.hops[0].written_ns, 142 * ms);
+  EXPECT_EQ(way.hops[0].read_ns, 145 * ms);
+  EXPECT_EQ(way.hops[1].written_ns, 152 * ms);
+  EXPECT_EQ(way.hops[1].read_ns, 155 * ms);
+  std::vector<std::string> calls;
+  for (const RecordedWay::Call& call : way.calls) {
+    calls.push_back(call.subsystem + "." + call.behaviour + " " + std::to_string(call.begin_ns / ms));
+    EXPECT_EQ(call.end_ns - call.begin_ns, 2 * ms);
+  }
+  EXPECT_THAT(calls, testing::ElementsAre("robot.sensor.watch 140", "robot.control.follow 150",
+                                          "robot.motor.drive 160", "robot.motor.drive 170"));
+}
+
+TEST(RecordedWay, AReactionGoesOverALaterReading) {
+  WrittenRun run;
+  run.start().pass(100, 1).pass(140, 5);
+  const RecordedWay way = way_of(run, {ExplainedTime::Of::reaction, 100 * ms, 162 * ms});
+  ASSERT_EQ(way.hops.size(), 2U);
+  EXPECT_EQ(way.hops[0].written_ns, 142 * ms);
+  EXPECT_EQ(way.calls.front().begin_ns, 100 * ms);
+}
+
+TEST(RecordedWay, LostEventsLeaveOnlyTheCalls) {
+  WrittenRun run;
+  run.start().pass(100, 1).lose(1).move(125, 2, 1, 7).end(125, 2).call(2, 150, 152);
+  const RecordedWay way = way_of(run, {ExplainedTime::Of::age, 90 * ms, 152 * ms});
+  EXPECT_TRUE(way.hops.empty());
+  EXPECT_FALSE(way.calls.empty());
 }
 
 }  // namespace

@@ -55,5 +55,24 @@ TEST(CallDurations, LeaveOutCallsThatFailedAndThoseOfWhichEventsAreLost) {
   EXPECT_EQ(go.failed, 1U);
 }
 
+TEST(CallDurations, HoldCallsOfWhichOvertimeIsOnlyTold) {
+  for (const bool told : {true, false}) {
+    Constructed run = control();
+    run.call(1.0, 0).log(1.2, 0, 0, "overtime").fire(1.25, 0, "go.t1");
+    Recording recording = with_sequence(run.recording);
+    for (Recording::Entry& entry : recording.entries)
+      if (entry.text == "overtime") {
+        entry.event.origin = static_cast<std::uint32_t>(Event::Kind::fault);
+        entry.event.version = static_cast<std::uint32_t>(Fault::overtime) | (told ? told_fault : 0U);
+        EXPECT_EQ(entry.event.fault(), Fault::overtime);
+        EXPECT_EQ(entry.event.is_told_fault(), told);
+      }
+    DurationsOfBehaviours all;
+    add_durations(recording, all);
+    EXPECT_EQ(all.at({"robot.control", "go"}).count, told ? 1U : 0U);
+    EXPECT_EQ(all.at({"robot.control", "go"}).failed, told ? 0U : 1U);
+  }
+}
+
 }  // namespace
 }  // namespace tessera::replay

@@ -29,8 +29,7 @@ using Recorded = std::tuple<Duration, Fault, std::string>;
   EXPECT_TRUE(recording) << error;
   std::vector<Recorded> faults;
   for (const auto& [event, text] : recording->entries)
-    if (event.kind() == Event::Kind::fault)
-      faults.emplace_back(Duration(event.time_ns), static_cast<Fault>(event.version), text);
+    if (event.kind() == Event::Kind::fault) faults.emplace_back(Duration(event.time_ns), event.fault(), text);
   return faults;
 }
 

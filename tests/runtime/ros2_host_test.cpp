@@ -105,6 +105,11 @@ TEST(ShownInRos2, StatusesTellOfFaultsNewOverrunsWaitsAndStops) {
   EXPECT_EQ(shown[0].message, "follow");
   EXPECT_EQ(shown[1].level, ok);
   EXPECT_EQ(shown[1].message, "waits for robot.control (2.0 s)");
+  snapshot.subsystems[1].slow_calls = 2;
+  snapshot.subsystems[1].late_wakeups = 1;
+  shown = statuses.of(snapshot);
+  EXPECT_EQ(shown[1].level, warn);
+  EXPECT_EQ(shown[1].message, "overtime: 3 new");
   snapshot.subsystems[0].errors = 1;
   snapshot.subsystems[1].ended = true;
   shown = statuses.of(snapshot);

@@ -182,6 +182,7 @@ const System& TestSystem::system() {
   system_ = {tables_version, "test",      "",       "verification", {},         instances_,  channels_,
              &system_page,   &agent_page, drivers_, drivers_,       processes_, process_of_, 0,
              liveliness_};
+  system_.latency = latency;
   hash_ = net_of(system_).hash();
   system_.net_hash = hash_;
   return system_;

@@ -78,6 +78,7 @@ class TestSystem {
   [[nodiscard]] const System& system();
 
   Devices devices;
+  Duration latency{0};
   std::vector<DriverOption> panel;  ///< before `add`: its receptors are panels with these options
 
  private:

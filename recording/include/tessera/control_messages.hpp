@@ -27,6 +27,9 @@ struct Snapshot {
     bool calling = false, ended = false;
     std::uint64_t iterations = 0, firings = 0, overruns = 0, errors = 0;
     double period_s = 0, called_at_s = 0, call_s = 0, longest_call_s = 0;
+    /// Calls that took longer than declared, and how often its thread went on later than the latency allows.
+    std::uint64_t slow_calls = 0, late_wakeups = 0;
+    double latest_wakeup_s = 0;       ///< the most time until it went on after it might
     std::vector<MemoryField> memory;  ///< at the end of its last iteration
   };
   struct Channel {

@@ -128,8 +128,18 @@ struct RunSummary {
   struct PerSubsystem {
     std::string path;
     std::uint64_t iterations = 0, overruns = 0, errors = 0;
+    std::uint64_t slow_calls = 0, late_wakeups = 0;  ///< longer than `takes`, later than `latency`
+    Duration latest_wakeup{0};  ///< the most time until its thread went on after it might
   };
   std::vector<PerSubsystem> subsystems;
+  /// A behaviour with calls that took longer than declared.
+  struct SlowCalls {
+    std::string behaviour;  ///< "robot.control.follow"
+    std::uint64_t calls = 0, slow = 0;
+    Duration declared{0}, longest{0};
+    Time longest_at{};  ///< when that one began
+  };
+  std::vector<SlowCalls> overtime;
   struct PlantedFault {
     std::string text;  ///< as RunOptions::inject
     bool happened = false;

@@ -2,7 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cstdint>
 #include <map>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "assembly/network_assembly.hpp"
 #include "assembly/planted_faults.hpp"
 #include "assembly/recording_setup.hpp"
+#include "assembly/shared_processors.hpp"
 #include "drivers/recorded_inputs.hpp"
 #include "drivers/substitutes.hpp"
 #include "parameters/parameters.hpp"
@@ -72,15 +72,15 @@ class Assembler {
   }
 
   bool bind() {
-    for (std::uint32_t index = 0; index < system_.instances.size(); ++index)
-      bind(parts_.emplace_back(), index);
+    for (std::uint32_t at = 0; at < system_.instances.size(); ++at) bind(parts_.emplace_back(), at);
+    if (!clock_.simulated()) find_shared_processors(parts_);
     return true;
   }
 
   void bind(SubsystemParts& parts, std::uint32_t index) {
     const Instance& instance = system_.instances[index];
     parts.path = path_of(instance);
-    parts.instance = &instance, parts.index = index;
+    parts.instance = &instance, parts.index = index, parts.latency = system_.latency;
     parts.times = CallTimes(assembly_.options.seed, parts.path);
     parts.subsystem = instance.make();
     if (Substitutes* const of_test = assembly_.options.substitutes; of_test != nullptr)

@@ -200,8 +200,15 @@ template <class Run>
   for (const auto& executor : assembly.executors) {
     const Operations& operations = executor->operations();
     summary.firings += executor->firings();
-    summary.subsystems.push_back(
-        {executor->path(), operations.iterations(), executor->overruns(), operations.errors()});
+    const Overtimes& times = operations.overtimes();
+    summary.subsystems.push_back({executor->path(), operations.iterations(), executor->overruns(),
+                                  operations.errors(), times.slow_calls(), times.late_wakeups(),
+                                  times.latest_wakeup()});
+    const std::span<const Behaviour> behaviours = operations.parts().instance->net->behaviours;
+    for (std::size_t at = 0; at < behaviours.size(); ++at)
+      if (const Overtimes::OfBehaviour& one = times.behaviours()[at]; one.slow > 0)
+        summary.overtime.push_back({fmt::format("{}.{}", executor->path(), behaviours[at].name), one.calls,
+                                    one.slow, one.declared, one.longest, one.longest_at});
   }
   for (const std::string& device : unsafe)
     if (lane != nullptr)

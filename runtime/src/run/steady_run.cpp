@@ -81,6 +81,7 @@ void SteadyRun::run_subsystem(SubsystemExecutor& executor, std::uint32_t instanc
     prctl(PR_SET_TIMERSLACK, 1UL);
     const Instance& its = *executor.operations().parts().instance;
     if (const auto denied = schedule_this_thread(its.policies.realtime)) deny(*denied);
+    executor.enter_thread();
     step_until_end(executor, wake_words_[instance], control);
   });
   leaving.orderly = true;
@@ -97,22 +98,27 @@ void SteadyRun::step_until_end(SubsystemExecutor& executor, WakeWord& wakes,
     const SubsystemExecutor::Progress progress = executor.step();
     if (progress.state == SubsystemExecutor::State::ready) continue;
     if (progress.state != SubsystemExecutor::State::waiting) break;
-    sleep(executor, wakes, ticket, progress, control);
+    const std::uint32_t changes = clock_.changes();
+    const std::int64_t might_ns = sleep(executor, wakes, ticket, progress, control);
+    if (might_ns >= 0 && changes == clock_.changes() && !control.paused() && !control.stopping())
+      executor.note_wakeup(Duration(std::max<std::int64_t>(monotonic_ns() - might_ns, 0)));
   }
 }
 
 /// Sleeps until there may be work. Heartbeats are not part of the net: a subsystem that only sends heartbeats
-/// is at rest (Stillness).
-void SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
-                      const SubsystemExecutor::Progress& progress, const RunControl& control) const {
+/// is at rest (Stillness). Returns the moment of CLOCK_MONOTONIC at which the thread might go on; negative: it did not
+/// sleep, or that is not known.
+std::int64_t SteadyRun::sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
+                              const SubsystemExecutor::Progress& progress, const RunControl& control) const {
   const auto limit = [&](Time time) { return time == Time::max() ? -1 : clock_.absolute_ns(time); };
   if (progress.deadline != Time::max() || progress.beat == Time::max())
     return wakes.sleep(ticket, limit(std::min(progress.deadline, progress.beat)));
   Time beat = progress.beat;
   for (bool again = false; !wakes.rest_until(ticket, limit(beat), again); again = true) {
-    if (control.paused()) return;
+    if (control.paused()) return -1;
     beat = executor.beat(clock_.now());
   }
+  return -1;
 }
 
 /// One warning per run, because a thousand threads may be denied the same.

@@ -45,8 +45,8 @@ class SteadyRun final : public Waker {
 
  private:
   void run_subsystem(SubsystemExecutor& executor, std::uint32_t instance, RunControl& control);
-  void sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
-             const SubsystemExecutor::Progress& progress, const RunControl& control) const;
+  std::int64_t sleep(SubsystemExecutor& executor, WakeWord& wakes, std::uint32_t ticket,
+                     const SubsystemExecutor::Progress& progress, const RunControl& control) const;
   void step_until_end(SubsystemExecutor& executor, WakeWord& wakes, const RunControl& control) const;
   void run_world(Assembly& assembly);
   void run_links(Assembly& assembly);

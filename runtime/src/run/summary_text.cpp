@@ -37,7 +37,17 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
     json["subsystems"].push_back({{"path", subsystem.path},
                                   {"iterations", subsystem.iterations},
                                   {"overruns", subsystem.overruns},
-                                  {"errors", subsystem.errors}});
+                                  {"errors", subsystem.errors},
+                                  {"slow_calls", subsystem.slow_calls},
+                                  {"late_wakeups", subsystem.late_wakeups},
+                                  {"latest_wakeup_s", seconds(subsystem.latest_wakeup)}});
+  for (const RunSummary::SlowCalls& one : summary.overtime)
+    json["overtime"].push_back({{"behaviour", one.behaviour},
+                                {"calls", one.calls},
+                                {"slow", one.slow},
+                                {"declared_ns", one.declared.count()},
+                                {"longest_ns", one.longest.count()},
+                                {"longest_at_ns", one.longest_at.time_since_epoch().count()}});
   return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + '\n';
 }
 

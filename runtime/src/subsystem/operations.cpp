@@ -33,12 +33,14 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
     : parts_(std::move(parts)),
       context_(parts_.subsystem->context()),
       control_(control),
+      clock_(clock),
       lane_(lane),
       reports_(parts_, control, clock, lane),
       channels_(parts_, control),
       devices_(parts_, channels_, reports_, control, clock, lane),
       written_(parts_),
-      goals_(parts_, reports_) {
+      goals_(parts_, reports_),
+      overtimes_(*parts_.instance, parts_.latency, parts_.processor) {
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
@@ -126,6 +128,7 @@ void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t mis
   take_changes(now);
   behaviour_ = behaviour;
   called_at_ = now;
+  overtimes_.begin_call(now);
   failed_ = false;
   ++calls_;
   channels_.await_inputs(behaviour);
@@ -206,10 +209,14 @@ void Operations::finish_call(Time now) {
   devices_.beat(now, place_of_call(behaviour_));
   check_watchdog(now);
   check_outputs();
-  if (!devices_.none() && !failed_)
+  if (overtimes_.fail()) check_overtime(now);  // the devices get no command then
+  if (!devices_.none() && !failed_) {
     static_cast<void>(
         survives(Fault::device, behaviour_, "writing a real effector: ", [&] { send_commands(now); }));
+    if (overtimes_.fail()) check_overtime(clock_.now());
+  }
   if (parts_.values != nullptr) parts_.values->results(now);
+  if (overtimes_.judge_calls()) tell_overtime(clock_.now());
 }
 
 void Operations::send_commands(Time now) {

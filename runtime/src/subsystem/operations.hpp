@@ -26,7 +26,7 @@ namespace tessera {
 /// code. It does not know the net.
 ///
 /// *Failure.* An iteration fails when user code throws, a device fails, an output is not finite, or the
-/// transition function takes longer than the watchdog allows. The outputs then become those of the iteration
+/// transition function takes longer than the watchdog, or than `takes` with Overtime::fault, allows. The outputs then become those of the iteration
 /// before, and are sent marked as invalid until an iteration succeeds. So is an output that was never written
 /// (WrittenOutputs). An effector gets its safe command at once. The outcome is error, whatever the conditions say.
 ///
@@ -70,6 +70,12 @@ class Operations final : public ContextServices {
   /// Whether this iteration sends over the port what it may skip.
   [[nodiscard]] bool sends(std::uint16_t behaviour, std::uint16_t port, Time now);
 
+  // Times that the specification declares.
+  /// The thread of the subsystem has gone on so long after it might. place: where its token is.
+  void note_wakeup(Duration late, std::string_view place);
+  [[nodiscard]] Overtimes& overtimes() { return overtimes_; }
+  [[nodiscard]] const Overtimes& overtimes() const { return overtimes_; }
+
   [[nodiscard]] bool has_failed() const { return failed_; }
   /// Marks the last transition function as failed, for the reason that it had in a recorded run.
   void fail_as_recorded(Fault fault, std::string_view what) { fail(fault, behaviour_, what); }
@@ -110,6 +116,8 @@ class Operations final : public ContextServices {
   void send_commands(Time now);
   void fail_late(std::uint64_t missed);
   void check_watchdog(Time now);
+  void check_overtime(Time now);
+  void tell_overtime(Time now);
   void check_outputs();
   void check_skips(std::uint16_t behaviour);
   void refresh_ages(Time now);
@@ -122,12 +130,14 @@ class Operations final : public ContextServices {
   SubsystemParts parts_;
   Context& context_;
   RunControl& control_;
+  const Clock& clock_;
   RecordingLane* lane_;
   Reports reports_;
   ChannelValues channels_;
   DeviceCommands devices_;
   WrittenOutputs written_;
   Goals goals_;
+  Overtimes overtimes_;
   struct KeptCell {
     const Bindings::KeptCell* cell = nullptr;  // nullptr: the fact is no memory
     std::uint16_t value = 0;

@@ -1,8 +1,13 @@
 // How a subsystem calls its transition functions: when, and the reaction if one does not return in time.
 
+#include <fmt/format.h>
+
 #include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstdint>
+#include <optional>
+#include <string_view>
 #include <utility>
 
 #include "subsystem/subsystem_executor.hpp"
@@ -53,13 +58,21 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     }
     return true;
   }
-  if (watched_ || !operations_.devices().none()) renew_time();
+  if (watched_ || !operations_.devices().none() || operations_.overtimes().fail()) renew_time();
   operations_.finish_call(now_);
   gauges_.end_call(now_);
   if (watchdog > Duration::zero()) end_alarm();
   show();
   token.phase = Phase::finished;
   return true;
+}
+
+void SubsystemExecutor::note_wakeup(Duration late) {
+  if (marked_.empty()) return;
+  operations_.note_wakeup(late, name_of(marked_.front()));
+  const Overtimes& overtimes = operations_.overtimes();
+  gauges_.late_wakeups.store(overtimes.late_wakeups(), std::memory_order_relaxed);
+  gauges_.latest_wakeup_ns.store(overtimes.latest_wakeup().count(), std::memory_order_relaxed);
 }
 
 bool SubsystemExecutor::mark_alarm(std::int64_t since_ns) {
@@ -92,7 +105,62 @@ void SubsystemExecutor::show() {
   gauges_.errors.store(operations_.errors(), std::memory_order_relaxed);
   gauges_.firings.store(firings_, std::memory_order_relaxed);
   gauges_.overruns.store(overruns(), std::memory_order_relaxed);
+  gauges_.slow_calls.store(operations_.overtimes().slow_calls(), std::memory_order_relaxed);
   if (memory_ != nullptr) memory_->show();
+}
+
+// -------------------------------------------------------------------------------------------- overtime
+
+namespace {
+
+/// The beginning of a message, in its room.
+class OvertimeText {
+ public:
+  OvertimeText(bool of_call, const Overtimes::Finding& found) {
+    const double took_ms = seconds(found.took) * 1e3, allowed_ms = seconds(found.allowed) * 1e3;
+    if (of_call)
+      put("took {:.6g} ms, longer than its takes of {:.6g} ms", took_ms, allowed_ms);
+    else
+      put("its thread went on {:.6g} ms late, and latency is {:.6g} ms", took_ms, allowed_ms);
+  }
+  [[nodiscard]] std::string_view numbered(std::uint64_t number) {
+    if (number > 1) put("; it is the {}th time", number);
+    return get();
+  }
+  [[nodiscard]] std::string_view get() const { return {room_.data(), size_}; }
+
+ private:
+  template <class... Values>
+  void put(fmt::format_string<const Values&...> text, const Values&... values) {
+    const std::size_t left = room_.size() - size_;
+    size_ += std::min(left, fmt::format_to_n(room_.data() + size_, left, text, values...).size);
+  }
+  std::array<char, 192> room_;
+  std::size_t size_ = 0;
+};
+
+}  // namespace
+
+/// With Overtime::fault the call fails.
+void Operations::check_overtime(Time now) {
+  if (failed_) return;
+  const std::optional<Overtimes::Finding> slow = overtimes_.over(behaviour_, now);
+  const std::optional<Overtimes::Finding> found = slow ? slow : overtimes_.take_late();
+  if (found) fail(Fault::overtime, behaviour_, OvertimeText(slow.has_value(), *found).get());
+}
+
+/// Counts the call. Unless it has failed for it, overtime is told, and nothing else happens.
+void Operations::tell_overtime(Time now) {
+  const std::optional<Overtimes::Finding> found = overtimes_.end_call(behaviour_, now);
+  if (!found || (overtimes_.fail() && failed_) || !Overtimes::is_told(found->number)) return;
+  reports_.tell(Fault::overtime, place_of_call(behaviour_),
+                OvertimeText(true, *found).numbered(found->number), lane_);
+}
+
+void Operations::note_wakeup(Duration late, std::string_view place) {
+  const std::optional<Overtimes::Finding> found = overtimes_.wake_up(late);
+  if (!found || !Overtimes::is_told(found->number)) return;
+  reports_.tell(Fault::overtime, place, OvertimeText(false, *found).numbered(found->number), lane_);
 }
 
 }  // namespace tessera

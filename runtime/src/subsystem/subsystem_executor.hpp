@@ -84,6 +84,10 @@ class SubsystemExecutor {
   /// Reports this. Threads: any, with a lane of its own.
   void tell_alarm(RecordingLane* lane) const;
 
+  /// Its thread has gone on so long after it might. Threads: as `step`.
+  void note_wakeup(Duration late);
+  void enter_thread() { operations_.overtimes().enter_thread(); }
+
   /// Gives the safe command if there is a reason for it now. Threads: as `step`.
   void guard() {
     if (!marked_.empty()) operations_.devices().guard(clock_.now(), name_of(marked_.front()));

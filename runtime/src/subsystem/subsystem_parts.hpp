@@ -14,6 +14,7 @@
 #include "recorder/value_recorder.hpp"
 #include "subsystem/call_times.hpp"
 #include "subsystem/injection.hpp"
+#include "subsystem/overtimes.hpp"
 #include "tessera/device.hpp"
 #include "tessera/ids.hpp"
 #include "tessera/subsystem.hpp"
@@ -37,7 +38,9 @@ struct SubsystemParts {
   std::string path;
   std::uint32_t index = 0;  ///< into System::instances
   const Instance* instance = nullptr;
-  CallTimes times{};  ///< in simulated time
+  CallTimes times{};            ///< in simulated time
+  Duration latency{0};          ///< as System
+  SharedProcessor processor{};  ///< in real time
   std::unique_ptr<Subsystem> subsystem;
   Bindings bindings;
   std::vector<std::unique_ptr<RealReceptor>> receptors;  ///< as Bindings::real_inputs

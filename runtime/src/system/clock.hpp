@@ -60,6 +60,8 @@ class SteadyClock final : public Clock {
     frozen_ns_ = -1;
     ++changes_;
   }
+  /// Another number after it was frozen or went on. Threads: any.
+  [[nodiscard]] std::uint32_t changes() const { return changes_.load(std::memory_order_relaxed); }
   /// As counted by CLOCK_MONOTONIC.
   [[nodiscard]] std::int64_t absolute_ns(Time time) const {
     return start_ns_.load(std::memory_order_relaxed) + time.time_since_epoch().count();

@@ -5,6 +5,8 @@
 #include <time.h>
 #include <unistd.h>
 
+#include <algorithm>
+
 namespace tessera {
 
 std::int64_t monotonic_ns() {
@@ -16,6 +18,9 @@ std::int64_t monotonic_ns() {
 void WakeWord::wake() {
   // A sleeper that looks for work later reads this exchange first, and with it the
   // changes that caused the wake-up.
+  // Stored before: the sleeper reads it after the exchange. If two wake it, the second may store a later moment.
+  if (state_.load(std::memory_order_relaxed) >= asleep)
+    woken_ns_.store(monotonic_ns(), std::memory_order_relaxed);
   if (state_.exchange(woken, std::memory_order_acq_rel) < asleep) return;
   syscall(SYS_futex, &state_, FUTEX_WAKE_PRIVATE, 1, nullptr, nullptr, 0);
 }
@@ -35,11 +40,15 @@ void wait_while(std::atomic<std::uint32_t>& word, std::uint32_t expected, std::i
 
 }  // namespace
 
-void WakeWord::sleep(std::uint32_t ticket, std::int64_t until_ns) {
+std::int64_t WakeWord::sleep(std::uint32_t ticket, std::int64_t until_ns) {
   const std::uint32_t how = until_ns < 0 ? at_rest : asleep;
   if (how == at_rest) rests_.store(rests_.load(std::memory_order_relaxed) + 1, std::memory_order_relaxed);
-  if (!state_.compare_exchange_strong(ticket, how, std::memory_order_acq_rel)) return;  // woken meanwhile
+  if (!state_.compare_exchange_strong(ticket, how, std::memory_order_acq_rel)) return -1;  // woken meanwhile
   wait_while(state_, how, until_ns);  // whatever ends the wait, the caller checks its net again
+  const bool is_woken = state_.load(std::memory_order_acquire) == woken;
+  const std::int64_t woken_ns = is_woken ? woken_ns_.load(std::memory_order_relaxed) : -1;
+  if (until_ns < 0 || until_ns > monotonic_ns()) return woken_ns;
+  return is_woken ? std::min(woken_ns, until_ns) : until_ns;
 }
 
 bool WakeWord::rest_until(std::uint32_t ticket, std::int64_t until_ns, bool again) {

@@ -28,8 +28,9 @@ class alignas(64) WakeWord {
   }
   /// Threads: any. Makes a system call only if a thread sleeps.
   void wake();
-  /// Sleeps until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit).
-  void sleep(std::uint32_t ticket, std::int64_t until_ns);
+  /// Sleeps until woken since `ticket`, or until CLOCK_MONOTONIC shows `until_ns` (negative: no limit). Returns the
+  /// moment at which it might go on: the earlier of the two; negative: it did not sleep, or neither has come.
+  std::int64_t sleep(std::uint32_t ticket, std::int64_t until_ns);
   /// Observers (`rest`) see it as a sleep without a limit, but it returns at `until_ns` so that the
   /// sleeper can do work outside the net. again: continues the previous call, which was not woken.
   /// Returns whether it was woken.
@@ -40,7 +41,8 @@ class alignas(64) WakeWord {
  private:
   static constexpr std::uint32_t awake = 0, woken = 1, asleep = 2, at_rest = 3;
   std::atomic<std::uint32_t> state_{awake};
-  std::atomic<std::uint64_t> rests_{0};  // written by the sleeper
+  std::atomic<std::uint64_t> rests_{0};    // written by the sleeper
+  std::atomic<std::int64_t> woken_ns_{0};  // when a sleeper was woken last
 };
 
 /// CLOCK_MONOTONIC in nanoseconds.

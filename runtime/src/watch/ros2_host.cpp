@@ -40,6 +40,9 @@ std::vector<Ros2Status> Ros2Statuses::of(const Snapshot& snapshot) {
       worsen(status, Level::warn,
              fmt::format("{} new overrun{}", one.overruns - before, one.overruns - before == 1 ? "" : "s"));
     overruns_[one.path] = one.overruns;
+    const std::uint64_t overtimes = one.slow_calls + one.late_wakeups;
+    if (const std::uint64_t before = std::exchange(overtimes_[one.path], overtimes); overtimes > before)
+      worsen(status, Level::warn, fmt::format("overtime: {} new", overtimes - before));
     for (const Snapshot::Wait& wait : snapshot.waits)  // may be what it should do
       if (wait.subsystem == one.path)
         worsen(status, Level::ok,

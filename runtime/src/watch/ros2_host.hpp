@@ -16,7 +16,7 @@
 
 namespace tessera {
 
-/// The states of the subsystems, as diagnostics show them. A warning about overruns ends when there is no new one.
+/// The states of the subsystems, as diagnostics show them. A warning about overruns or overtime ends when there is no new one.
 ///
 /// Threads: one at a time.
 class Ros2Statuses {
@@ -24,7 +24,7 @@ class Ros2Statuses {
   [[nodiscard]] std::vector<Ros2Status> of(const Snapshot& snapshot);
 
  private:
-  std::map<std::string, std::uint64_t> overruns_;  ///< in the last snapshot
+  std::map<std::string, std::uint64_t> overruns_, overtimes_;  ///< in the last snapshot
 };
 
 /// The verdicts about the net that runs, as diagnostics show them for an agent. The controller has those of its own

@@ -37,6 +37,9 @@ namespace {
   shown.called_at_s = seconds_of(load(gauges.called_at_ns));
   shown.call_s = seconds_of(load(gauges.call_ns));
   shown.longest_call_s = seconds_of(load(gauges.longest_call_ns));
+  shown.slow_calls = load(gauges.slow_calls);
+  shown.late_wakeups = load(gauges.late_wakeups);
+  shown.latest_wakeup_s = seconds_of(load(gauges.latest_wakeup_ns));
   if (called) shown.behaviour = tables.net->behaviours[load(gauges.behaviour)].name;
   if (executor.memory() != nullptr) shown.memory = executor.memory()->read();
   return shown;

@@ -95,6 +95,9 @@ void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& ou
       out.error("E110", overrun->span, "'overrun' belongs to subsystems with a rate",
                 "without one there is no instant to miss");
   }
+  if (const Entry* overtime = section.find("overtime"))
+    subsystem.overtime =
+        static_cast<Overtime>(read_choice(*overtime, {overtime_names.begin(), overtime_names.end()}, out));
   if (const Entry* receive = section.find("receive")) read_receive(section, *receive, subsystem, out);
   if (const Entry* watchdog = section.find("watchdog"))
     subsystem.watchdog = read_duration(*watchdog->value, watchdog->span, "watchdog", out);
@@ -103,6 +106,14 @@ void read_policies(const Section& section, Subsystem& subsystem, Diagnostics& ou
   if (const Entry* non_finite = section.find("non_finite"))
     subsystem.non_finite_allowed = read_choice(*non_finite, {"fault", "allowed"}, out) == 1;
   if (const Entry* realtime = section.find("realtime")) subsystem.realtime = read_realtime(*realtime, out);
+}
+
+void check_overtime(const Section& section, const Subsystem& subsystem, Diagnostics& out) {
+  const Entry* const overtime = section.find("overtime");
+  const auto declares = [](const Behaviour& behaviour) { return behaviour.takes.is_declared(); };
+  if (overtime != nullptr && std::ranges::none_of(subsystem.behaviours, declares))
+    out.error("E110", overtime->span, "'overtime' belongs to subsystems with a behaviour that has `takes`",
+              "without it no call is too long: behaviours: { run: { takes: 1..3 ms } }");
 }
 
 }  // namespace tessera::spec

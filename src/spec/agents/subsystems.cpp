@@ -186,9 +186,9 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
                          Diagnostics& out) {
   const Section section(
       *entry.value, entry.span, "a subsystem",
-      {"rate",    "inputs",   "outputs",    "memory",   "parameters", "start",   "behaviours",
-       "real",    "safe",     "limits",     "stale",    "recovery",   "overrun", "send",
-       "receive", "on_error", "conditions", "watchdog", "non_finite", "realtime"},
+      {"rate", "inputs",  "outputs",  "memory",     "parameters", "start",      "behaviours",
+       "real", "safe",    "limits",   "stale",      "recovery",   "overrun",    "overtime",
+       "send", "receive", "on_error", "conditions", "watchdog",   "non_finite", "realtime"},
       out);
   check_kind(section, kind, out);
   Subsystem subsystem;
@@ -227,6 +227,7 @@ Subsystem read_subsystem(const Entry& entry, SubsystemKind kind, const SystemSco
     const std::size_t errors = out.error_count();
     ReadBehaviours read = read_behaviours(*behaviours, scope, defaults, around.fleets, around.groups, out);
     subsystem.behaviours = std::move(read.behaviours);
+    check_overtime(section, subsystem, out);
     // A list or name with a mistake may have been meant to use a default.
     if (out.error_count() == errors) check_used(defaults, out);
     read_failures(section, around, subsystem, read.on_error, out);

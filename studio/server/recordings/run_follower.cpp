@@ -43,7 +43,10 @@ void add_subsystems(const Snapshot& snapshot, json& event) {
                                    {"period_s", one.period_s},
                                    {"called_at_s", one.called_at_s},
                                    {"call_s", one.call_s},
-                                   {"longest_call_s", one.longest_call_s}});
+                                   {"longest_call_s", one.longest_call_s},
+                                   {"slow_calls", one.slow_calls},
+                                   {"late_wakeups", one.late_wakeups},
+                                   {"latest_wakeup_s", one.latest_wakeup_s}});
   for (const Snapshot::Channel& one : snapshot.channels)
     event["channels"].push_back({{"name", one.name}, {"marked", one.marked}});
 }

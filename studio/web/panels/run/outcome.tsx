@@ -1,10 +1,12 @@
-import type { CheckOutcome, MeasureOutcome, Outcome } from "../../model/protocol";
+import type { CheckOutcome, MeasureOutcome, Outcome, SlowCalls } from "../../model/protocol";
 
 const count = (many: number) => many.toLocaleString("en");
+const ms = (ns: number) => `${(ns * 1e-6).toFixed(3)} ms`;
 
 /** The result of a run that has ended. */
 export function OutcomeOf({ outcome }: { outcome: Outcome }) {
-  const { simulated_s, wall_s, real_time_factor, firings, lost_events, warnings, subsystems, checks, measures } = outcome;
+  const { simulated_s, wall_s, real_time_factor, firings, lost_events, warnings, subsystems, overtime, checks, measures } =
+    outcome;
   return (
     <>
       <h3>Outcome</h3>
@@ -18,6 +20,7 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
           {warning}
         </p>
       ))}
+      <OvertimeOf overtime={overtime ?? []} subsystems={subsystems} />
       {checks && checks.length > 0 && <ChecksOf checks={checks} />}
       {measures && Object.keys(measures).length > 0 && <MeasuresOf measures={measures} />}
       <table className="outcome">
@@ -42,6 +45,29 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
           ))}
         </tbody>
       </table>
+    </>
+  );
+}
+
+/** Calls that took longer than declared, and the thread that went on latest. */
+function OvertimeOf({ overtime, subsystems }: { overtime: readonly SlowCalls[]; subsystems: Outcome["subsystems"] }) {
+  const late = subsystems.reduce((sum, one) => sum + (one.late_wakeups ?? 0), 0);
+  const latest = subsystems.reduce((most, one) => Math.max(most, one.latest_wakeup_s ?? 0), 0);
+  const who = subsystems.find((one) => one.latest_wakeup_s === latest)?.path;
+  return (
+    <>
+      {overtime.map(({ behaviour, calls, slow, declared_ns, longest_ns, longest_at_ns }) => (
+        <p key={behaviour} className="problem-hint">
+          {behaviour}: {count(slow)} of {count(calls)} calls took longer than its takes of {ms(declared_ns)}; the longest took{" "}
+          {ms(longest_ns)}, at {(longest_at_ns * 1e-9).toFixed(3)} s
+        </p>
+      ))}
+      {latest > 0 && (
+        <p className={late > 0 ? "problem-hint" : "faint"}>
+          Threads went on at most {ms(latest * 1e9)} late ({who})
+          {late > 0 && `; later than the latency: ${count(late)} ${late === 1 ? "time" : "times"}`}
+        </p>
+      )}
     </>
   );
 }

@@ -121,9 +121,6 @@ TEST(Completion, ChainsOfTiming) {
   EXPECT_THAT(proposed(chains + "    - { path: [boss.sensor, boss.control.‸] }"),
               IsSupersetOf({"line", "motion"}));
   EXPECT_THAT(proposed(chains + "    - { age: ‸ }"), Contains("200 ms"));
-  const std::string foreign = chains + "    - { path: [boss.sensor, { node: planner, ";
-  EXPECT_THAT(proposed(foreign + "‸ }] }"), ElementsAre("takes"));
-  EXPECT_THAT(proposed(foreign + "takes: ‸ }] }"), Not(Contains("boss.sensor")));
 }
 
 TEST(Completion, NamesThatAreStillEmptyAreNotOffered) {

@@ -4,10 +4,12 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "cli/timing/conduct_texts.hpp"
 #include "cli/timing/time_texts.hpp"
+#include "timing/conduct/drift.hpp"
 #include "timing/words.hpp"
 
 namespace tessera::cli {
@@ -83,6 +85,25 @@ nlohmann::json chain_json(const timing::DeclaredChain& chain, const timing::Chai
   return one;
 }
 
+std::string rate_text(timing::Time period) {
+  return fmt::format("{:.6g} Hz", 1e9 / static_cast<double>(period));
+}
+
+/// The rate because of which the bounds of a chain are sums.
+std::string drift_text(const timing::Drift& drift, const spec::Model& model) {
+  std::string better;
+  for (const timing::Time period : drift.better)
+    better += (better.empty() ? "; it would with " : " or ") + rate_text(period);
+  return fmt::format("its bounds are sums: the period of {} ({}, {}) does not go into those of the others{}",
+                     model.instance_path(spec::InstanceId{drift.subsystem}), least_time_text(drift.period),
+                     rate_text(drift.period), better);
+}
+std::optional<timing::Drift> drift_of(const timing::Bounds& bounds, const timing::DeclaredChain& chain) {
+  for (const timing::Chain& way : chain.ways)
+    if (const std::optional<timing::Drift> drift = timing::drift_of(bounds, way)) return drift;
+  return std::nullopt;
+}
+
 }  // namespace
 
 verify::Verdict overall(const timing::ChainVerdict& verdict) {
@@ -117,6 +138,11 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
     result.json.push_back(chain_json(chain, verdict));
     result.overall = worse_of(result.overall, overall(verdict));
     lines.add(chain.name, verdict_text(chain, verdict));
+    if (!verdict.why.empty()) continue;
+    if (const std::optional<timing::Drift> drift = drift_of(bounds, chain)) {
+      lines.add(chain.name, drift_text(*drift, model));
+      result.json.back()["drifts"] = model.instance_path(spec::InstanceId{drift->subsystem});
+    }
   }
   const timing::Conduct conduct = timing::conduct_of(declared, bounds);
   VerdictLines notable, all;

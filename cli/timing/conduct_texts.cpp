@@ -10,7 +10,28 @@ namespace {
 using nlohmann::json;
 
 json time_json(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
-const char* fires_word(timing::Fires fires) { return fires == timing::Fires::never ? "never" : "may"; }
+const char* fires_word(timing::Fires fires) {
+  switch (fires) {
+    case timing::Fires::never:
+      return "never";
+    case timing::Fires::may:
+      return "may";
+    case timing::Fires::must:
+      return "must";
+  }
+  return "may";
+}
+const char* fires_text(timing::Fires fires) {
+  switch (fires) {
+    case timing::Fires::never:
+      return "never fires";
+    case timing::Fires::may:
+      return "may fire";
+    case timing::Fires::must:
+      return "fires in every run";
+  }
+  return "may fire";
+}
 std::string at_most_text(timing::Time time) {
   return time >= timing::unbounded ? "without a bound" : "at most " + time_text(time);
 }
@@ -53,20 +74,28 @@ class ConductWords {
   [[nodiscard]] ConductLine line(const timing::WaitVerdict& wait) const {
     const timing::Channel& ends = declared_.system.channels[wait.channel];
     const std::string other = path(wait.receives ? ends.from : ends.to);
-    std::string text = fmt::format("its {} waits {} for {} ({})", wait.receives ? "receive" : "send",
-                                   at_most_text(wait.longest), other, channel(wait.channel));
+    const char* const what = wait.receives ? "receive" : "send";
+    const std::string whom = fmt::format("for {} ({})", other, channel(wait.channel));
+    if (wait.fires == timing::Fires::must)
+      return {path(wait.subsystem),
+              fmt::format("the timeout of its {} {} fires in every run: again and again, the wait would last "
+                          "at least {}, and the timeout is {}",
+                          what, whom, least_time_text(wait.certain), time_text(wait.timeout)),
+              true};
+    std::string text = fmt::format("its {} waits {} {}", what, at_most_text(wait.longest), whom);
     if (wait.timeout > 0)
-      text += fmt::format(": its timeout of {} {}", time_text(wait.timeout),
-                          wait.fires == timing::Fires::never ? "never fires" : "may fire");
-    return {path(wait.subsystem), text, wait.timeout > 0 && wait.fires == timing::Fires::may};
+      text += fmt::format(": its timeout of {} {}", time_text(wait.timeout), fires_text(wait.fires));
+    return {path(wait.subsystem), text, wait.timeout > 0 && wait.fires != timing::Fires::never};
   }
 
   [[nodiscard]] ConductLine line(const timing::StaleVerdict& stale) const {
+    const bool must = stale.fires == timing::Fires::must;
     return {path(stale.subsystem),
-            fmt::format("the value of {} gets {} old: `stale` ({}) {}", channel(stale.channel),
-                        at_most_text(stale.oldest), time_text(stale.stale),
-                        stale.fires == timing::Fires::never ? "never fires" : "may fire"),
-            stale.fires == timing::Fires::may};
+            fmt::format("the value of {} gets {}: `stale` ({}) {}", channel(stale.channel),
+                        must ? fmt::format("at least {} old, again and again", least_time_text(stale.certain))
+                             : at_most_text(stale.oldest) + " old",
+                        time_text(stale.stale), fires_text(stale.fires)),
+            stale.fires != timing::Fires::never};
   }
 
  private:
@@ -113,7 +142,9 @@ json conduct_json(const timing::Conduct& conduct, const timing::Declared& declar
              {"channel", words.channel(wait.channel)},
              {"of", wait.receives ? "receive" : "send"},
              {"longest_ns", time_json(wait.longest)}};
-    if (wait.timeout > 0) one.update({{"timeout_ns", wait.timeout}, {"fires", fires_word(wait.fires)}});
+    if (wait.timeout > 0)
+      one.update(
+          {{"timeout_ns", wait.timeout}, {"fires", fires_word(wait.fires)}, {"certain_ns", wait.certain}});
     waits.push_back(std::move(one));
   }
   for (const timing::StaleVerdict& one : conduct.stale)
@@ -121,6 +152,7 @@ json conduct_json(const timing::Conduct& conduct, const timing::Declared& declar
                      {"channel", words.channel(one.channel)},
                      {"stale_ns", one.stale},
                      {"oldest_ns", time_json(one.oldest)},
+                     {"certain_ns", one.certain},
                      {"fires", fires_word(one.fires)}});
   return {{"rates", std::move(rates)}, {"waits", std::move(waits)}, {"stale", std::move(stale)}};
 }

@@ -4,7 +4,10 @@
 
 namespace tessera::cli {
 
-std::string time_text(timing::Time ns) {
+namespace {
+/// round: to a multiple of the step.
+template <class Round>
+std::string four_digits(timing::Time ns, Round round) {
   struct Unit {
     timing::Time ns;
     const char* name;
@@ -14,11 +17,14 @@ std::string time_text(timing::Time ns) {
       timing::Time step = unit.ns / 1000;
       while (ns / step >= 10'000) step *= 10;
       return fmt::format(
-          "{:g} {}", static_cast<double>(timing::ceil_div(ns, step) * step) / static_cast<double>(unit.ns),
-          unit.name);
+          "{:g} {}", static_cast<double>(round(ns, step) * step) / static_cast<double>(unit.ns), unit.name);
     }
   return fmt::format("{} ns", ns);
 }
+}  // namespace
+
+std::string time_text(timing::Time ns) { return four_digits(ns, timing::ceil_div); }
+std::string least_time_text(timing::Time ns) { return four_digits(ns, timing::floor_div); }
 
 std::string without_members(const std::string& name) {
   std::string result;

@@ -89,6 +89,10 @@ Time Bounds::staleness(std::uint32_t channel) const {
   return std::min(events_.staleness(channel), clocked_.staleness(channel));
 }
 
+Time Bounds::between_iterations(std::uint32_t subsystem) const {
+  return std::min(events_.gap(events_.events().start(subsystem)), clocked_.gap(subsystem));
+}
+
 /// As `add`, with absolute times, for each reading of the device until everything repeats.
 bool Bounds::enumerate(const Chain& chain, std::size_t hops, Numbers& numbers) const {
   const System& system = events_.system();

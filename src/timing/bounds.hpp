@@ -52,6 +52,7 @@ class Bounds {
   Bounds& operator=(const Bounds&) = delete;
 
   [[nodiscard]] const Occurrences& occurrences() const { return events_; }
+  [[nodiscard]] const Clocked& clocked() const { return clocked_; }
   /// Precondition: each channel of the chain ends where the next one begins.
   [[nodiscard]] ChainBound chain(const Chain& chain) const;
   /// Precondition: it has a bound.
@@ -60,6 +61,8 @@ class Bounds {
   [[nodiscard]] ChainBound sum(const Chain& chain) const;
   /// How long ago the value in an input may have been written, at any time after the first value.
   [[nodiscard]] Time staleness(std::uint32_t channel) const;
+  /// Most time between two iterations of a subsystem.
+  [[nodiscard]] Time between_iterations(std::uint32_t subsystem) const;
 
  private:
   /// The writes of a value and of its successor by the last subsystem so far, at the latest.

@@ -112,6 +112,17 @@ bool Clocked::drive(std::uint32_t subsystem) {
   return true;
 }
 
+/// The iteration after that of a value uses the next value, or a newer one.
+Time Clocked::gap(std::uint32_t subsystem) const {
+  const One& one = all_[subsystem];
+  if (!one.known) return unbounded;
+  if (!one.driver) return bounds_.system().subsystems[subsystem].period;
+  Time most = 0;
+  for (std::size_t k = 0; k + 1 < one.start.size(); ++k)
+    most = std::max(most, one.start[k + 1] - one.earliest[k]);
+  return most;
+}
+
 Time Clocked::staleness(std::uint32_t channel) const {
   const Channel& one = bounds_.system().channels[channel];
   const One& receiver = all_[one.to];

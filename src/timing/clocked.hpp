@@ -25,6 +25,8 @@ class Clocked {
   }
   /// After that time everything repeats.
   [[nodiscard]] Time pattern(std::uint32_t subsystem) const { return all_[subsystem].pattern; }
+  /// Its iterations in that time.
+  [[nodiscard]] Time repeat(std::uint32_t subsystem) const { return all_[subsystem].repeat; }
   /// From then on.
   [[nodiscard]] Time settled(std::uint32_t subsystem) const { return all_[subsystem].settled; }
   /// Iterations before the one with number 0.
@@ -34,6 +36,8 @@ class Clocked {
   /// When that write, or end of the call, occurs in the iteration of that number.
   [[nodiscard]] Time latest(EventId y, Time number) const;
   [[nodiscard]] Time earliest(EventId y, Time number) const;
+  /// Most time between two of its iterations.
+  [[nodiscard]] Time gap(std::uint32_t subsystem) const;
   /// As Occurrences::staleness, where the values of the channel drive its receiver; else unbounded.
   [[nodiscard]] Time staleness(std::uint32_t channel) const;
 

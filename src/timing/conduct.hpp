@@ -9,7 +9,11 @@
 namespace tessera::timing {
 
 /// Whether something happens at run time.
-enum class Fires : std::uint8_t { never, may };
+enum class Fires : std::uint8_t {
+  never,
+  may,
+  must  ///< in every run that goes on, again and again
+};
 
 /// Whether a subsystem begins an iteration at every instant of its rate.
 struct RateVerdict {
@@ -29,6 +33,7 @@ struct WaitVerdict {
   Time longest = unbounded;
   Time timeout = 0;  ///< 0: it has none
   Fires fires = Fires::may;
+  Time certain = 0;  ///< again and again, a wait lasts at least so long, if no timeout ends it
 };
 
 /// An input of an effector with `stale`.
@@ -37,6 +42,7 @@ struct StaleVerdict {
   Time stale = 0;
   Time oldest = unbounded;  ///< the age of the value, counted from the write
   Fires fires = Fires::may;
+  Time certain = 0;  ///< again and again, the value gets at least so old
 };
 
 struct Conduct {

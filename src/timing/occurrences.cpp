@@ -162,6 +162,8 @@ void Occurrences::judge(Component& component) {
   find_periodic(component);
 }
 
+/// A lossy wait for an event of its own component never gets a bound: that event has none at first, so that z has none,
+/// nor has the component.
 void Occurrences::bound_own_waits(const Component& component) {
   for (const EventId z : component.events) {
     const Wait kind = wait_of(z);
@@ -176,7 +178,6 @@ void Occurrences::bound_own_waits(const Component& component) {
       const Time there = arrived(channel, events_.least(write)) - events_.least(write);
       most = plus(std::max(plus(there, gap_[partner]), first_[partner]), on_the_way(z));
     }
-    if (kind == Wait::lossy && same_component(partner, z)) most = unbounded;
     // A value that is taken back before its reader is awake is missed. Between processes, several may be.
     if (events_[z].kind == Event::Kind::read && !holds_on(z) &&
         (crosses || system_.channels[channel].send_timeout <= wake_up(z)))

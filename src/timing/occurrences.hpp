@@ -83,6 +83,8 @@ class Occurrences {
   [[nodiscard]] Time twice(EventId x, EventId y) const;
   /// When a value is received for the last time at the latest, if it was written, and replaced, then at the latest.
   [[nodiscard]] Time last_read(std::uint32_t channel, Time written, Time replaced) const;
+  /// Least time between two occurrences of an event. Precondition: it is no release.
+  [[nodiscard]] Time least_gap(EventId y) const { return least_between(y, y); }
   /// When the first iteration begins, if it has no release to count from.
   [[nodiscard]] Time begin(std::uint32_t subsystem) const {
     return system_.subsystems[subsystem].period > 0 ? 0 : late_[subsystem];

@@ -7,6 +7,8 @@
 
 #include "follower.hpp"
 #include "timing/conduct.hpp"
+#include "timing/conduct/certain.hpp"
+#include "timing/conduct/drift.hpp"
 
 namespace tessera::timing {
 namespace {
@@ -153,13 +155,71 @@ TEST(Conduct, TellsRatesWaitsTimeoutsAndStale) {
   EXPECT_LE(all.stale[0].oldest, 78 * ms);
 }
 
-TEST(Conduct, ATimeoutShorterThanTheWaitMayFire) {
-  const Conduct all = conduct(", timeout: 30 ms", "rate: 50 Hz, stale: 40 ms");
+/// The verdicts on that timeout, and that `stale`, of the motor.
+std::pair<Fires, Fires> fire(const std::string& timeout, const std::string& stale,
+                             const std::string& motor = "rate: 50 Hz, ") {
+  const Conduct all = conduct(", timeout: " + timeout, motor + "stale: " + stale);
+  EXPECT_EQ(all.waits.size(), 1U);
+  EXPECT_EQ(all.stale.size(), 1U);
+  return {all.waits.at(0).fires, all.stale.at(0).fires};
+}
+
+TEST(Conduct, ATimeoutNeverMayOrMustFire) {
+  // Values come every 44 to 56 ms, and are read by then. If no timeout fired, the motor would begin every 40 or 60 ms,
+  // and wait at least 40 ms for each value that comes before 60 ms have passed.
+  EXPECT_EQ(fire("56 ms", "78 ms"), std::pair(Fires::never, Fires::never));
+  EXPECT_EQ(fire("55 ms", "77 ms"), std::pair(Fires::may, Fires::may));
+  EXPECT_EQ(fire("40 ms", "50 ms"), std::pair(Fires::may, Fires::may));
+  EXPECT_EQ(fire("39 ms", "44 ms"), std::pair(Fires::must, Fires::may));
+  EXPECT_EQ(fire("1 ms", "43 ms"), std::pair(Fires::must, Fires::must));
+  // Without a rate, it waits 50 ms less its call on average.
+  EXPECT_EQ(fire("47 ms", "43 ms", "").first, Fires::must);
+  EXPECT_EQ(fire("48 ms", "43 ms", "").first, Fires::may);
+}
+
+TEST(Conduct, AWaitThatIsEndedByItsTimeoutLastsNoLonger) {
+  const Conduct all = conduct(", timeout: 30 ms");
   ASSERT_EQ(all.waits.size(), 1U);
-  EXPECT_EQ(all.waits[0].fires, Fires::may);
   EXPECT_EQ(all.waits[0].longest, 30 * ms);
-  ASSERT_EQ(all.stale.size(), 1U);
-  EXPECT_EQ(all.stale[0].fires, Fires::may);
+  EXPECT_EQ(all.waits[0].certain, 40 * ms);
+}
+
+TEST(Conduct, ADrivenSubsystemKeepsTheRateOfItsSource) {
+  const Judged judged(
+      {.sensor = "rate: 50 Hz",
+       .control = "rate: 50 Hz",
+       .line = "{ from: \"robot.sensor.line\", to: \"robot.control.line\", receive: blocking }"});
+  ASSERT_TRUE(judged.reading.model) << judged.reading.report();
+  for (const RateVerdict& rate : conduct_of(judged.declared, Bounds(judged.declared.system)).rates) {
+    EXPECT_TRUE(rate.keeps) << rate.subsystem;
+    EXPECT_EQ(rate.longest, 20 * ms) << rate.subsystem;
+  }
+}
+
+TEST(Conduct, IsToldOfARingInWhichNothingSaysWhatItTakes) {
+  System ring{{{.sends = {0}, .receives = {1}}, {.sends = {1}, .receives = {0}}},
+              {{0, 1, false, true}, {1, 0, false, true}}};
+  for (Subsystem& one : ring.subsystems) one.shortest = 0, one.longest = unbounded;
+  const Bounds bounds(ring);
+  const Certain certain(bounds);
+  EXPECT_EQ(certain.wait(bounds.occurrences().events().read(0)), 0);
+  EXPECT_FALSE(certain.gets_stale(0, 1));
+}
+
+TEST(Drift, NamesARateThatGoesIntoTheOthers) {
+  const auto drift = [](const std::string& sensor) {
+    const Judged judged({.sensor = "rate: " + sensor, .motion = no_waits});
+    EXPECT_TRUE(judged.reading.model) << judged.reading.report();
+    return drift_of(Bounds(judged.declared.system), judged.declared.chains.at(0).ways.at(0));
+  };
+  EXPECT_FALSE(drift("50 Hz"));
+  EXPECT_FALSE(drift("31.25 Hz"));
+  const auto camera = drift("30 Hz");
+  ASSERT_TRUE(camera);
+  EXPECT_EQ(camera->period, 33'333'333);
+  EXPECT_THAT(camera->better, ElementsAre(25 * ms, 50 * ms));
+  // No other rate, no drift; two are enough.
+  EXPECT_THAT(drift("7 Hz")->better, ElementsAre(100 * ms, 200 * ms));
 }
 
 TEST(Conduct, ACallLongerThanThePeriodMayOverrun) {

@@ -16,10 +16,13 @@
 #include "cli/recordings/coverage.hpp"
 #include "cli/recordings/process_bags.hpp"
 #include "cli/terminal.hpp"
+#include "cli/timing/reenactment.hpp"
 #include "diagnostics/source.hpp"
 #include "mcap/records.hpp"
 #include "project/files/run_folder.hpp"
 #include "project/process/death.hpp"
+#include "tessera/printable.hpp"
+#include "tessera/recording.hpp"
 
 namespace tessera::cli {
 
@@ -54,7 +57,7 @@ bool is_printed_to_the_end(Print print) {
 // none.
 int launch(const Controller& controller, const RunFolder& folder, const LaunchOptions& options,
            const Command& command, const std::string& json, const std::string& report_folder,
-           const std::string& coverage = {}, const std::string& mcap = {}) {
+           const std::string& coverage = {}, const std::string& mcap = {}, const std::string& scenario = {}) {
   if (options.debug) return print_debugger_line(command);
   const RunFiles files = run_files(options);
   const std::filesystem::path note = death_note(files);
@@ -77,15 +80,25 @@ int launch(const Controller& controller, const RunFolder& folder, const LaunchOp
     outcome.chains = chain_times_of(outcome, controller.specification.model);
     write_report(outcome, controller.report, report_folder);
   }
+  std::optional<Reenactment> again;
+  if (const std::optional<PromisedTimes> promised = promised_times(scenario); promised && exit.code == 0) {
+    std::string problem;
+    if (const auto recording = read_recording(outcome.recording.string(), problem))
+      again = compare(*promised, *recording, controller.specification.model);
+    else
+      again = Reenactment{problem, false};
+  }
   std::optional<CoverageInput> reached;
   if (!coverage.empty()) reached.emplace(controller.specification).add_file(outcome.recording.string());
   if (reached && coverage != "-") report_coverage(*reached, coverage, /*shown=*/false);
   const bool is_printed = is_printed_to_the_end([&] {
     if (json != "-" && coverage != "-") print(outcome);
+    if (again && again->is_same && json != "-" && coverage != "-") fmt::print("{}\n", printable(again->text));
     if (json == "-") write_output(json, to_json(outcome));
     if (coverage == "-") report_coverage(*reached, coverage, /*shown=*/false);
     if (reached && json != "-" && coverage != "-") report_coverage(*reached, shown_only, /*shown=*/true);
   });
+  if (again && !again->is_same) return complain(again->text);
   return exit.code == 0 && !is_printed ? failed : exit.code;
 }
 
@@ -125,7 +138,8 @@ int simulate_command(SimulateOptions options) {
   if (options.interleave) command.emplace_back("--interleave");
   if (options.realtime) command.emplace_back("--realtime");
   if (!options.ros2_clock.empty()) command.insert(command.end(), {"--ros2-clock", options.ros2_clock});
-  return launch(controller, folder, options, command, options.json, options.report, options.coverage);
+  return launch(controller, folder, options, command, options.json, options.report, options.coverage, {},
+                options.scenario);
 }
 
 /// One process of a deployed system, run like any other.

@@ -12,6 +12,7 @@
 #include "cli/terminal.hpp"
 #include "cli/timing/chain_explanation.hpp"
 #include "cli/timing/chain_verdicts.hpp"
+#include "cli/timing/worst_run_texts.hpp"
 #include "diagnostics/source.hpp"
 #include "explore/explore.hpp"
 #include "layers/layers.hpp"
@@ -23,7 +24,9 @@
 #include "project/verification/violation.hpp"
 #include "tessera/nearest.hpp"
 #include "tessera/printable.hpp"
+#include "timing/worst/run_scenario.hpp"
 #include "verify/communication/abstraction.hpp"
+#include "verify/hashes.hpp"
 
 namespace tessera::cli {
 
@@ -158,13 +161,41 @@ void print_result(const Judged& judged, const verify::PropertyResult& property, 
   fmt::print("  {:.3f} s\n", property.seconds);
 }
 
-/// Writes the run of the first violation that has one, or that of a warning if there is no other.
-int write_scenario(const Judged& judged, const verify::Report& report, const VerifyOptions& options) {
+/// Writes the run of a chain. chain: empty: the first one of which something asked is violated.
+int write_times(const Judged& judged, const std::string& chain, const VerifyOptions& options,
+                const Allowance& allowance) {
+  if (verify::is_deployed(judged.net()))
+    return complain("--scenario drives a controller of one process, and this system is deployed");
+  const std::optional<RunToWrite> found = run_to_write(*judged.model, chain, allowance.stop(1));
+  if (!found) return complain("no run of the chain was found, so there is no scenario to write");
+  if (!found->run.on_simulated_clock)
+    return complain("that run needs wake-ups that are late, which the simulated clock does not make");
+  const auto path = [&](std::uint32_t subsystem) {
+    return judged.model->instance_path(spec::InstanceId{subsystem});
+  };
+  write_output(
+      options.scenario,
+      timing::scenario_json(found->run, {found->chain, found->is_age, verify::hash_of(judged.net())}, path)
+              .dump(1) +
+          "\n");
+  fmt::print(
+      stderr,
+      "scenario of the {} of {}: {}\nhint: `tessera simulate {} --scenario {}` makes the controller take "
+      "these times\n",
+      found->is_age ? "age" : "reaction", found->chain, options.scenario, options.spec, options.scenario);
+  return ok;
+}
+
+/// Writes the run of the first violation that has one, else of a chain, or that of a warning if there is no other.
+int write_scenario(const Judged& judged, const verify::Report& report, const ChainVerdicts& chains,
+                   const VerifyOptions& options, const Allowance& allowance) {
   const std::string& file = options.scenario;
   const verify::PropertyResult* chosen = nullptr;
   for (const verify::PropertyResult& property : report.properties)
     if (property.has_trace && (chosen == nullptr || (chosen->warning && !property.warning)))
       chosen = &property;
+  if (!chains.violated.empty() && (chosen == nullptr || chosen->warning))
+    return write_times(judged, {}, options, allowance);
   if (verify::is_deployed(judged.net()))
     return complain("--scenario drives a controller of one process, and these runs are of a deployed system");
   if (judged.drawn) return complain("--scenario needs a specification: a PNML net has no controller");
@@ -252,6 +283,8 @@ int explain_one(const Judged& judged, const VerifyOptions& options, const Allowa
         explain_chain(*judged.model, *options.explain, allowance.stop(1));
     if (!options.json.empty()) write_output(options.json, chain->json.dump(2) + "\n");
     if (options.json != "-") fmt::print("{}", printable(chain->text));
+    if (!options.scenario.empty() && write_times(judged, *options.explain, options, allowance) != ok)
+      return failed;
     return exit_code_of(chain->verdict);
   } catch (const timing::Interrupted&) {
     complain("the times are not computed: the time limit is reached, or the search was stopped");
@@ -277,7 +310,7 @@ int verify_command(const VerifyOptions& given) {
     project::Step step(terminal(), "verifying");
     // Bounds are found at once, but in systems of hundreds of timeouts: properties get the larger part of the time.
     if (judged->model && options.properties.empty())
-      chains = chain_verdicts(*judged->model, allowance.stop(0.3));
+      chains = chain_verdicts(*judged->model, allowance.stop(0.3), options.explain.has_value());
     report = judge(*judged, options, allowance, step);
     if (options.states) space = count_states(*judged, options, allowance, step);
   }
@@ -294,7 +327,8 @@ int verify_command(const VerifyOptions& given) {
                                             judged->nets ? &judged->nets->pages : nullptr, report)
                                         .dump(2) +
                                     "\n");
-  if (!options.scenario.empty() && write_scenario(*judged, report, options) != ok) return failed;
+  if (!options.scenario.empty() && write_scenario(*judged, report, chains, options, allowance) != ok)
+    return failed;
   if (options.json == "-" || options.trace == "-") return exit_code;
   for (const verify::PropertyResult& property : report.properties)
     print_result(*judged, property, options.explain.has_value());
@@ -332,7 +366,8 @@ void add_verify(CommandLine& app) {
   command.option("--json", options.json, "Write the verdicts as JSON (- is standard output)");
   command.option("--trace", options.trace, "Write the runs that show violations as JSON");
   command.option("--scenario", options.scenario,
-                 "Write the run of a violation for `tessera simulate --scenario`");
+                 "Write the run of a violation for `tessera simulate --scenario`; with --explain CHAIN, the "
+                 "run in which a command of the chain is as old as it can be");
   command.optional_value(
       "--explain", options.explain,
       "Explain each verdict: its method, and its meaning for the net with conditions; with "

@@ -6,6 +6,7 @@
 
 #include "cli/timing/chain_verdicts.hpp"
 #include "cli/timing/time_texts.hpp"
+#include "cli/timing/worst_run_texts.hpp"
 #include "timing/changes.hpp"
 #include "timing/steps.hpp"
 #include "timing/words.hpp"
@@ -22,7 +23,10 @@ class ChainExplainer {
       : model_(model), declared_(declared), chain_(chain), stop_(stop), bounds_(declared.system, stop) {}
 
   ChainExplanation explain() {
-    const timing::ChainVerdict verdict = timing::judge(declared_, model_, bounds_, chain_);
+    timing::ChainVerdict verdict = timing::judge(declared_, model_, bounds_, chain_);
+    timing::WorstRunSearch search(declared_, bounds_, stop_);
+    const timing::WorstRuns runs = search.find(chain_);
+    timing::take_runs(verdict, chain_, runs);
     ChainExplanation result{assumptions_of_times + chain_.name +
                                 (chain_.is_named ? ": " + chain_.leads : "") + "\n  " +
                                 verdict_text(chain_, verdict) + "\n",
@@ -30,6 +34,7 @@ class ChainExplainer {
                             overall(verdict)};
     if (verdict.why.empty()) {
       tell_steps(result);
+      tell_runs(verdict, search, runs, result);
     } else {
       result.json["why"] = verdict.why;
       result.json["missing"] = timing::missing_for(declared_, chain_);
@@ -45,6 +50,25 @@ class ChainExplainer {
     const timing::ChainSteps steps = timing::steps_of(bounds_, chain_.ways, chain_.foreign);
     tell("age", steps.age, /*is_age=*/true, result);
     tell("reaction", steps.reaction, /*is_age=*/false, result);
+  }
+
+  void tell_runs(const timing::ChainVerdict& verdict, const timing::WorstRunSearch& search,
+                 const timing::WorstRuns& runs, ChainExplanation& result) const {
+    if (!runs.age && !runs.reaction) {
+      for (const timing::Chain& way : chain_.ways)
+        if (const std::string why = search.obstacle(way, model_); !why.empty()) {
+          result.text += "  no run is searched that takes so long: " + why + "\n";
+          return;
+        }
+    }
+    const auto tell_one = [&](const std::optional<timing::WorstRun>& run, const char* name, bool is_age,
+                              timing::Time bound) {
+      if (!run) return;
+      result.text += story_of(*run, is_age, bound, declared_, model_);
+      result.json["runs"][name] = {{"from_ns", run->from}, {"to_ns", run->to}, {"reaches", run->reaches}};
+    };
+    tell_one(runs.age, "age", /*is_age=*/true, verdict.bound.age);
+    tell_one(runs.reaction, "reaction", /*is_age=*/false, verdict.bound.reaction);
   }
 
   void tell(const char* name, const std::vector<timing::Step>& steps, bool is_age,

@@ -11,18 +11,22 @@
 #include "cli/timing/time_texts.hpp"
 #include "timing/conduct/drift.hpp"
 #include "timing/words.hpp"
+#include "timing/worst/worst_run.hpp"
 
 namespace tessera::cli {
 namespace {
 
 /// "at most 82 ms", "holds (exact: 82 ms; asked 100 ms)", "at most 142 ms, asked 120 ms: not proved"
 std::string answer_text(timing::Answer answer, const std::optional<timing::Time>& asked, timing::Time bound,
-                        bool exact) {
+                        bool exact, const std::optional<timing::Time>& shown) {
   const std::string is = exact ? "exact: " : "at most ";
   switch (answer) {
     case timing::Answer::holds:
       return fmt::format("holds ({}{}; asked {})", is, time_text(bound), time_text(*asked));
     case timing::Answer::violated:
+      if (!exact && shown)
+        return fmt::format("violated (a run takes {}, none more than {}; asked {})", time_text(*shown),
+                           time_text(bound), time_text(*asked));
       return fmt::format("violated ({}{}; asked {})", is, time_text(bound), time_text(*asked));
     case timing::Answer::unknown:
       return fmt::format("at most {}, asked {}: not proved", time_text(bound), time_text(*asked));
@@ -76,7 +80,9 @@ nlohmann::json chain_json(const timing::DeclaredChain& chain, const timing::Chai
     one.update({{"age_ns", verdict.bound.age},
                 {"reaction_ns", verdict.bound.reaction},
                 {"start_ns", verdict.bound.start},
-                {"exact", verdict.exact}});
+                {"exact", verdict.exact},
+                {"exact_age", verdict.exact_age},
+                {"exact_reaction", verdict.exact_reaction}});
   else
     one["why"] = verdict.why;
   if (chain.age) one.update({{"asked_age_ns", *chain.age}, {"age", timing::word_of(verdict.age)}});
@@ -118,23 +124,30 @@ std::string verdict_text(const timing::DeclaredChain& chain, const timing::Chain
       asked += (asked.empty() ? "; asked: reaction " : ", reaction ") + time_text(*chain.reaction);
     return "none: " + verdict.why + asked;
   }
-  std::string text = "age " + answer_text(verdict.age, chain.age, verdict.bound.age, verdict.exact) +
-                     ", reaction " +
-                     answer_text(verdict.reaction, chain.reaction, verdict.bound.reaction, verdict.exact);
+  std::string text =
+      "age " + answer_text(verdict.age, chain.age, verdict.bound.age, verdict.exact_age, verdict.shown_age) +
+      ", reaction " +
+      answer_text(verdict.reaction, chain.reaction, verdict.bound.reaction, verdict.exact_reaction,
+                  verdict.shown_reaction);
   const bool asks = chain.age || chain.reaction;
   return text + (verdict.exact && !asks ? " (exact: some run takes so long)" : "");
 }
 
-ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop) try {
+ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop, bool explained) try {
   ChainVerdicts result{{}, {}, nlohmann::json::array(), nlohmann::json::object()};
   if (!timing::says_times(model)) return result;
   const timing::Declared declared = timing::declared(model);
   if (declared.chains.empty()) return result;
   const timing::Bounds bounds(declared.system, stop);
+  timing::WorstRunSearch search(declared, bounds, stop);
   VerdictLines lines;
   for (const timing::DeclaredChain& chain : declared.chains) {
     timing::check(stop);
-    const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
+    timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
+    if (verdict.why.empty() && (explained || timing::is_open(verdict)))
+      timing::take_runs(verdict, chain, search.find(chain));
+    if (result.violated.empty() && overall(verdict) == verify::Verdict::violated)
+      result.violated = chain.name;
     result.json.push_back(chain_json(chain, verdict));
     result.overall = worse_of(result.overall, overall(verdict));
     lines.add(chain.name, verdict_text(chain, verdict));
@@ -151,8 +164,14 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
     if (line.is_notable) notable.add(line.name, line.text);
   }
   result.conduct = conduct_json(conduct, declared, model);
-  result.text = assumptions_of_times + lines.text() + notable.text();
-  result.explained = assumptions_of_times + lines.text() + all.text();
+  const std::string see =
+      result.violated.empty()
+          ? std::string()
+          : fmt::format(
+                "  `tessera verify --explain \"{}\"` tells a run that shows it, --scenario FILE writes it\n",
+                result.violated);
+  result.text = assumptions_of_times + lines.text() + see + notable.text();
+  result.explained = assumptions_of_times + lines.text() + see + all.text();
   return result;
 } catch (const timing::Interrupted&) {
   ChainVerdicts result{"times: not computed: the time limit is reached, or the search was stopped\n",

@@ -19,13 +19,17 @@ struct ChainVerdicts {
   /// [{chain, leads, age_ns, reaction_ns, start_ns, exact, age, reaction} or {chain, leads, why}], all chains
   nlohmann::json json;
   nlohmann::json conduct;  ///< {rates, waits, stale}
+  /// The first chain of which something asked is violated; empty: none.
+  std::string violated{};
   /// The worst verdict on what the specification asks of chains. holds: on all of it, or it asks nothing.
   verify::Verdict overall = verify::Verdict::holds;
 };
 
 /// stop: ends the computation; what is asked is then unknown.
 /// Precondition: the model is sound.
-[[nodiscard]] ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop = {});
+/// explained: runs that reach the bounds are searched for all chains, and not only where that answers what is asked.
+[[nodiscard]] ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop = {},
+                                           bool explained = false);
 
 /// "age holds (at most 82 ms; asked 100 ms), reaction at most 142 ms"
 [[nodiscard]] std::string verdict_text(const timing::DeclaredChain& chain,

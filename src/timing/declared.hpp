@@ -71,9 +71,12 @@ enum class Answer : std::uint8_t {
 /// The verdict on a chain.
 struct ChainVerdict {
   ChainBound bound;
-  bool exact = false;  ///< some run reaches both bounds
+  bool exact = false;  ///< some run reaches each of the two bounds
   std::string why;     ///< there is no bound, because of this; empty: there is one
   Answer age = Answer::not_asked, reaction = Answer::not_asked;
+  bool exact_age = false, exact_reaction = false;
+  std::optional<Time> shown_age{},
+      shown_reaction{};  ///< of runs that were searched and found (worst_run.hpp)
 };
 
 /// Precondition: the bounds are those of `declared.system`, and the chain is one of `declared`.

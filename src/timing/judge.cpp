@@ -88,6 +88,7 @@ ChainVerdict judge(const Declared& declared, const spec::Model& model, const Bou
       verdict.why = reason(declared, model, bounds, way);
   }
   if (!verdict.why.empty()) verdict.exact = false;
+  verdict.exact_age = verdict.exact_reaction = verdict.exact;
   // Without a bound for one of the two, the verdict names none.
   const bool has_bound = verdict.why.empty();
   verdict.age = answer(chain.age, has_bound ? verdict.bound.age : unbounded, verdict.exact);

@@ -2,12 +2,16 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <unistd.h>
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <deque>
+#include <filesystem>
+#include <fstream>
 #include <memory>
+#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -247,7 +251,9 @@ class SubsystemRows {
 };
 
 /// false: the run has not begun.
-[[nodiscard]] inline bool run(Observed& seen, std::uint64_t seed, ::timing::Tick until, bool interleave) {
+/// scenario: the times of calls and the order of turns; null: they are drawn.
+[[nodiscard]] inline bool run(Observed& seen, std::uint64_t seed, ::timing::Tick until, bool interleave,
+                              nlohmann::json scenario = nullptr) {
   const ::timing::Net& net = seen.net();
   observed = &seen;
   seen.send_timeouts.assign(net.channels.size(), 0);
@@ -285,8 +291,14 @@ class SubsystemRows {
   options.duration = Duration(until * tick_ns);
   options.seed = seed;
   options.interleave = interleave;
+  if (!scenario.is_null()) {
+    scenario["net_hash"] = hash;
+    options.scenario = ::testing::TempDir() + "tessera_worst_run_" + std::to_string(getpid()) + ".json";
+    std::ofstream(options.scenario) << scenario;
+  }
   std::string error;
   const std::optional<RunSummary> summary = execute(system, options, error);
+  if (!options.scenario.empty()) std::filesystem::remove(options.scenario);
   EXPECT_TRUE(summary) << error;
   return summary.has_value();
 }

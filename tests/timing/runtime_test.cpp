@@ -4,14 +4,18 @@
 #include <algorithm>
 #include <array>
 #include <cstdint>
+#include <cstdio>
 #include <cstdlib>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
 #include "drawn_run.hpp"
 #include "drawn_shapes.hpp"
 #include "timing/conduct/certain.hpp"
+#include "timing/worst/run_scenario.hpp"
+#include "timing/worst/worst_run.hpp"
 
 namespace tessera::timing_test {
 namespace {
@@ -154,6 +158,103 @@ TEST(Runtime, ExceedsNoBoundOfOtherShapes) {
   }
   EXPECT_GT(total.commands, systems);
   EXPECT_GT(total.must_fire, systems / 50);
+}
+
+/// The run in the times of the runtime.
+timing::WorstRun in_ns(timing::WorstRun run) {
+  for (timing::CallOfRun& call : run.calls)
+    for (timing::Time* const time : {&call.begin, &call.end, &call.late}) *time *= tick_ns;
+  run.from *= tick_ns;
+  run.to *= tick_ns;
+  return run;
+}
+
+/// The runtime gives the command of the run, and none that is based on a later reading comes before it.
+void expect_same(const Observed& seen, std::size_t chain, const timing::WorstRun& run, bool is_age) {
+  timing::Time begin = -1;
+  for (const timing::CallOfRun& call : run.calls)
+    if (begin < 0 && call.subsystem == seen.last_of(chain) && call.end == run.to) begin = call.begin;
+  const std::vector<Command>& commands = seen.commands[chain];
+  const auto given = std::ranges::find(commands, begin, &Command::given);
+  ASSERT_NE(given, commands.end()) << "no command begins at " << begin;
+  if (is_age) {
+    EXPECT_EQ(given->sampled, run.from);
+    return;
+  }
+  EXPECT_GT(given->sampled, run.from);
+  const auto newer =
+      std::ranges::find_if(commands, [&](const Command& command) { return command.sampled > run.from; });
+  EXPECT_EQ(newer, given);
+}
+
+double median_of(std::vector<double>& values) {
+  if (values.empty()) return 0;
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2));
+  return values[values.size() / 2];
+}
+
+// TESSERA_WORST_RUNS=2000 searches in so many systems.
+TEST(Runtime, MakesTheWorstRunsAgain) {
+  const char* const asked = std::getenv("TESSERA_WORST_RUNS");
+  const std::uint64_t systems = asked == nullptr ? 120 : std::strtoull(asked, nullptr, 10);
+  using ::timing::Family;
+  constexpr std::array families{Family::any,      Family::periodic, Family::driven,
+                                Family::blocking, Family::ring,     Family::shared};
+  std::vector<double> ages, enumerated;
+  std::uint64_t made = 0, exact = 0, exact_reached = 0;
+  for (std::uint64_t seed = 1; seed <= systems && !HasFailure(); ++seed) {
+    Observed seen;
+    seen.drawn = ::timing::draw(seed, families[seed % families.size()]);
+    seen.drawn.net.latency = 0;  // the simulated clock has none
+    std::erase_if(seen.drawn.chains, repeats);
+    if (seen.drawn.chains.empty()) continue;
+    seen.drawn.chains.resize(1);
+    timing::Declared declared;
+    declared.system = timing::system_of(seen.net());
+    const std::size_t count = declared.system.subsystems.size();
+    declared.missing.resize(count);
+    declared.differ.resize(count);
+    declared.takes_turns.resize(count);
+    const Bounds bounds(declared.system);
+    const timing::Chain chain = timing::chain_of(seen.drawn.chains[0]);
+    const ChainBound bound = bounds.chain(chain);
+    timing::WorstRunSearch search(declared, bounds, {}, {.of_one = 150'000});
+    const timing::WorstRuns found = search.find(chain);
+    SCOPED_TRACE("seed " + std::to_string(seed));
+    for (const auto& [run, most, is_age] :
+         {std::tuple(found.age, bound.age, true), std::tuple(found.reaction, bound.reaction, false)}) {
+      if (!run) continue;
+      EXPECT_LE(run->time(), most);
+      EXPECT_EQ(run->reaches, run->time() == most);
+      const double share = static_cast<double>(run->time()) / static_cast<double>(most);
+      if (is_age) ages.push_back(share);
+      if (bound.enumerated) enumerated.push_back(share);
+      if (seed % families.size() == 1 && bound.enumerated) {
+        ++exact;
+        exact_reached += run->reaches ? 1 : 0;
+      }
+      if (!run->on_simulated_clock) continue;
+      ++made;
+      Observed again;
+      again.drawn = seen.drawn;
+      const timing::WorstRun told = in_ns(*run);
+      ASSERT_TRUE(tessera::timing_test::run(again, seed, run->to + 1, false,
+                                            scenario_json(told, {"drawn", is_age}, [](std::uint32_t i) {
+                                              return "a" + std::to_string(i) + ".control";
+                                            })));
+      expect_same(again, 0, told, is_age);
+      if (HasFailure()) return;
+    }
+  }
+  std::printf(
+      "%zu ages: median %.3f of the bound; %zu enumerated: %.3f; periodic reached %llu of %llu; made again "
+      "%llu\n",
+      ages.size(), median_of(ages), enumerated.size(), median_of(enumerated),
+      static_cast<unsigned long long>(exact_reached), static_cast<unsigned long long>(exact),
+      static_cast<unsigned long long>(made));
+  EXPECT_GE(made, systems);
+  EXPECT_GE(median_of(ages), 0.85);
+  EXPECT_GE(median_of(enumerated), 0.95);
 }
 
 }  // namespace

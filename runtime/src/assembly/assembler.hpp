@@ -373,7 +373,7 @@ class Assembler {
     for (std::uint32_t index = 0; index < parts_.size(); ++index) {
       parts_[index].changes = assembly_.changes.get();
       assembly_.executors.push_back(make_executor(index));
-      if (assembly_.scenario) assembly_.executors.back()->set_script(assembly_.scenario->of_instance(index));
+      if (assembly_.scenario) assembly_.executors.back()->set_scenario(*assembly_.scenario);
     }
     return true;
   }

@@ -4,8 +4,10 @@
 #include <poll.h>
 
 #include <algorithm>
+#include <iterator>
 #include <optional>
 #include <string_view>
+#include <tuple>
 #include <utility>
 
 #include "run/world_checks.hpp"
@@ -79,9 +81,17 @@ void SimulatedRun::wake(std::uint32_t instance) {
   ready_.push_back(instance);
 }
 
-std::uint32_t SimulatedRun::draw_ready() {
-  // Not std::uniform_int_distribution: its numbers differ from library to library.
-  if (ready_.size() > 1) std::swap(ready_[random_() % ready_.size()], ready_.back());
+std::uint32_t SimulatedRun::draw_ready(const Assembly& assembly) {
+  if (assembly.scenario && assembly.scenario->times) {
+    const std::vector<std::uint32_t>& place = assembly.scenario->times->place;
+    const auto order = [&](std::uint32_t instance) {
+      return std::tuple(assembly.executors[instance]->order(), place[instance], instance);
+    };
+    std::iter_swap(std::ranges::min_element(ready_, {}, order), std::prev(ready_.end()));
+  } else if (ready_.size() > 1) {
+    // Not std::uniform_int_distribution: its numbers differ from library to library.
+    std::swap(ready_[random_() % ready_.size()], ready_.back());
+  }
   const std::uint32_t drawn = ready_.back();
   ready_.pop_back();
   is_ready_[drawn] = false;
@@ -91,16 +101,17 @@ std::uint32_t SimulatedRun::draw_ready() {
 void SimulatedRun::step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance) {
   SubsystemExecutor& executor = *assembly.executors[instance];
   const bool one = remote_ != nullptr && remote_->one_by_one();
+  // A scenario of times says the order of whole turns.
+  const bool interleaves = assembly.options.interleave && !(assembly.scenario && assembly.scenario->times);
   if (one) remote_->about_to_fire();
   const std::uint64_t before = executor.firings();
   calls_->begin(instance, clock_.now());
-  const SubsystemExecutor::Progress progress =
-      executor.step(one || assembly.options.interleave ? 1 : UINT64_MAX);
+  const SubsystemExecutor::Progress progress = executor.step(one || interleaves ? 1 : UINT64_MAX);
   calls_->end();
   if (one && executor.firings() != before) remote_->fired(instance);
   if (executor.firings() != before) last_firing_ = clock_.now();
   if (progress.state == SubsystemExecutor::State::ready) {
-    if (!assembly.options.interleave) {
+    if (!interleaves) {
       unfinished_ = instance;
       return;
     }
@@ -198,7 +209,7 @@ bool SimulatedRun::fire_what_is_ready(Assembly& assembly, UpperLayers& upper, co
       waited = remote_->wait_while_paused(signals) || waited;
       if (StopSignals::pending() != 0) break;
     }
-    const std::uint32_t instance = unfinished_ ? *unfinished_ : draw_ready();
+    const std::uint32_t instance = unfinished_ ? *unfinished_ : draw_ready(assembly);
     unfinished_.reset();
     if (!has_ended_[instance]) step(assembly, upper, instance);
     follow_emergency(assembly);
@@ -227,7 +238,7 @@ Ending SimulatedRun::run(Assembly& assembly, UpperLayers& upper, const StopSigna
 }
 
 std::optional<Ending> SimulatedRun::follow_scenario(Assembly& assembly, UpperLayers& upper) {
-  if (!assembly.scenario) return std::nullopt;
+  if (!assembly.scenario || assembly.scenario->times) return std::nullopt;
   const std::vector<Scenario::Step>& steps = assembly.scenario->steps;
   for (std::size_t index = 0; index < steps.size(); ++index) {
     const SubsystemExecutor& executor = *assembly.executors[steps[index].instance];
@@ -325,7 +336,9 @@ Ending SimulatedRun::run_until_end(Assembly& assembly, UpperLayers& upper, const
     wake(instance);
   }
   if (std::optional<Ending> ended = follow_scenario(assembly, upper)) return *ended;
-  const Time end = duration ? clock_.now() + *duration : Time::max();
+  Time end = duration ? clock_.now() + *duration : Time::max();
+  if (assembly.scenario && assembly.scenario->times)
+    end = std::min(end, assembly.scenario->times->end + Duration(1));
   for (;;) {
     if (assembly.restarts != nullptr) follow_processes(assembly, upper);
     if (fire_what_is_ready(assembly, upper, signals)) pace.restart(clock_.now());

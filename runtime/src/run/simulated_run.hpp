@@ -36,8 +36,8 @@ struct Ending {
 /// Runs all subsystems in one thread, in simulated time. At each instant, the subsystems that can act take
 /// turns in an order drawn from the seed, each until it has to wait, or firing by firing
 /// (RunOptions::interleave). When none can act, time jumps to the next deadline, and the world moves with it.
-/// A scenario comes first: its subsystems take turns as it says, and time waits only for them. Everything
-/// except the real-time speed depends only on tables, seed and user code.
+/// A scenario comes first: its subsystems take turns as it says, and time waits only for them. One of times says how
+/// long calls take, and the order of those that can act at one instant; the run ends with it. Everything except the real-time speed depends only on tables, seed and user code.
 class SimulatedRun final : public Waker {
  public:
   SimulatedRun(std::uint32_t instances, std::uint64_t seed);
@@ -54,7 +54,7 @@ class SimulatedRun final : public Waker {
   [[nodiscard]] bool follow_step(Assembly& assembly, UpperLayers& upper, std::size_t index);
   /// Names the subsystems that have not fired since the scenario, because a scenario is there to show them.
   [[nodiscard]] Ending with_stuck(Ending ending, const Assembly& assembly) const;
-  [[nodiscard]] std::uint32_t draw_ready();
+  [[nodiscard]] std::uint32_t draw_ready(const Assembly& assembly);
   [[nodiscard]] bool fire_what_is_ready(Assembly& assembly, UpperLayers& upper, const StopSignals& signals);
   void step(Assembly& assembly, UpperLayers& upper, std::uint32_t instance);
   [[nodiscard]] bool serve_links(Assembly& assembly);

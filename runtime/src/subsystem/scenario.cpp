@@ -35,6 +35,7 @@ class Reading {
     if (hash != system_.net_hash)
       return Problem{fmt::format("is a scenario of another net ({}, this controller's is {}): verify again",
                                  hash, system_.net_hash)};
+    if (json.contains("times")) return read_times(json.at("times"), scenario.times.emplace());
     for (const nlohmann::json& firing : json.at("firings")) {
       const auto name = (firing.is_object() ? firing.at("name") : firing).get<std::string>();
       const bool known = firing.is_object()
@@ -46,6 +47,30 @@ class Reading {
   }
 
  private:
+  [[nodiscard]] std::optional<Problem> read_times(const nlohmann::json& json, ForcedTimes& times) const {
+    bool is_wrong = false;
+    times.end = Time(Duration(json.at("to_ns").get<std::int64_t>()));
+    times.calls.resize(system_.instances.size());
+    times.place.assign(system_.instances.size(), static_cast<std::uint32_t>(system_.instances.size()));
+    std::uint32_t place = 0;
+    for (const nlohmann::json& one : json.at("subsystems")) {
+      const auto path = one.at("subsystem").get<std::string>();
+      const std::optional<std::uint32_t> instance = instance_at(system_, path);
+      if (!instance) return Problem{fmt::format("names '{}', which is no subsystem of this system", path)};
+      if (!times.calls[*instance].empty()) return Problem{fmt::format("names '{}' twice", path)};
+      times.place[*instance] = place++;
+      for (const nlohmann::json& call : one.at("calls")) {
+        times.calls[*instance].push_back({Duration(call.at("takes_ns").get<std::int64_t>()),
+                                          Duration(call.value("late_ns", std::int64_t{0})),
+                                          call.value("order", 0)});
+        is_wrong = is_wrong || times.calls[*instance].back().takes < Duration::zero() ||
+                   times.calls[*instance].back().late < Duration::zero();
+      }
+    }
+    if (is_wrong || times.end <= Time{}) return Problem{"has times below 0"};
+    return std::nullopt;
+  }
+
   /// No condition of `next` holds in the subsystem with that path.
   [[nodiscard]] bool add_outcome(const std::string& name, std::string_view path, Scenario& scenario) const {
     const std::optional<std::uint32_t> owner = instance_at(system_, path);

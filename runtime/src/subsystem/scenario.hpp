@@ -8,8 +8,22 @@
 #include "nets/flat_net.hpp"
 #include "nets/plan.hpp"
 #include "tessera/tables.hpp"
+#include "tessera/time.hpp"
 
 namespace tessera {
+
+/// A call in a run that shows how old a command can be (tessera verify --explain CHAIN).
+struct ForcedCall {
+  Duration takes{};
+  Duration late{};         ///< from its release until it begins
+  std::int32_t order = 0;  ///< of those that can act at one instant, the smaller one goes first
+};
+struct ForcedTimes {
+  Time end{};  ///< of the command
+  std::vector<std::vector<ForcedCall>>
+      calls;                         ///< per instance, in their order; later ones are drawn as usual
+  std::vector<std::uint32_t> place;  ///< per instance: the smaller one goes first among equals
+};
 
 /// A run of the net that a controller follows under the simulated clock: which subsystem fires which
 /// transition, in which order. The upper layers are not part of it; they follow by themselves.
@@ -22,6 +36,8 @@ struct Scenario {
     std::string name;
   };
   std::vector<Step> steps;
+
+  std::optional<ForcedTimes> times{};  ///< then there are no steps, and the run ends with the command
 
   /// The transitions that an instance has to fire, in order.
   [[nodiscard]] Script of_instance(std::uint32_t instance) const;

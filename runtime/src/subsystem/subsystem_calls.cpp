@@ -17,12 +17,15 @@ namespace tessera {
 /// The start of the iteration for a token that has just arrived.
 Time SubsystemExecutor::release() {
   const Duration waited = std::exchange(waited_, Duration::zero());
-  if (!releases_.have_rate()) return Time::min();
+  ++releases_made_;
+  const ForcedCall* const forced = forced_call();
+  const Duration late = forced == nullptr ? Duration::zero() : forced->late;
+  if (!releases_.have_rate()) return late == Duration::zero() ? Time::min() : now() + late;
   renew_time();
   const Releases::Release release = releases_.next(now_, waited);
   if (release.overruns > 0 && lane_ != nullptr)
     lane_->overrun(now_, static_cast<std::uint32_t>(std::min<std::uint64_t>(release.overruns, UINT32_MAX)));
-  return release.at;
+  return release.at + late;
 }
 
 /// Begins or ends a transition function; false: it has to wait.
@@ -44,7 +47,10 @@ bool SubsystemExecutor::advance(std::uint32_t place) {
     time_is_known_ = false;
     token.phase = Phase::running;
     token.due = Time::min();
-    if (simulated_) token.due = begin + operations_.draw_time(behaviour);
+    if (simulated_) {
+      const ForcedCall* const forced = forced_call();
+      token.due = begin + (forced == nullptr ? operations_.draw_time(behaviour) : forced->takes);
+    }
     if (watchdog > Duration::zero() && token.due > begin + watchdog)
       returns_ = std::exchange(token.due, begin + watchdog + Duration(1));
     if (token.due > begin) return true;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -62,9 +63,18 @@ class SubsystemExecutor {
   /// most: how many firings and operations at most; ready: it could have gone on.
   [[nodiscard]] Progress step(std::uint64_t most = UINT64_MAX);
 
-  /// From now on only `follow` makes it fire: these transitions of its table, in this order (Scenario).
-  /// Conditions are not evaluated for a token that one of them decides on.
-  void set_script(Scenario::Script transitions) { script_ = std::move(transitions); }
+  /// From now on only `follow` makes it fire: these transitions of its table, in this order. Conditions are not
+  /// evaluated for a token that one of them decides on. If it is a scenario of times, calls begin and end as it says.
+  /// scenario: kept, not copied.
+  void set_scenario(const Scenario& scenario) {
+    script_ = scenario.of_instance(index_);
+    if (scenario.times) forced_ = scenario.times->calls[index_];
+  }
+  /// The one with the smallest number goes first of those that can act at one instant.
+  [[nodiscard]] std::int32_t order() const {
+    const ForcedCall* const call = forced_call();
+    return call == nullptr ? 0 : call->order;
+  }
   /// Fires the next transition of the script. waiting: not yet, step again at the deadline, or never
   /// (Time::max()); fired: done. Precondition: there is a next one.
   enum class Followed : std::uint8_t { fired, ended, waiting };
@@ -185,6 +195,11 @@ class SubsystemExecutor {
 
   // Calls.
   [[nodiscard]] Time release();
+  /// The one that runs, or comes next. nullptr: its times are not forced.
+  [[nodiscard]] const ForcedCall* forced_call() const {
+    const std::size_t index = releases_made_ == 0 ? 0 : releases_made_ - 1;
+    return index < forced_.size() ? &forced_[index] : nullptr;
+  }
   [[nodiscard]] bool advance(std::uint32_t place);
   void end_alarm();
   void wake_receivers();
@@ -236,6 +251,9 @@ class SubsystemExecutor {
 
   Scenario::Script script_;   // to follow
   std::size_t followed_ = 0;  // of the script
+
+  std::span<const ForcedCall> forced_;  // times of calls
+  std::size_t releases_made_ = 0;
 
   Time returns_{};  // simulated: the return of a call that the watchdog precedes
   Time blocked_since_ = Time::max();

@@ -22,12 +22,16 @@ bool Climb::search() {
   const std::vector<Time> readings = readings_to_try();
   for (const Start start : {Start::quick, Start::slow, Start::chain_quick, Start::mixed})
     for (const Time reading : readings) {
-      if (is_over()) return best_.time >= 0;
+      if (is_over()) break;
       until_ = reading + goal_.bound + longest_round_;
       improve(begin_with(start), reading);
     }
   climb_by_chance();
-  return best_.time >= 0;
+  if (best_.time < 0) return false;
+  // Another reading of the same run may be worse.
+  until_ = best_until_;
+  best_ = play(best_plan_, std::nullopt);
+  return true;
 }
 
 /// Readings after a while, since chances come one after the other, and in the pattern of the bound.
@@ -85,7 +89,8 @@ std::uint64_t Climb::draw(std::uint64_t below) {
 // ---------------------------------------------------------------------------------------------- measures
 
 Reached Climb::measure(const RunLog& log, std::optional<std::uint32_t> reading) const {
-  if (!log.is_whole) return {};
+  const std::vector<RunLog::Call>& readings = log.calls[system_.channels[chain_.front()].from];
+  if (!log.is_whole || (reading && *reading >= readings.size())) return {};
   Reached reached = goal_.age ? measure_age(log, reading) : measure_reaction(log, reading);
   if (reached.time >= 0 || reading) reached.newer = newer_of(log, reading ? *reading : reached.reading);
   return reached;
@@ -185,6 +190,8 @@ bool Climb::apply(RunPlan& plan, Changes& changes) const {
 
 std::vector<Climb::Changes> Climb::proposals(const RunLog& log, const RunPlan& plan, const Reached& reached) {
   std::vector<Changes> all;
+  const std::vector<RunLog::Call>& readings = log.calls[system_.channels[chain_.front()].from];
+  if (reached.reading >= readings.size()) return all;
   std::vector<std::vector<bool>> seen(plan.size());
   for (std::size_t i = 0; i < plan.size(); ++i) seen[i].resize(plan[i].size());
   const auto around = [&](std::uint32_t i, std::int64_t number) {
@@ -233,7 +240,7 @@ std::vector<Climb::Changes> Climb::proposals(const RunLog& log, const RunPlan& p
   if (reached.command < log.commands.size())
     around(system_.channels[chain_.back()].to, log.commands[reached.command].call);
   // Others that these wait for, or share a processor with.
-  const Time from = log.calls[system_.channels[chain_.front()].from][reached.reading].begin,
+  const Time from = readings[reached.reading].begin,
              to = std::max(from + reached.time, from + longest_round_);
   for (std::uint32_t i = 0; i < plan.size(); ++i) {
     constexpr std::int64_t most = 10;

@@ -7,7 +7,6 @@ namespace tessera::timing {
 
 PlayedRun::PlayedRun(const System& system, const Chain& chain)
     : system_(system),
-      chain_(chain),
       states_(system.subsystems.size()),
       slots_(system.channels.size()),
       hops_of_channel_(system.channels.size()),

@@ -77,7 +77,6 @@ class PlayedRun {
   void log_read(std::uint32_t channel);
 
   const System& system_;
-  const Chain& chain_;
   const RunPlan* plan_ = nullptr;
   Time now_ = 0;
   std::vector<State> states_;

@@ -1,6 +1,7 @@
 #include "timing/worst/worst_run.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <set>
 #include <utility>
 
@@ -9,22 +10,42 @@
 namespace tessera::timing {
 namespace {
 
-/// The run as it is told: from the command back to the reading.
-WorstRun told(const System& system, const Chain& chain, const RunLog& log, const RunPlan& plan,
-              const Reached& reached, bool reaches) {
+/// From the command back to the reading that it is based on.
+std::vector<HopOfRun> hops_back(const Chain& chain, const RunLog& log, std::uint32_t call) {
+  std::vector<HopOfRun> hops(chain.size());
+  for (std::size_t h = chain.size(); h-- > 0;) {
+    const RunLog::Read& read = log.reads[h][static_cast<std::size_t>(log.uses[h][call])];
+    const RunLog::Write& write = log.writes[h][read.write];
+    hops[h] = {chain[h], write.at, read.at};
+    call = write.call;
+  }
+  return hops;
+}
+
+/// From the first reading after that one: on each channel the first value that reflects it. Empty: a channel has none.
+std::vector<HopOfRun> hops_on(const Chain& chain, const RunLog& log, std::int64_t reading) {
+  std::vector<HopOfRun> hops(chain.size());
+  for (std::size_t h = 0; h < chain.size(); ++h) {
+    const auto write = std::ranges::upper_bound(log.writes[h], reading, {}, &RunLog::Write::reading);
+    const auto number = static_cast<std::uint32_t>(write - log.writes[h].begin());
+    const auto read = std::ranges::lower_bound(log.reads[h], number, {}, &RunLog::Read::write);
+    if (write == log.writes[h].end() || read == log.reads[h].end()) return {};
+    hops[h] = {chain[h], write->at, read->at, read == log.reads[h].begin() ? -1 : std::prev(read)->at};
+  }
+  return hops;
+}
+
+WorstRun told(const System& system, const Climb::Goal& goal, const Chain& chain, const RunLog& log,
+              const RunPlan& plan, const Reached& reached) {
   const RunLog::Command& command = log.commands[reached.command];
   WorstRun run;
   run.from = log.calls[system.channels[chain.front()].from][reached.reading].begin;
   run.to = command.at;
-  run.reaches = reaches;
-  std::uint32_t call = command.call;
-  for (std::size_t h = chain.size(); h-- > 0;) {
-    const RunLog::Read& read = log.reads[h][static_cast<std::size_t>(log.uses[h][call])];
-    const RunLog::Write& write = log.writes[h][read.write];
-    run.hops.insert(run.hops.begin(), {chain[h], write.at, read.at});
-    call = write.call;
-  }
+  run.reaches = reached.time >= goal.bound;
+  if (!goal.age) run.hops = hops_on(chain, log, reached.reading);
+  if (run.hops.empty()) run.hops = hops_back(chain, log, command.call);
   for (std::uint32_t i = 0; i < log.calls.size(); ++i) {
+    run.subsystems.push_back(i);
     if (log.wakes_late[i]) run.on_simulated_clock = false;
     for (std::uint32_t number = 0; number < log.calls[i].size(); ++number) {
       const RunLog::Call& one = log.calls[i][number];
@@ -195,21 +216,35 @@ std::optional<WorstRun> WorstRunSearch::find(const Chain& way, bool age) {
   if (known == found_.end()) {
     const ChainRoutes routes = bounds_.routes(way);
     const Route& route = age ? routes.age : routes.reaction;
-    const std::uint64_t most = std::min(left_, most_steps_of_one);
-    Climb climb(part.system, part.chain,
-                {age, age ? bound.age : bound.reaction, route.reading, route.pattern}, most, stop_);
+    const std::uint64_t most = std::min(left_, effort_.of_one);
+    const Climb::Goal goal{age, age ? bound.age : bound.reaction, route.reading, route.pattern};
+    Climb climb(part.system, part.chain, goal, most, stop_);
     Found found{std::move(key), std::nullopt};
     if (climb.search())
-      found.run = told(part.system, part.chain, climb.replay(), climb.plan(), climb.best(),
-                       climb.best().time >= (age ? bound.age : bound.reaction));
+      found.run = told(part.system, goal, part.chain, climb.replay(), climb.plan(), climb.best());
     left_ -= std::min(left_, climb.steps());
     known = found_.insert(found_.end(), std::move(found));
   }
   std::optional<WorstRun> run = known->run;
   if (!run) return run;
+  for (std::uint32_t& subsystem : run->subsystems) subsystem = part.subsystems[subsystem];
   for (CallOfRun& call : run->calls) call.subsystem = part.subsystems[call.subsystem];
   for (std::size_t h = 0; h < way.size(); ++h) run->hops[h].channel = way[h];
   return run;
+}
+
+void take_runs(ChainVerdict& verdict, const DeclaredChain& chain, const WorstRuns& runs) {
+  const auto take = [](const std::optional<WorstRun>& run, const std::optional<Time>& asked, bool& exact,
+                       std::optional<Time>& shown, Answer& answer) {
+    if (!run) return;
+    exact = exact || run->reaches;
+    shown = run->time();
+    if (asked && *shown > *asked) answer = Answer::violated;
+  };
+  if (!verdict.why.empty()) return;
+  take(runs.age, chain.age, verdict.exact_age, verdict.shown_age, verdict.age);
+  take(runs.reaction, chain.reaction, verdict.exact_reaction, verdict.shown_reaction, verdict.reaction);
+  verdict.exact = verdict.exact_age && verdict.exact_reaction;
 }
 
 }  // namespace tessera::timing

@@ -12,19 +12,23 @@
 
 namespace tessera::timing {
 
-/// A call of a transition function in a run. Its order matters among those that can act at one instant: the one with
-/// the smaller number goes first, and the earlier subsystem of the specification among equals.
+/// A call of a transition function in a run.
 struct CallOfRun {
   std::uint32_t subsystem = 0;
   std::uint32_t number = 0;  ///< counted from 0
   Time begin = 0, end = 0;   ///< of the device reading, and of the command
   Time late = 0;             ///< from its release to its beginning, because of the latency or the processor
+  /// Until the next call arrives, of those that can act at one instant: the smaller one goes first, and among equals
+  /// the earlier one in WorstRun::subsystems.
   std::int8_t order = 0;
 };
-/// The value on its way: when it was written, and when it was received for the last time before it was used.
+/// A channel on the way. For an age: when the value was written that the command is based on, and when it was received
+/// for the last time before it was used. For a reaction: when the first value was written that reflects the event, and
+/// when such a value was received first.
 struct HopOfRun {
   std::uint32_t channel = 0;
   Time written = 0, read = 0;
+  Time looked = -1;  ///< for a reaction: the receive before that one, which came too early; -1: none
 };
 struct WorstRun {
   Time from = 0;         ///< the reading of the device; for a reaction, an event just after that reading
@@ -32,7 +36,8 @@ struct WorstRun {
   bool reaches = false;  ///< the bound
   std::vector<CallOfRun>
       calls;  ///< of all subsystems that matter, from the start of the run to its end, by their begin
-  std::vector<HopOfRun> hops;  ///< of the value that the command is based on
+  std::vector<std::uint32_t> subsystems;  ///< that matter
+  std::vector<HopOfRun> hops;
   /// Under the simulated clock the controller makes it, if calls take as long as here: only calls begin late.
   bool on_simulated_clock = true;
 
@@ -53,10 +58,14 @@ struct WorstRuns {
 /// Threads: one.
 class WorstRunSearch {
  public:
-  /// most_steps: of all searches together; a step is one firing, a microsecond at most.
-  explicit WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop = {},
-                          std::uint64_t most_steps = 40'000'000)
-      : declared_(declared), bounds_(bounds), stop_(std::move(stop)), left_(most_steps) {}
+  /// The most work, in firings: a microsecond at most.
+  struct Effort {
+    std::uint64_t of_one = 1'000'000, of_all = 10'000'000;
+  };
+  explicit WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop = {})
+      : WorstRunSearch(declared, bounds, std::move(stop), Effort{}) {}
+  WorstRunSearch(const Declared& declared, const Bounds& bounds, StopAsked stop, Effort effort)
+      : declared_(declared), bounds_(bounds), stop_(std::move(stop)), effort_(effort), left_(effort.of_all) {}
 
   /// Why the runs of the search might not be those of the controller, so that nothing is searched: "the behaviours of
   /// robot.control do not all take the same time". Empty: they are.
@@ -79,8 +88,6 @@ class WorstRunSearch {
     std::optional<WorstRun> run;  ///< with the numbers of the part
   };
 
-  static constexpr std::uint64_t most_steps_of_one = 2'000'000;
-
   struct Obstacle {
     enum class Kind : std::uint8_t { missing, differ, takes_turns, processes, too_many } kind = Kind::missing;
     std::uint32_t subsystem = 0;
@@ -96,8 +103,17 @@ class WorstRunSearch {
   const Declared& declared_;
   const Bounds& bounds_;
   StopAsked stop_;
+  Effort effort_;
   std::uint64_t left_;
   std::vector<Found> found_;
 };
+
+/// Takes over what the runs show: whether bounds are exact, and that something asked is violated.
+void take_runs(ChainVerdict& verdict, const DeclaredChain& chain, const WorstRuns& runs);
+
+/// Whether runs can change the answer to something that is asked.
+[[nodiscard]] inline bool is_open(const ChainVerdict& verdict) {
+  return verdict.age == Answer::unknown || verdict.reaction == Answer::unknown;
+}
 
 }  // namespace tessera::timing

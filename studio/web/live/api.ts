@@ -6,10 +6,12 @@ import type {
   LanguageQuestion,
   NotesRequest,
   Operators,
+  OtherTimes,
   Requests,
   RunRequest,
   SweepRequest,
 } from "../model/protocol";
+import type { WorstQuestion } from "./times/worst";
 
 /** The picture of a floor; its lower left corner is the origin. */
 export interface Floor {
@@ -130,11 +132,12 @@ export class Api {
     this.ask("POST /api/verify", { body: { text, timeout, properties } });
   /** The subsystems that cannot fire in a marking. */
   waits = (text: string, marking: { place: number }[]) => this.ask("POST /api/waits", { body: { text, marking } });
-  /** The bounds of all chains; `tried`: with these periods of subsystems instead of those of the text. */
-  timing = (text: string, tried: ReadonlyMap<string, number> = new Map(), chain = "") =>
-    this.ask("POST /api/timing", {
-      body: { text, what_if: [...tried].map(([path, period_ns]) => ({ path, period_ns })), chain },
-    });
+  /** The bounds of all chains; `what_if`: with these times of subsystems instead of those of the text. */
+  timing = (text: string, what_if: OtherTimes[] = [], chain = "") =>
+    this.ask("POST /api/timing", { body: { text, what_if, chain } });
+  /** The run in which a time of a chain comes nearest to its bound. */
+  timingWorst = ({ what_if, ...question }: WorstQuestion) =>
+    this.ask("POST /api/timing/worst", { body: { ...question, what_if: [...what_if] } });
   timingChanges = (text: string, chain: string) => this.ask("POST /api/timing/changes", { body: { text, chain } });
   timingMeasured = (text: string, recording: string) => this.ask("POST /api/timing/measured", { body: { text, recording } });
   functions = (text: string) => this.ask("POST /api/functions", { body: { text } });

@@ -13,7 +13,7 @@ import { Editor, type Wish } from "./editor";
 import type { Project, RunRequest, Verdict } from "../model/protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
-import { Measured } from "./measured";
+import { Measured } from "./times/measured";
 import { Operator } from "./operate/operator";
 import { Play } from "./play";
 import { PlottedRecordings } from "./plots/plotted";
@@ -37,6 +37,7 @@ import { Sweeps } from "./plots/sweeps";
 import { Timing } from "./timing";
 import { Trust } from "./trust";
 import { Verifier } from "./verifier";
+import { Worst } from "./times/worst";
 
 const kept = "tessera.view";
 
@@ -71,6 +72,7 @@ export class Studio {
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
   readonly timing = new Timing(this.api, this.draft);
+  readonly worst = new Worst(this.api);
   readonly measured = new Measured(this.api, this.draft);
   readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);

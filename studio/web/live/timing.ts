@@ -1,5 +1,6 @@
 import type { TimedChange, Timing as Bounds } from "../model/protocol";
 import { shownChain } from "../model/timing";
+import { whatIf, type Tried } from "../model/tried_times";
 import { type Api, ApiError, message } from "./api";
 import type { Draft } from "./draft";
 import { Store } from "./store";
@@ -9,8 +10,8 @@ export interface TimingState {
   found: Bounds | null;
   /** The text that they are of. */
   text: string;
-  /** Periods in nanoseconds that the user tries, by subsystem ("robot.control"); 0: no rate. */
-  tried: ReadonlyMap<string, number>;
+  /** Other times that the user tries, by subsystem ("robot.control"). */
+  tried: ReadonlyMap<string, Tried>;
   /** The bounds with these; null: nothing is tried, or they are not known yet. */
   other: Bounds | null;
   /** The key of the chain that is shown; null: the user has chosen none. */
@@ -20,6 +21,10 @@ export interface TimingState {
   problem: string;
   /** The bounds of the text that was verified last. */
   verified: Bounds | null;
+  /** Those are being computed. */
+  judging: boolean;
+  /** Why they are not known; empty: they are, or nothing was verified. */
+  unjudged: string;
   /** The changes that help, and the chain and the text that they are for. */
   changes: { chain: string; text: string; found: readonly TimedChange[] } | null;
   seeking: boolean;
@@ -36,11 +41,15 @@ export class Timing {
     busy: false,
     problem: "",
     verified: null,
+    judging: false,
+    unjudged: "",
     changes: null,
     seeking: false,
   });
   private asking = false;
   private stale = false;
+  /** The text that was verified last. */
+  private judged = "";
   /** The chain whose parts `found` tells. */
   private told = "";
 
@@ -74,11 +83,16 @@ export class Timing {
     this.store.set({ seeking: false });
   }
 
-  /** Asks for the bounds with another period of a subsystem; undefined: with its own one. */
-  try(subsystem: string, period_ns: number | undefined): void {
+  /** Asks for the bounds with other times of a subsystem; undefined: with its own one. Those that are absent stay. */
+  try(subsystem: string, times: { [time in keyof Tried]: number | undefined }): void {
     const tried = new Map(this.store.get().tried);
-    if (period_ns === undefined) tried.delete(subsystem);
-    else tried.set(subsystem, period_ns);
+    const { period_ns, longest_ns } = { ...tried.get(subsystem), ...times };
+    if (period_ns === undefined && longest_ns === undefined) tried.delete(subsystem);
+    else
+      tried.set(subsystem, {
+        ...(period_ns === undefined ? {} : { period_ns }),
+        ...(longest_ns === undefined ? {} : { longest_ns }),
+      });
     this.store.set(tried.size === 0 ? { tried, other: null } : { tried });
     this.update();
   }
@@ -89,12 +103,16 @@ export class Timing {
 
   /** Asks for the bounds of a text that was verified. */
   async verify(text: string): Promise<void> {
-    this.store.set({ verified: null });
+    this.judged = text;
+    this.store.set({ verified: null, judging: true, unjudged: "" });
+    const is = (found: Partial<TimingState>) => {
+      // Another text may have been verified meanwhile.
+      if (this.judged === text) this.store.set({ judging: false, ...found });
+    };
     try {
-      const verified = await this.api.timing(text);
-      this.store.set({ verified });
-    } catch {
-      // The verification itself tells what is wrong with the text.
+      is({ verified: await this.api.timing(text) });
+    } catch (error) {
+      is({ unjudged: message(error) });
     }
   }
 
@@ -119,16 +137,17 @@ export class Timing {
       try {
         const asked = this.explained();
         if (this.store.get().text !== text || !this.store.get().found || asked !== this.told) {
-          let found = await this.api.timing(text, new Map(), asked);
+          let found = await this.api.timing(text, [], asked);
           const named = shownChain(found, this.store.get().chosen)?.name ?? "";
           // The first answer tells which chains there are.
-          if (named !== asked) found = await this.api.timing(text, new Map(), named);
+          if (named !== asked) found = await this.api.timing(text, [], named);
           this.told = named;
           this.store.set({ found, text, problem: "" });
         }
         const { tried } = this.store.get();
         if (tried.size > 0) {
-          const other = await this.api.timing(text, tried, this.explained());
+          const known = this.store.get().found?.subsystems ?? [];
+          const other = await this.api.timing(text, whatIf(tried, known), this.explained());
           // A slider that was put back meanwhile asks for nothing.
           if (this.store.get().tried.size > 0) this.store.set({ other, problem: "" });
         } else this.store.set({ other: null, problem: "" });

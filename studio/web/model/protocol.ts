@@ -652,7 +652,10 @@ export interface WorstRun {
   reaches: boolean;
   /** The calls between the two times, of all subsystems that matter, by their begin. */
   calls: TimedCall[];
-  /** The way of the value that the command is based on, channel by channel. */
+  /**
+   * Channel by channel, the way of the value that the command is based on; for a reaction, of the first values
+   * that reflect the event.
+   */
   hops: TimedHop[];
 }
 export interface FunctionShown {

@@ -41,6 +41,8 @@ export interface Situation {
   verdicts: readonly Pick<Verdict, "verdict" | "warning">[];
   /** Chains that may take longer than was asked: surely, and perhaps. */
   times?: { late: number; unproved: number };
+  /** Whether their times are being computed, or could not be. */
+  timing?: "known" | "computing" | "failed";
   /** The verdicts are about the text as it is now. */
   verdictsCurrent: boolean;
   /** Why the last verification failed. */
@@ -104,6 +106,8 @@ function verify(now: Situation): Step {
     const { tone, text } = verdictsInWords(now.verdicts);
     const { late, unproved } = now.times ?? { late: 0, unproved: 0 };
     const besides = tone === "good" && text === "verified" ? "" : `${text}, `;
+    if (now.timing === "computing") return ["busy", `${besides}computing times…`, "show_verdicts"];
+    if (now.timing === "failed") return [tone === "good" ? "warning" : tone, `${besides}times not computed`, "show_verdicts"];
     if (late > 0) return ["error", `${besides}${counted(late, "time")} too long`, "show_verdicts"];
     if (unproved > 0)
       return [tone === "good" ? "warning" : tone, `${besides}${counted(unproved, "time")} not proved`, "show_verdicts"];

@@ -49,7 +49,7 @@ function useSituation(): Situation {
   const studio = useStudio();
   const draft = useStore(studio.draft.store, (all) => all);
   const verifier = useStore(studio.verifier.store, (all) => all);
-  const verified = useStore(studio.timing.store, (all) => all.verified);
+  const { verified, judging, unjudged } = useStore(studio.timing.store, (all) => all);
   const missing = useStore(studio.sources.store, (all) => all.functions.filter(({ state }) => state === "missing").length);
   const run = useStore(studio.runner.store, (all) => all.state);
   const followed = useStore(studio.runner.store, (all) => all.kind);
@@ -65,6 +65,7 @@ function useSituation(): Situation {
     verifying: verifier.state === "running",
     verdicts: verifier.verdicts,
     times: timesOf(verified),
+    timing: judging ? "computing" : unjudged ? "failed" : "known",
     verdictsCurrent: verifier.text === draft.text,
     verifyProblem: verifier.text === draft.text ? verifier.problem : "",
     missing,

@@ -1,4 +1,4 @@
-import type { MarkedRun } from "../../live/measured";
+import type { MarkedRun } from "../../live/times/measured";
 import type { Colours } from "../world/painted";
 
 interface Places {

@@ -1,4 +1,4 @@
-import type { MarkedRun } from "../../live/measured";
+import type { MarkedRun } from "../../live/times/measured";
 import type { Track } from "../../live/run/track";
 import { inMiddle } from "../../model/net/labels";
 import { Timeline } from "../../model/run/timeline";

@@ -1,5 +1,5 @@
 import { useRef, useState } from "react";
-import type { MarkedRun } from "../../live/measured";
+import type { MarkedRun } from "../../live/times/measured";
 import type { Track } from "../../live/run/track";
 import { Painted } from "../world/painted";
 import { drawTimeline, heightOfAll, laneAt, timeAt } from "./draw_timeline";

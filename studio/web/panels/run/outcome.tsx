@@ -1,4 +1,5 @@
 import type { CheckOutcome, MeasureOutcome, Outcome, SlowCalls } from "../../model/protocol";
+import { TableHead } from "../table_head";
 
 const count = (many: number) => many.toLocaleString("en");
 const ms = (ns: number) => `${(ns * 1e-6).toFixed(3)} ms`;
@@ -24,14 +25,7 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
       {checks && checks.length > 0 && <ChecksOf checks={checks} />}
       {measures && Object.keys(measures).length > 0 && <MeasuresOf measures={measures} />}
       <table className="outcome">
-        <thead>
-          <tr>
-            <th scope="col">Subsystem</th>
-            <th scope="col">Iterations</th>
-            <th scope="col">Overruns</th>
-            <th scope="col">Errors</th>
-          </tr>
-        </thead>
+        <TableHead columns={["Subsystem", "Iterations", "Overruns", "Errors"]} />
         <tbody>
           {subsystems.map((one) => (
             <tr key={one.path}>
@@ -75,13 +69,7 @@ function OvertimeOf({ overtime, subsystems }: { overtime: readonly SlowCalls[]; 
 function ChecksOf({ checks }: { checks: readonly CheckOutcome[] }) {
   return (
     <table className="outcome">
-      <thead>
-        <tr>
-          <th scope="col">Check</th>
-          <th scope="col">Verdict</th>
-          <th scope="col">At</th>
-        </tr>
-      </thead>
+      <TableHead columns={["Check", "Verdict", "At"]} />
       <tbody>
         {checks.map(({ name, text, verdict, time_s, detail }) => (
           <tr key={name} title={detail ? `${text}: ${detail}` : text}>
@@ -98,14 +86,7 @@ function ChecksOf({ checks }: { checks: readonly CheckOutcome[] }) {
 function MeasuresOf({ measures }: { measures: Readonly<Record<string, MeasureOutcome | null>> }) {
   return (
     <table className="outcome">
-      <thead>
-        <tr>
-          <th scope="col">Measure</th>
-          <th scope="col">Least</th>
-          <th scope="col">Mean</th>
-          <th scope="col">Greatest</th>
-        </tr>
-      </thead>
+      <TableHead columns={["Measure", "Least", "Mean", "Greatest"]} />
       <tbody>
         {Object.entries(measures).map(([name, one]) => (
           <tr key={name}>

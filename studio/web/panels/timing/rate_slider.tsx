@@ -10,7 +10,7 @@ export function RateSlider({ timed, path, tried }: { timed: TimedSubsystem; path
   const present = timed.period_ns;
   const now = tried ?? present;
   const choices = periodsBeside(present);
-  const attempt = (period: number) => studio.timing.try(path, period === present ? undefined : period);
+  const attempt = (period: number) => studio.timing.try(path, { period_ns: period === present ? undefined : period });
   const at = now === 0 ? choices.findIndex((one) => one <= 1e9 / 50) : choices.indexOf(now);
   return (
     <div className="rate">

@@ -8,7 +8,16 @@ const most = 6;
 /** The chains of the text that was verified, among the verdicts. */
 export function TimingVerdicts() {
   const studio = useStudio();
-  const verified = useStore(studio.timing.store, (all) => all.verified);
+  const { verified, judging, unjudged } = useStore(studio.timing.store, (all) => all);
+  if (judging || unjudged)
+    return (
+      <section className="timing-verdicts" aria-label="Times">
+        <h3>Times</h3>
+        <p className={unjudged ? "problem-hint" : "faint"} role="status">
+          {unjudged ? `They are not known: ${unjudged}` : "Computing how old commands can be…"}
+        </p>
+      </section>
+    );
   if (!verified || verified.chains.length === 0) return null;
   const open = (key: string | null) => {
     studio.timing.choose(key);

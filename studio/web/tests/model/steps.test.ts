@@ -60,6 +60,15 @@ describe("the three steps", () => {
     expect(both).toMatchObject({ state: "1 violated, 2 times too long", tone: "error" });
   });
 
+  it("do not say that a system is verified before its times are known", () => {
+    const step = (timing: Situation["timing"], verdicts: Situation["verdicts"]) =>
+      stepsOf({ ...calm, verdicts, verdictsCurrent: true, ...(timing ? { timing } : {}) })[1];
+    expect(step("computing", [holds])).toMatchObject({ state: "computing times…", tone: "busy" });
+    expect(step("computing", [holds, warned]).state).toBe("verified, 1 warning, computing times…");
+    expect(step("failed", [holds])).toMatchObject({ state: "times not computed", tone: "warning" });
+    expect(step("known", [holds]).state).toBe("verified");
+  });
+
   it("do not let a violated system run, as the server would not, until the text has changed", () => {
     const verdicts = [holds, violated];
     expect(states({ verdicts, verdictsCurrent: true }).slice(1)).toEqual(["1 violated", "needs a system that passes Verify"]);

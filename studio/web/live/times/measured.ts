@@ -1,8 +1,8 @@
-import type { MeasuredChain } from "../model/protocol";
-import type { Shown, TimedRun } from "../model/timed_run";
-import { type Api, message } from "./api";
-import type { Draft } from "./draft";
-import { Store } from "./store";
+import type { MeasuredChain } from "../../model/protocol";
+import type { Shown, TimedRun } from "../../model/timed_run";
+import { type Api, message } from "../api";
+import type { Draft } from "../draft";
+import { Store } from "../store";
 
 /** A run of a chain that is marked in the timeline of its recording. */
 export interface MarkedRun {

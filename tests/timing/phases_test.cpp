@@ -172,5 +172,50 @@ TEST(Phases, ExceedNoBoundBetweenProcessesAndOverForeignNodes) {
     printf("%zu chains, median of reaction / bound %.2f\n", reach.size(), reach[reach.size() / 2]);
 }
 
+/// Two subsystems of one period that wait for each other: 0 asks, and 1 answers.
+System dialogue(std::uint32_t process_of_answer) {
+  System system;
+  for (std::uint32_t i = 0; i < 2; ++i) {
+    Subsystem& one = system.subsystems.emplace_back();
+    one.period = 100;
+    one.longest = 5;
+    one.process = i * process_of_answer;
+  }
+  for (std::uint32_t c = 0; c < 2; ++c) {
+    Channel& one = system.channels.emplace_back();
+    one.from = c;
+    one.to = 1 - c;
+    one.receive_blocks = true;
+    one.network = 10 * process_of_answer;
+    system.subsystems[c].sends.push_back(c);
+    system.subsystems[1 - c].receives.push_back(c);
+  }
+  return system;
+}
+
+/// In one process, all releases come together, and the answer comes within a period. The release of another process may
+/// come just after a question.
+TEST(Phases, NobodyIsInStepWithAnotherProcess) {
+  const Occurrences together(dialogue(0)), apart(dialogue(1));
+  EXPECT_TRUE(together.in_step(0, 1));
+  EXPECT_TRUE(together.periodic(0));
+  EXPECT_FALSE(apart.in_step(0, 1));
+  EXPECT_FALSE(apart.periodic(0));
+}
+
+TEST(Phases, AValueOfAnotherProcessDrivesNobody) {
+  System system = dialogue(0);
+  system.channels.pop_back();
+  system.subsystems[1].sends.clear();
+  system.subsystems[0].receives.clear();
+  system.subsystems[1].period = 0;
+  const Occurrences together(system);
+  EXPECT_EQ(Clocked(together).driver(1), 0U);
+  system.subsystems[1].process = 1;
+  system.channels[0].network = 10;
+  const Occurrences apart(system);
+  EXPECT_FALSE(Clocked(apart).knows(1));
+}
+
 }  // namespace
 }  // namespace tessera::timing

@@ -544,9 +544,8 @@ export interface TimedSubsystem {
 export interface TimedStep {
   /**
    * next_reading: an event comes just after a reading. network: on the way to another process. foreign: the node
-   * `subsystem` answers. until_read: it stands in the channel. until_begin: until the next iteration. latency:
-   * the thread is late. processor: others go first. takes: the transition function. until_sent: other sends come
-   * first.
+   * `subsystem`. until_read: it stands in the channel. until_begin: until the next iteration. latency: the thread
+   * is late. processor: others go first. takes: the transition function. until_sent: other sends.
    */
   kind: "next_reading" | "network" | "foreign" | "until_read" | "until_begin" | "latency" | "processor" | "takes" | "until_sent";
   subsystem: string;

@@ -47,7 +47,7 @@ class ChainExplainer {
 
  private:
   void tell_steps(ChainExplanation& result) const {
-    const timing::ChainSteps steps = timing::steps_of(bounds_, chain_.ways);
+    const timing::ChainSteps steps = timing::steps_of(bounds_, chain_.ways, chain_.foreign);
     tell("age", steps.age, /*is_age=*/true, result);
     tell("reaction", steps.reaction, /*is_age=*/false, result);
   }
@@ -82,8 +82,13 @@ class ChainExplainer {
       until += step.time;
       result.text += fmt::format("    {:>10}  {:>10}  {}\n", "+" + time_text(step.time), time_text(until),
                                  words_of(step, is_age));
-      json one{{"kind", timing::word_of(step.kind)}, {"subsystem", path(step.subsystem)}, {"ns", step.time}};
-      if (step.kind == timing::Step::Kind::until_read) one["channel"] = channel(step.channel);
+      json one{{"kind", timing::word_of(step.kind)}, {"ns", step.time}};
+      if (step.kind == timing::Step::Kind::foreign)
+        one["node"] = chain_.foreign[step.channel].node;
+      else
+        one["subsystem"] = path(step.subsystem);
+      if (step.kind == timing::Step::Kind::until_read || step.kind == timing::Step::Kind::network)
+        one["channel"] = channel(step.channel);
       all.push_back(std::move(one));
     }
     result.json["steps"][name] = std::move(all);
@@ -94,6 +99,10 @@ class ChainExplainer {
     switch (step.kind) {
       case timing::Step::Kind::next_reading:
         return who + " has just read its device: until it reads the next time";
+      case timing::Step::Kind::network:
+        return fmt::format("the value is on the way to {} (`network`)", who);
+      case timing::Step::Kind::foreign:
+        return chain_.foreign[step.channel].node + " answers (`takes`)";
       case timing::Step::Kind::until_read:
         return fmt::format("the value stands in {} until {} receives it{}", channel(step.channel), who,
                            is_age ? " for the last time" : "");

@@ -76,9 +76,9 @@ Model read_model(const Node& root, Diagnostics& out) {
   check_complete_lists(model, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
-  model.timing = read_timing(file.find("timing"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
   read_deployment(file.find("deploy"), groups, model, out);
+  model.timing = read_timing(file.find("timing"), model, groups, out);
   check_writers(model, out);
   return model;
 }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numeric>
+#include <utility>
 
 namespace tessera::timing {
 
@@ -21,41 +22,66 @@ Time Bounds::read_before(EventId read, EventId next, Time sent, Time given) cons
   return std::max(sent, std::min(at, begin));
 }
 
-ChainBound Bounds::sum(const Chain& chain) const { return sum(chain, nullptr); }
-
-ChainBound Bounds::sum(const Chain& chain, ChainRoutes* routes) const {
+Bounds::Numbers Bounds::first_write(const Chain& chain, ChainRoutes* routes) const {
   const Events& events = events_.events();
   const EventId begin = events.start(events_.system().channels[chain.front()].from),
-                first_write = events.write(chain.front());
-  Time written = events_.once(begin, first_write), replaced = events_.twice(begin, first_write),
-       start = events_.first(first_write);
+                write = events.write(chain.front());
+  const Time written = events_.once(begin, write), replaced = events_.twice(begin, write);
   if (routes != nullptr) *routes = {{written, {}}, {replaced, {}}};
-  for (std::size_t hop = 0; hop < chain.size(); ++hop) {
-    const EventId read = events.read(chain[hop]), next = next_of(chain, hop);
-    const Time last = events_.last_read(chain[hop], written, replaced),
-               on = plus(events_.until_read(chain[hop]), events_.once(read, next));
+  return {written, replaced, events_.first(write), routes};
+}
+
+void Bounds::add(const Chain& chain, std::size_t first, std::size_t end, Numbers& numbers) const {
+  const Events& events = events_.events();
+  auto& [written, replaced, start, routes] = numbers;
+  for (std::size_t hop = first; hop < end; ++hop) {
+    const std::uint32_t channel = chain[hop];
+    const EventId read = events.read(channel), next = next_of(chain, hop);
+    const Time last = events_.last_read(channel, written, replaced),
+               on = plus(events_.until_read(channel), events_.once(read, next));
     const Time sent = written, sent_next = replaced;
     written = plus(last, events_.once(read, next));
-    replaced = std::min(plus(last, events_.twice(read, next)), plus(replaced, on));
-    start = plus(start, on);
+    replaced = std::min(plus(last, events_.twice(read, next)), plus(events_.arrived(channel, replaced), on));
+    start = plus(events_.arrived(channel, start), on);
     if (routes == nullptr) continue;
     routes->age.hops.push_back(
         {std::clamp(last, sent, std::max(sent, written - events_.since_start(next))), written});
     routes->reaction.hops.push_back({read_before(read, next, sent_next, replaced), replaced});
   }
-  return {written, replaced, start, false};
+}
+
+ChainBound Bounds::sum(const Chain& chain) const {
+  Numbers numbers = first_write(chain, nullptr);
+  add(chain, 0, chain.size(), numbers);
+  return {numbers.written, numbers.replaced, numbers.start, false};
+}
+
+/// The grids of two processes have no common beginning, so that values are followed within the first one only.
+std::size_t Bounds::hops_before_a_network(const Chain& chain) const {
+  std::size_t hops = 0;
+  while (hops < chain.size() && !events_.system().crosses(chain[hops])) ++hops;
+  return hops;
+}
+
+Bounds::Numbers Bounds::best(const Chain& chain, bool& enumerated, ChainRoutes* routes) const {
+  const std::size_t known = hops_before_a_network(chain);
+  Numbers numbers = first_write(chain, routes);
+  add(chain, 0, known, numbers);
+  enumerated = known > 0 && enumerate(chain, known, numbers) && known == chain.size();
+  add(chain, known, chain.size(), numbers);
+  return numbers;
 }
 
 ChainBound Bounds::chain(const Chain& chain) const {
-  ChainBound result = sum(chain);
-  enumerate(chain, result, nullptr);
-  return result;
+  bool enumerated = false;
+  const Numbers numbers = best(chain, enumerated, nullptr);
+  return {numbers.written, numbers.replaced, numbers.start, enumerated};
 }
 
 ChainRoutes Bounds::routes(const Chain& chain) const {
+  bool enumerated = false;
   ChainRoutes routes;
-  ChainBound result = sum(chain, &routes);
-  enumerate(chain, result, &routes);
+  static_cast<void>(best(chain, enumerated, &routes));
   return routes;
 }
 
@@ -67,18 +93,19 @@ Time Bounds::between_iterations(std::uint32_t subsystem) const {
   return std::min(events_.gap(events_.events().start(subsystem)), clocked_.gap(subsystem));
 }
 
-/// As `sum`, with absolute times, for each reading of the device until everything repeats.
-void Bounds::enumerate(const Chain& chain, ChainBound& result, ChainRoutes* routes) const {
+/// As `add`, with absolute times, for each reading of the device until everything repeats.
+bool Bounds::enumerate(const Chain& chain, std::size_t hops, Numbers& numbers) const {
   const System& system = events_.system();
   const std::uint32_t root = system.channels[chain.front()].from;
-  if (!clocked_.knows(root) || result.reaction >= unbounded) return;
+  if (!clocked_.knows(root) || numbers.replaced >= unbounded) return false;
   Time pattern = clocked_.pattern(root), settled = clocked_.settled(root);
-  for (const std::uint32_t c : chain) {
-    if (!events_.keeps_values(c)) return;
+  for (std::size_t hop = 0; hop < hops; ++hop) {
+    const std::uint32_t c = chain[hop];
+    if (!events_.keeps_values(c)) return false;
     const std::uint32_t to = system.channels[c].to;
     if (!clocked_.knows(to)) continue;
     const Time factor = clocked_.pattern(to) / std::gcd(pattern, clocked_.pattern(to));
-    if (factor > unbounded / 8 / pattern) return;
+    if (factor > unbounded / 8 / pattern) return false;
     pattern *= factor;
     settled = std::max(settled, clocked_.settled(to));
   }
@@ -88,7 +115,7 @@ void Bounds::enumerate(const Chain& chain, ChainBound& result, ChainRoutes* rout
   Time age = 0, reaction = 0;
   ChainRoutes worst;
   for (Time k = -before;; ++k) {
-    if (k >= Clocked::most_iterations || k + 1 >= clocked_.numbers(root)) return;
+    if (k >= Clocked::most_iterations || k + 1 >= clocked_.numbers(root)) return false;
     check(stop_);
     const Time reading = clocked_.earliest(events.start(root), k);
     if (reading > end) break;
@@ -96,22 +123,24 @@ void Bounds::enumerate(const Chain& chain, ChainBound& result, ChainRoutes* rout
         replaced{clocked_.latest(write, k + 1), k + 1 + before};
     ChainRoutes way{{written.time - reading, {}, reading, pattern},
                     {replaced.time - reading, {}, reading, pattern}};
-    for (std::size_t hop = 0; hop < chain.size(); ++hop) {
-      if (!pass(chain[hop], next_of(chain, hop), written, replaced)) return;
-      if (routes == nullptr) continue;
+    for (std::size_t hop = 0; hop < hops; ++hop) {
+      if (!pass(chain[hop], next_of(chain, hop), written, replaced)) return false;
+      if (numbers.routes == nullptr) continue;
       way.age.hops.push_back({written.read - reading, written.time - reading});
       way.reaction.hops.push_back({replaced.read - reading, replaced.time - reading});
     }
-    if (routes != nullptr && written.time - reading > age) worst.age = way.age;
-    if (routes != nullptr && replaced.time - reading > reaction) worst.reaction = way.reaction;
+    if (numbers.routes != nullptr && written.time - reading > age) worst.age = std::move(way.age);
+    if (numbers.routes != nullptr && replaced.time - reading > reaction)
+      worst.reaction = std::move(way.reaction);
     age = std::max(age, written.time - reading);
     reaction = std::max(reaction, replaced.time - reading);
   }
-  if (routes != nullptr && age <= result.age) routes->age = worst.age;
-  if (routes != nullptr && reaction <= result.reaction) routes->reaction = worst.reaction;
-  result.enumerated = true;
-  result.age = std::min(result.age, age);
-  result.reaction = std::min(result.reaction, reaction);
+  if (numbers.routes != nullptr && age <= numbers.written) numbers.routes->age = std::move(worst.age);
+  if (numbers.routes != nullptr && reaction <= numbers.replaced)
+    numbers.routes->reaction = std::move(worst.reaction);
+  numbers.written = std::min(numbers.written, age);
+  numbers.replaced = std::min(numbers.replaced, reaction);
+  return true;
 }
 
 /// From a write to that of the next subsystem. false: more iterations than were computed.

@@ -16,7 +16,7 @@ struct ChainBound {
   /// the age of the command in force, until a newer one replaces it.
   Time reaction = unbounded;
   Time start = unbounded;   ///< the reaction to what is there at time 0
-  bool enumerated = false;  ///< found value by value, not as a sum
+  bool enumerated = false;  ///< all of it was found value by value, not as a sum
 
   bool operator==(const ChainBound&) const = default;
 };
@@ -72,9 +72,20 @@ class Bounds {
     Time read = 0;     ///< what it is based on
   };
 
-  /// routes: nullptr: they are not asked for.
-  [[nodiscard]] ChainBound sum(const Chain& chain, ChainRoutes* routes) const;
-  void enumerate(const Chain& chain, ChainBound& result, ChainRoutes* routes) const;
+  /// The numbers behind some hops, counted from the reading: when a value based on it has been written, or given, at
+  /// the latest, and when a newer one has replaced it.
+  struct Numbers {
+    Time written = unbounded, replaced = unbounded;
+    Time start = unbounded;         ///< when the first value has been written
+    ChainRoutes* routes = nullptr;  ///< nullptr: they are not asked for
+  };
+  [[nodiscard]] Numbers first_write(const Chain& chain, ChainRoutes* routes) const;
+  /// Over the hops from `first` to `end`, as sums.
+  void add(const Chain& chain, std::size_t first, std::size_t end, Numbers& numbers) const;
+  /// Lowers the numbers behind the first `hops` hops, which are those of `add`. false: they cannot be enumerated.
+  bool enumerate(const Chain& chain, std::size_t hops, Numbers& numbers) const;
+  [[nodiscard]] Numbers best(const Chain& chain, bool& enumerated, ChainRoutes* routes) const;
+  [[nodiscard]] std::size_t hops_before_a_network(const Chain& chain) const;
   [[nodiscard]] bool pass(std::uint32_t channel, EventId next, Moment& written, Moment& replaced) const;
   /// When the value was read on which `given` is based, if it came at `sent`.
   [[nodiscard]] Time read_before(EventId read, EventId next, Time sent, Time given) const;

@@ -15,6 +15,7 @@ using ChangeKind = Change::Kind;
 struct Part {
   System system;
   std::vector<Chain> ways;
+  std::vector<ForeignHop> foreign;
   std::vector<std::uint32_t> subsystems, channels;  ///< their numbers in the whole system
 };
 
@@ -32,8 +33,10 @@ std::set<std::uint32_t> connected(const System& system, const std::vector<Chain>
     const auto [first, is_new] = on_processor.try_emplace(processor, i);
     if (!is_new) join(first->second, i);
   }
-  std::vector<std::uint32_t> waiting{system.channels[ways.front().front()].from};
-  std::set<std::uint32_t> found(waiting.begin(), waiting.end());
+  std::set<std::uint32_t> found;  // the parts of a chain over a foreign hop may not be joined
+  for (const Chain& way : ways)
+    for (const std::uint32_t c : way) found.insert(system.channels[c].from);
+  std::vector<std::uint32_t> waiting(found.begin(), found.end());
   while (!waiting.empty()) {
     const std::uint32_t i = waiting.back();
     waiting.pop_back();
@@ -76,8 +79,8 @@ std::vector<Change> candidates(const System& system, const std::vector<Chain>& w
   std::vector<Change> all;
   std::set<std::uint32_t> subsystems, channels;
   for (const Chain& way : ways) {
-    subsystems.insert(system.channels[way.front()].from);
     for (const std::uint32_t c : way) {
+      subsystems.insert(system.channels[c].from);
       subsystems.insert(system.channels[c].to);
       channels.insert(c);
     }
@@ -96,11 +99,11 @@ std::vector<Change> candidates(const System& system, const std::vector<Chain>& w
   return all;
 }
 
-ChainBound bound_of(const System& system, const std::vector<Chain>& ways, const StopAsked& stop) {
+ChainBound bound_in(const System& system, const Part& part, const StopAsked& stop) {
   const Bounds bounds(system, stop);
   ChainBound most{0, 0, 0, true};
-  for (const Chain& way : ways) {
-    const ChainBound one = bounds.chain(way);
+  for (const Chain& way : part.ways) {
+    const ChainBound one = bound_of(bounds, way, part.foreign);
     most.age = std::max(most.age, one.age);
     most.reaction = std::max(most.reaction, one.reaction);
   }
@@ -154,12 +157,13 @@ System with_change(System system, const Change& change) {
 std::vector<Change> changes_for(const Declared& declared, const DeclaredChain& chain, const StopAsked& stop) {
   std::vector<Change> helpful;
   if (chain.ways.empty()) return helpful;
-  const Part part = part_of(declared.system, chain.ways);
-  const ChainBound now = bound_of(part.system, part.ways, stop);
+  Part part = part_of(declared.system, chain.ways);
+  part.foreign = chain.foreign;
+  const ChainBound now = bound_in(part.system, part, stop);
   for (Change change : candidates(part.system, part.ways)) {
     const System changed = with_change(part.system, change);
     if (!has_pause(changed, change.subsystem)) continue;
-    const ChainBound then = bound_of(changed, part.ways, stop);
+    const ChainBound then = bound_in(changed, part, stop);
     if (then.age > now.age || then.reaction > now.reaction) continue;
     if (then.age == now.age && then.reaction == now.reaction) continue;
     change.age = then.age;

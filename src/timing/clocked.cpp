@@ -49,7 +49,9 @@ std::optional<std::uint32_t> Clocked::driver_of(std::uint32_t subsystem) const {
     if (bounds_.system().channels[c].send_blocks) return std::nullopt;
   for (const std::uint32_t c : one.receives) {
     if (!bounds_.system().channels[c].receive_blocks) continue;
-    if (driver || !bounds_.reads_new(c) || !bounds_.keeps_values(c)) return std::nullopt;
+    // Nothing is known of the instants of another process.
+    if (driver || !bounds_.reads_new(c) || !bounds_.keeps_values(c) || bounds_.system().crosses(c))
+      return std::nullopt;
     driver = c;
   }
   return driver;

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <map>
 #include <optional>
+#include <utility>
 
 #include "layers/wiring.hpp"
 #include "spec/model/endings.hpp"
@@ -48,11 +50,12 @@ class Reader {
   void read(spec::InstanceId instance) {
     const spec::Subsystem& subsystem = model_.subsystem(instance);
     Subsystem& mine = declared_.system.subsystems.emplace_back();
+    if (model_.deployment) mine.process = model_.agents[model_.instances[instance].agent].process.value;
     mine.period = subsystem.period ? subsystem.period->count() : 0;
     mine.catch_up = subsystem.overrun == spec::Overrun::catch_up;
     if (subsystem.stale) declared_.stale[instance.value] = subsystem.stale->count();
     if (subsystem.realtime && subsystem.realtime->cpu) {
-      mine.processor = static_cast<int>(*subsystem.realtime->cpu);
+      mine.processor = processor(static_cast<int>(*subsystem.realtime->cpu), mine.process);
       mine.priority = static_cast<int>(subsystem.realtime->priority);
       declared_.takes_turns[instance.value] =
           subsystem.realtime->policy == spec::RealTime::Policy::round_robin;
@@ -85,6 +88,15 @@ class Reader {
     mine.longest = std::max<Time>(mine.longest, 1);
   }
 
+  /// Processors with one number are the same one only on one machine. A process without a host may be on any.
+  [[nodiscard]] int processor(int number, std::uint32_t process) {
+    if (!model_.deployment) return number;
+    const std::string& host = model_.deployment->processes[spec::ProcessId{process}].host;
+    const auto [known, is_new] =
+        processors_.try_emplace({host, number}, static_cast<int>(processors_.size()));
+    return known->second;
+  }
+
   void read(spec::ChannelId id) {
     const spec::Channel& channel = model_.channels[id];
     Channel& mine = declared_.system.channels.emplace_back();
@@ -97,7 +109,12 @@ class Reader {
     const std::string name = model_.channel_name(channel);
     std::string why;
     if (channel.model.valid()) why = name + " has a communication model of its own";
-    if (model_.crosses_processes(channel)) why = name + " crosses a network";
+    if (model_.crosses_processes(channel)) {
+      if (model_.timing.network)
+        mine.network = model_.timing.network->count();
+      else
+        why = name + " crosses a network, and `timing` does not say the most time of a message (`network`)";
+    }
     if (channel.receive == spec::Mode::blocking_once) why = name + " waits for the first value only";
     if (why.empty()) return;
     miss(channel.from.instance, why);
@@ -155,14 +172,34 @@ class Reader {
     return name;
   }
 
+  /// robot.camera -> robot.goals -> (planner) -> robot.path -> robot.motor
+  [[nodiscard]] std::string name_of(const spec::TimedChain& chain) const {
+    std::string name;
+    auto node = chain.foreign.begin();
+    for (std::size_t at = 0; at < chain.path.size(); ++at) {
+      if (node != chain.foreign.end() && node->after == at) name += " -> (" + (node++)->name + ")";
+      name += (name.empty() ? "" : " -> ") + model_.instance_path(chain.path[at]);
+    }
+    return name;
+  }
+
   /// A chain that the specification names. It stays without a way if a behaviour does not use a channel of it.
   void add_chain(const spec::TimedChain& asked) {
     DeclaredChain chain{asked.name, asked.path, {{}}};
-    chain.leads = name_of(asked.path);
+    chain.leads = name_of(asked);
     chain.is_named = true;
     if (asked.age) chain.age = asked.age->count();
     if (asked.reaction) chain.reaction = asked.reaction->count();
-    for (const std::vector<spec::ChannelId>& hop : asked.hops) {
+    std::size_t channels = 0;
+    auto node = asked.foreign.begin();
+    for (std::size_t at = 0; at < asked.hops.size(); ++at) {
+      if (node != asked.foreign.end() && node->after == at + 1) {
+        chain.foreign.push_back({node->name, node->shortest.count(), node->longest.count(), channels});
+        ++node;
+        continue;
+      }
+      const std::vector<spec::ChannelId>& hop = asked.hops[at];
+      ++channels;
       std::vector<Chain> longer;
       for (const spec::ChannelId channel : hop) {
         const std::uint32_t c = channel.value, from = declared_.system.channels[c].from,
@@ -211,6 +248,7 @@ class Reader {
   const spec::Model& model_;
   Wiring wiring_;
   Declared declared_;
+  std::map<std::pair<std::string, int>, int> processors_;  ///< of deployed systems, by host and number
 };
 
 }  // namespace

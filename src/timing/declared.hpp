@@ -11,14 +11,32 @@
 
 namespace tessera::timing {
 
+/// Something that is not of the system answers the commands in the middle of a chain. The subsystems before it are a
+/// chain of their own, and so are those behind it.
+struct ForeignHop {
+  std::string node;
+  Time shortest = 0, longest = 0;  ///< from a command to its answer; answers keep the order
+  std::size_t after = 0;           ///< channels of a way that come before it
+
+  bool operator==(const ForeignHop&) const = default;
+};
+
+/// The chains that foreign hops divide a way into, one more than hops.
+[[nodiscard]] std::vector<Chain> parts_of(const Chain& way, const std::vector<ForeignHop>& foreign);
+/// The bound of a way, over its foreign hops.
+[[nodiscard]] ChainBound bound_of(const Bounds& bounds, const Chain& way,
+                                  const std::vector<ForeignHop>& foreign);
+
 /// A chain of the specification: from a device to another one.
 struct DeclaredChain {
   std::string name;  ///< as the specification names it, or `leads`
   std::vector<spec::InstanceId> path;
-  std::vector<Chain> ways{};              ///< the channels of the path; two subsystems may have several
+  /// The channels of the path; two subsystems may have several. No channel leads over a foreign hop.
+  std::vector<Chain> ways{};
   std::string leads{};                    ///< "robot.camera -> robot.control -> robot.motor"
   bool is_named = false;                  ///< the specification names it
   std::optional<Time> age{}, reaction{};  ///< what is asked
+  std::vector<ForeignHop> foreign{};      ///< in the order of the path
   std::string unused{};  ///< why there is no way: "robot.control does not send over ..."; empty: there is one
 };
 

@@ -15,8 +15,10 @@ std::vector<std::uint32_t> depends_on(const System& system, const Chain& chain) 
   const auto reach = [&](std::uint32_t i) {
     if (seen.insert(i).second) level.push_back(i);
   };
-  reach(system.channels[chain.front()].from);
-  for (const std::uint32_t c : chain) reach(system.channels[c].to);
+  for (const std::uint32_t c : chain) {
+    reach(system.channels[c].from);
+    reach(system.channels[c].to);
+  }
   for (std::size_t at = 0; at < level.size(); ++at) {
     const std::uint32_t i = level[at];
     for (const std::uint32_t c : system.subsystems[i].receives)
@@ -51,7 +53,8 @@ bool is_exact(const Declared& declared, const Bounds& bounds, const Chain& chain
   std::set<std::uint32_t> path{system.channels[chain.front()].from};
   for (const std::uint32_t c : chain) {
     const Channel& channel = system.channels[c];
-    if (channel.send_blocks || channel.receive_blocks || !path.insert(channel.to).second) return false;
+    if (system.crosses(c) || channel.send_blocks || channel.receive_blocks || !path.insert(channel.to).second)
+      return false;
   }
   return std::ranges::all_of(path, [&](std::uint32_t i) {
     return bounds.occurrences().periodic(i) && !bounds.occurrences().waits(i) && !declared.differ[i] &&
@@ -74,8 +77,9 @@ ChainVerdict judge(const Declared& declared, const spec::Model& model, const Bou
   ChainVerdict verdict{{0, 0, 0, true}, true, chain.unused};
   if (!chain.unused.empty()) verdict.bound = {};
   for (const Chain& way : chain.ways) {
-    const ChainBound bound = bounds.chain(way);
-    verdict.exact = verdict.exact && bound.enumerated && is_exact(declared, bounds, way);
+    const ChainBound bound = bound_of(bounds, way, chain.foreign);
+    verdict.exact =
+        verdict.exact && chain.foreign.empty() && bound.enumerated && is_exact(declared, bounds, way);
     verdict.bound.age = std::max(verdict.bound.age, bound.age);
     verdict.bound.reaction = std::max(verdict.bound.reaction, bound.reaction);
     verdict.bound.start = std::max(verdict.bound.start, bound.start);

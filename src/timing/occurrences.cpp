@@ -50,8 +50,16 @@ bool Occurrences::reads_new(std::uint32_t channel) const {
   return one.receive_blocks && (one.receive_timeout == 0 || never_fires_[events_.read(channel)]);
 }
 bool Occurrences::holds_on(EventId z) const {
-  return events_[z].kind == Event::Kind::acked ? reads_new(events_[z].channel)
-                                               : keeps_values(events_[z].channel);
+  const std::uint32_t channel = events_[z].channel;
+  if (events_[z].kind != Event::Kind::acked) return keeps_values(channel);
+  // After a timeout, a value that is still on the way between processes may be read in place of the next one.
+  return reads_new(channel) && (!system_.crosses(channel) || keeps_values(channel));
+}
+
+Time Occurrences::arrived(std::uint32_t channel, Time written) const {
+  if (!system_.crosses(channel)) return written;
+  const Time network = system_.channels[channel].network;
+  return plus(std::max(written, network), network);
 }
 
 Occurrences::Wait Occurrences::wait_of(EventId z) const {
@@ -161,11 +169,20 @@ void Occurrences::bound_own_waits(const Component& component) {
     const Wait kind = wait_of(z);
     if (kind != Wait::lossy && kind != Wait::timed) continue;
     const EventId partner = partner_of(z);
-    Time most = std::max(gap_[partner], first_[partner]);
-    // A value that is taken back before its reader is awake is missed.
+    const std::uint32_t channel = events_[z].channel;
+    const bool crosses = system_.crosses(channel);
+    Time most = plus(std::max(gap_[partner], first_of_partner(z)), on_the_way(z));
+    if (crosses && events_[z].kind == Event::Kind::acked) {
+      // There, then the first receive, and back.
+      const EventId write = events_.write(channel);
+      const Time there = arrived(channel, events_.least(write)) - events_.least(write);
+      most = plus(std::max(plus(there, gap_[partner]), first_[partner]), on_the_way(z));
+    }
+    // A value that is taken back before its reader is awake is missed. Between processes, several may be.
     if (events_[z].kind == Event::Kind::read && !holds_on(z) &&
-        system_.channels[events_[z].channel].send_timeout <= wake_up(z))
+        (crosses || system_.channels[channel].send_timeout <= wake_up(z)))
       most = unbounded;
+    if (crosses && events_[z].kind == Event::Kind::acked && !keeps_values(channel)) most = unbounded;
     if (kind == Wait::timed) most = std::min(most, timeout_of(z));
     own_wait_[z] = plus(most, wake_up(z));
   }
@@ -201,7 +218,12 @@ bool Occurrences::find_first(const Component& component) {
     for (const EventId z : events_[y].before) before = std::max(before, at(z));
     Time late = plus(before, events_[y].kind == Event::Kind::start ? begin(events_[y].subsystem) : weight(y));
     const Wait kind = wait_of(y);
-    if (kind == Wait::strict) late = std::max(late, plus(at(partner_of(y)), wake_up(y)));
+    if (kind == Wait::strict) {
+      const Time other = at(partner_of(y));
+      const bool reads = events_[y].kind == Event::Kind::read;
+      late = std::max(
+          late, plus(reads ? arrived(events_[y].channel, other) : plus(other, on_the_way(y)), wake_up(y)));
+    }
     if (kind == Wait::timed) late = plus(before, own_wait_[y]);
     found[place_in_[y]] = late;
   };
@@ -222,8 +244,10 @@ bool Occurrences::find_first(const Component& component) {
 void Occurrences::keep_step(const Component& component) {
   const Time period = system_.subsystems[component.subsystems.front()].period;
   if (period == 0) return;
-  for (const std::uint32_t i : component.subsystems)
+  for (const std::uint32_t i : component.subsystems) {
     if (system_.subsystems[i].period != period) return;
+    if (system_.subsystems[i].process != system_.subsystems[component.subsystems.front()].process) return;
+  }
   std::vector<Time> found(component.events.size(), unbounded);
   std::vector<bool> seen(component.events.size());
   const auto predecessors = [&](EventId y, std::vector<EventId>& list) {
@@ -236,9 +260,9 @@ void Occurrences::keep_step(const Component& component) {
     Time late = plus(before, events_[y].kind == Event::Kind::start ? 0 : weight(y));
     if (is_entry(y)) {
       const EventId partner = partner_of(y);
-      const Time other =
-          same_component(partner, y) ? found[place_in_[partner]] : std::max(gap_[partner], first_[partner]);
-      Time held = plus(other, wake_up(y));
+      const Time other = same_component(partner, y) ? found[place_in_[partner]]
+                                                    : std::max(gap_[partner], first_of_partner(y));
+      Time held = plus(plus(other, on_the_way(y)), wake_up(y));
       if (wait_of(y) == Wait::timed) held = std::min(held, plus(before, own_wait_[y]));
       late = std::max(late, held);
     }
@@ -290,7 +314,8 @@ Time Occurrences::longest_wait(EventId z) const {
   Time earliest = events_.least(before);
   for (const EventId y : events_[z].before) earliest = std::max(earliest, events_.least(y));
   const Time next = same_component(partner, z) ? std::min(span(z, partner), gap_[partner]) : gap_[partner];
-  Time most = std::max(minus(next, least_between(z, before)), minus(first_[partner], earliest));
+  Time most = plus(std::max(minus(next, least_between(z, before)), minus(first_of_partner(z), earliest)),
+                   on_the_way(z));
   if (periodic_[events_[z].subsystem])
     most = std::min(most, minus(minus(since_start_[z], earliest), wake_up(z)));
   return std::max<Time>(most, 0);

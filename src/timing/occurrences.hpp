@@ -1,6 +1,7 @@
 // How far apart the events of a system are at most: gaps, first occurrences, waits.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <vector>
 
@@ -59,6 +60,9 @@ class Occurrences {
   /// Its receives wait for new values.
   [[nodiscard]] bool reads_new(std::uint32_t channel) const;
   [[nodiscard]] Wait wait_of(EventId z) const;
+  /// When a value has arrived at the other end of its channel that is written by `written`, which counts from any
+  /// moment of the run. Before a sender has heard of its receiver, its values are on the way for longer.
+  [[nodiscard]] Time arrived(std::uint32_t channel, Time written) const;
   /// A send or receive of its iterations waits for others.
   [[nodiscard]] bool waits(std::uint32_t subsystem) const;
 
@@ -67,7 +71,7 @@ class Occurrences {
   /// From one completion of a receive to the arrival at the next.
   [[nodiscard]] Time arrival(EventId read) const;
   [[nodiscard]] Time first_arrival(EventId read) const;
-  /// From a write to the first receive after it.
+  /// From the arrival of a value to the first receive after it.
   [[nodiscard]] Time until_read(std::uint32_t channel) const;
   /// How long ago the value in an input may have been written, at any time after the first value.
   [[nodiscard]] Time staleness(std::uint32_t channel) const;
@@ -115,6 +119,15 @@ class Occurrences {
   }
   /// The other side cannot let go: its next occurrence after ours ends our wait.
   [[nodiscard]] bool holds_on(EventId z) const;
+  /// From the event that ends a wait until the other process knows of it.
+  [[nodiscard]] Time on_the_way(EventId z) const {
+    return system_.crosses(events_[z].channel) ? system_.channels[events_[z].channel].network : 0;
+  }
+  /// The latest first occurrence of the other event of a wait, if it can end the wait after `on_the_way`.
+  [[nodiscard]] Time first_of_partner(EventId z) const {
+    const Time first = first_[partner_of(z)];
+    return events_[z].kind == Event::Kind::read ? std::max(first, on_the_way(z)) : first;
+  }
   /// A wait that ends with the first occurrence of the partner's event after our last one.
   [[nodiscard]] bool is_entry(EventId y) const;
   /// The time that y adds to the events before it, waits for others left out.

@@ -85,21 +85,21 @@ Time Rows::all_work() const {
       most = std::max(most, own);
     }
     if (!bounds_.is_entry(y)) continue;
-    sum = plus(sum, bounds_.wake_up(y));
+    sum = plus(sum, plus(bounds_.wake_up(y), bounds_.on_the_way(y)));
     const EventId partner = bounds_.partner_of(y);
     if (!is_mine(partner) || bounds_.wait_of(y) == Occurrences::Wait::timed)
-      enter = std::max(enter, std::max(bounds_.gap(partner), bounds_.first(partner)));
+      enter = std::max(enter, std::max(bounds_.gap(partner), bounds_.first_of_partner(y)));
   }
   return plus(plus(sum, most), enter);
 }
 
-/// The latest that the first b after the last y (an event that waits for it) can be, counted from x.
-/// around: that last y lies in an iteration before that of x.
+/// The latest that the first b after the last y (an event that waits for it) can be, counted from x, if it is not on
+/// the way for longer than later ones. around: that last y lies in an iteration before that of x.
 Time Rows::occurrence(EventId b, EventId y, EventId x, bool around) const {
   const Events& events = bounds_.events_;
   const bool own = events[x].subsystem == events[y].subsystem;
   const Time ago = own && around ? bounds_.least_between(y, x) : 0;
-  return std::max(minus(bounds_.gap(b), ago), minus(bounds_.first(b), events.least(x)));
+  return std::max(minus(bounds_.gap(b), ago), minus(bounds_.first_of_partner(y), events.least(x)));
 }
 
 void Rows::find_row(EventId x, std::vector<Time>& row) {
@@ -171,9 +171,15 @@ Rows::Latest Rows::at_event(EventId y, EventId x) const {
   if (!bounds_.is_entry(y)) return latest;
   const EventId partner = bounds_.partner_of(y);
   Time late = occurrence(partner, y, x, tokens(y) == 1);
-  if (bounds_.wait_of(y) == Occurrences::Wait::strict && is_mine(partner))
-    late = std::min(late, tokens(partner) == tokens(y) ? latest_[bounds_.place_in_[partner]].any : 0);
-  late = plus(late, bounds_.wake_up(y));
+  if (bounds_.wait_of(y) == Occurrences::Wait::strict && is_mine(partner)) {
+    Time path = tokens(partner) == tokens(y) ? latest_[bounds_.place_in_[partner]].any : 0;
+    // A value of the start leaves when the processes have heard each other.
+    const Event& event = bounds_.events_[y];
+    if (event.kind == Event::Kind::read && bounds_.system_.crosses(event.channel))
+      path = std::max(path, bounds_.on_the_way(y) - bounds_.events_.least(x));
+    late = std::min(late, path);
+  }
+  late = plus(late, plus(bounds_.on_the_way(y), bounds_.wake_up(y)));
   if (bounds_.wait_of(y) == Occurrences::Wait::timed)
     late = std::min(late, plus(before, bounds_.own_wait_[y]));
   return {std::max(latest.any, late), std::max(latest.held, late)};

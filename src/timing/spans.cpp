@@ -34,14 +34,18 @@ Time Occurrences::until_read(std::uint32_t channel) const {
 }
 Time Occurrences::staleness(std::uint32_t channel) const {
   const EventId write = events_.write(channel), read = events_.read(channel);
-  if (keeps_values(channel)) return plus(gap_[write], until_read(channel));
+  // The value is written at `least` or later, and the next one after a gap.
+  if (keeps_values(channel))
+    return plus(minus(arrived(channel, plus(events_.least(write), gap_[write])), events_.least(write)),
+                until_read(channel));
   return reads_new(channel) ? plus(gap_[write], gap_[read]) : unbounded;
 }
 Time Occurrences::first_value(std::uint32_t channel) const {
   const EventId write = events_.write(channel), read = events_.read(channel);
   if (reads_new(channel)) return first_[read];
   if (!keeps_values(channel)) return unbounded;
-  return plus(std::max(first_arrival(read), plus(first_[write], arrival(read))), wake_up(read));
+  return plus(std::max(first_arrival(read), plus(arrived(channel, first_[write]), arrival(read))),
+              wake_up(read));
 }
 
 Time Occurrences::once(EventId x, EventId y) const {
@@ -66,12 +70,15 @@ Time Occurrences::twice(EventId x, EventId y) const {
 
 Time Occurrences::last_read(std::uint32_t channel, Time written, Time replaced) const {
   const EventId write = events_.write(channel);
-  Time last = keeps_values(channel) ? std::min(replaced, plus(written, gap_[write])) : unbounded;
+  Time last = keeps_values(channel)
+                  ? std::min(arrived(channel, replaced), arrived(channel, plus(written, gap_[write])))
+                  : unbounded;
   // A new value was not there at the last receive.
-  if (!reads_new(channel)) return last;
+  if (!reads_new(channel) || (system_.crosses(channel) && !keeps_values(channel))) return last;
   const EventId read = events_.read(channel);
-  return std::min(last, plus(written, std::max({arrival(read), wake_up(read),
-                                                minus(first_arrival(read), events_.least(write))})));
+  return std::min(
+      last, plus(arrived(channel, written),
+                 std::max({arrival(read), wake_up(read), minus(first_arrival(read), events_.least(write))})));
 }
 
 }  // namespace tessera::timing

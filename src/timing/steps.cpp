@@ -48,7 +48,11 @@ std::vector<Step> along(const Bounds& bounds, const Chain& chain, const Route& r
   for (std::size_t hop = 0; hop < chain.size(); ++hop) {
     const std::uint32_t to = occurrences.system().channels[chain[hop]].to;
     const Route::Hop& passed = route.hops[hop];
-    steps.add(StepKind::until_read, to, chain[hop], passed.read - last);
+    const bool crosses = occurrences.system().crosses(chain[hop]);
+    const Time sent =
+        crosses ? std::min(passed.read - last, occurrences.arrived(chain[hop], last) - last) : 0;
+    steps.add(StepKind::network, to, chain[hop], sent);
+    steps.add(StepKind::until_read, to, chain[hop], passed.read - last - sent);
     steps.iteration(hop + 1 < chain.size() ? events.write(chain[hop + 1]) : events.finish(to), passed.read,
                     passed.given, StepKind::until_begin);
     last = passed.given;
@@ -56,16 +60,37 @@ std::vector<Step> along(const Bounds& bounds, const Chain& chain, const Route& r
   return steps.take();
 }
 
+/// A part of a way behind a foreign hop begins with an event: an answer. Readings before the last part are those that
+/// are in force.
+std::vector<Step> all_along(const Bounds& bounds, const Chain& way, const std::vector<ForeignHop>& foreign,
+                            bool is_age) {
+  std::vector<Step> steps;
+  const std::vector<Chain> parts = parts_of(way, foreign);
+  for (std::size_t at = 0; at < parts.size(); ++at) {
+    const ChainRoutes routes = bounds.routes(parts[at]);
+    const bool counts_age = is_age && at + 1 == parts.size();
+    if (at > 0)
+      steps.push_back({StepKind::foreign, bounds.occurrences().system().channels[parts[at].front()].from,
+                       static_cast<std::uint32_t>(at - 1), foreign[at - 1].longest});
+    const std::vector<Step> more = along(bounds, parts[at], counts_age ? routes.age : routes.reaction,
+                                         counts_age ? StepKind::until_sent : StepKind::next_reading);
+    steps.insert(steps.end(), more.begin(), more.end());
+  }
+  return steps;
+}
+
 }  // namespace
 
-ChainSteps steps_of(const Bounds& bounds, const std::vector<Chain>& ways) {
+ChainSteps steps_of(const Bounds& bounds, const std::vector<Chain>& ways,
+                    const std::vector<ForeignHop>& foreign) {
   const Chain *oldest = &ways.front(), *slowest = oldest;
   for (const Chain& way : ways) {
-    if (bounds.chain(way).age > bounds.chain(*oldest).age) oldest = &way;
-    if (bounds.chain(way).reaction > bounds.chain(*slowest).reaction) slowest = &way;
+    if (bound_of(bounds, way, foreign).age > bound_of(bounds, *oldest, foreign).age) oldest = &way;
+    if (bound_of(bounds, way, foreign).reaction > bound_of(bounds, *slowest, foreign).reaction)
+      slowest = &way;
   }
-  return {along(bounds, *oldest, bounds.routes(*oldest).age, StepKind::until_sent),
-          along(bounds, *slowest, bounds.routes(*slowest).reaction, StepKind::next_reading)};
+  return {all_along(bounds, *oldest, foreign, /*is_age=*/true),
+          all_along(bounds, *slowest, foreign, /*is_age=*/false)};
 }
 
 }  // namespace tessera::timing

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "timing/bounds.hpp"
+#include "timing/declared.hpp"
 
 namespace tessera::timing {
 
@@ -12,6 +12,8 @@ namespace tessera::timing {
 struct Step {
   enum class Kind : std::uint8_t {
     next_reading,  ///< an event comes just after a reading: until the next one
+    network,       ///< the value is on the way to another process
+    foreign,       ///< something that is not of this system answers: DeclaredChain::foreign[channel]
     until_read,    ///< the value stands in the channel until it is received, for an age the last time
     until_begin,   ///< what is received at the end of an iteration is used in the next one: until that begins
     latency,       ///< a thread goes on later than it may
@@ -21,7 +23,7 @@ struct Step {
   };
   Kind kind = Kind::takes;
   std::uint32_t subsystem = 0;
-  std::uint32_t channel = 0;  ///< of until_read: over which the value comes
+  std::uint32_t channel = 0;  ///< of until_read and network: over which the value comes
   Time time = 0;              ///< > 0
 
   bool operator==(const Step&) const = default;
@@ -32,7 +34,8 @@ struct ChainSteps {
 };
 
 /// Those of the way with the largest age, and of the one with the largest reaction. Precondition: there is a way, and
-/// all have bounds.
-[[nodiscard]] ChainSteps steps_of(const Bounds& bounds, const std::vector<Chain>& ways);
+/// all have bounds. foreign: the hops of all ways over something that is not of this system.
+[[nodiscard]] ChainSteps steps_of(const Bounds& bounds, const std::vector<Chain>& ways,
+                                  const std::vector<ForeignHop>& foreign = {});
 
 }  // namespace tessera::timing

@@ -23,6 +23,10 @@ const char* word_of(Step::Kind kind) {
   switch (kind) {
     case Kind::next_reading:
       return "next_reading";
+    case Kind::network:
+      return "network";
+    case Kind::foreign:
+      return "foreign";
     case Kind::until_read:
       return "until_read";
     case Kind::until_begin:

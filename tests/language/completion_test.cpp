@@ -113,7 +113,7 @@ TEST(Completion, PathsOfDriversAndProperties) {
 
 TEST(Completion, ChainsOfTiming) {
   const std::string chains = head + "timing:\n  latency: 1 us\n  chains:\n";
-  EXPECT_THAT(proposed(head + "timing:\n  ‸"), ElementsAre("chains", "latency"));
+  EXPECT_THAT(proposed(head + "timing:\n  ‸"), ElementsAre("chains", "latency", "network"));
   EXPECT_THAT(proposed(chains + "    - { ‸"), ElementsAre("name", "path", "age", "reaction"));
   EXPECT_THAT(proposed(chains + "    - { path: [‸] }"),
               IsSupersetOf({"boss.sensor", "boss.control", "robot[i].control"}));

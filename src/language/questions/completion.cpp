@@ -161,7 +161,8 @@ bool Completer::special_value() {
   if (size >= 2 && way[0] == "properties" && last != "name" && value_after_comparison()) return true;
   if (size >= 2 && way[0] == "properties" && last != "name")
     return paths(PathEnd::behaviour, "[*]"), words_of_formulas(), true;
-  if (size >= 4 && way[0] == "timing" && way[1] == "chains" && way[3] == "path")
+  if (size >= 4 && way[0] == "timing" && way[1] == "chains" && way[3] == "path" &&
+      (last.empty() || last == "path"))
     return paths(PathEnd::subsystem, "[i]"), true;
   if (size >= 3 && way[0] == "simulation" && way[1] == "script" && last == "set")
     return paths(PathEnd::real, "[*]"), true;

@@ -41,6 +41,22 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   }
 }
 
+/// A recording does not show what a foreign node does between two devices.
+void add_unmeasured(const spec::Model& model, std::vector<AgesOfChain>& all) {
+  if (!model.timing.chains) return;
+  for (const spec::TimedChain& chain : *model.timing.chains) {
+    if (chain.foreign.empty()) continue;
+    const std::string group = spec::fleet_name_of(chain.name);
+    auto found = std::ranges::find(all, group, [](const AgesOfChain& one) { return one.measured.group; });
+    if (found == all.end()) {
+      found = all.insert(all.end(), AgesOfChain{});
+      found->measured.group = group;
+      found->measured.why = chain.foreign.front().name + " is not of this system: nothing is recorded of it";
+    }
+    ++found->measured.chains;
+  }
+}
+
 json times_json(const MeasuredTimes& times, std::span<const std::string> names) {
   json one{{"count", times.count}};
   if (times.count == 0) return one;
@@ -76,6 +92,7 @@ std::vector<MeasuredChain> measured_chains(const spec::Model& model) {
 std::vector<AgesOfChain> beside_bounds(std::vector<ChainAges> measured, const spec::Model& model) {
   std::vector<AgesOfChain> all;
   for (ChainAges& one : measured) all.push_back({std::move(one), {}, {}, false, {}});
+  add_unmeasured(model, all);
   add_bounds(model, all);
   return all;
 }

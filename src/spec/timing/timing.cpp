@@ -22,6 +22,11 @@ constexpr const char* chain_hint =
 constexpr const char* stops_hint =
     "a path names subsystems, receptor first: [robot.sensor, robot.control, robot.motor]";
 
+constexpr const char* foreign_hint =
+    "for example path: [robot.sensor, robot.control, robot.goal, { node: planner, takes: 5..20 ms }, "
+    "robot.plan, "
+    "robot.drive, robot.motor]";
+
 /// A subsystem of a path, and the buffers of it that the path names.
 struct Stop {
   BufferPath path;
@@ -40,10 +45,19 @@ class TimingReader {
 
   Timing read(const Entry& entry) {
     Timing timing;
-    const Section section(*entry.value, entry.span, "timing", {"latency", "chains"}, out_);
+    const Section section(*entry.value, entry.span, "timing", {"latency", "network", "chains"}, out_);
     if (const Entry* latency = section.find("latency"))
       timing.latency =
           read_moment(*latency->value, latency->span, "latency", out_).value_or(std::chrono::nanoseconds{0});
+    if (const Entry* network = section.find("network")) {
+      timing.network = read_moment(*network->value, network->span, "network", out_);
+      const bool crosses = std::ranges::any_of(
+          model_.channels, [&](const Channel& channel) { return model_.crosses_processes(channel); });
+      if (timing.network && connects_ && !crosses)
+        out_.warning("W344", network->span,
+                     "no channel leads from one process to another, so `network` has no effect",
+                     "`deploy: { processes: ... }` says which agents run in which process");
+    }
     if (const Entry* chains = section.find("chains")) {
       timing.chains.emplace();
       for (const Node* item : items_of(*chains->value, chains->span, "chains", out_))
@@ -73,20 +87,28 @@ class TimingReader {
       chain.reaction = read_duration(*reaction->value, reaction->span, "reaction", out_);
     const Entry* path = section.require("path", stops_hint);
     if (path == nullptr) return;
-    const std::optional<std::vector<Stop>> stops = read_path(*path);
+    const std::optional<std::vector<Stop>> stops = read_path(*path, chain.foreign);
     if (stops) expand(*stops, chain, chains);
   }
 
-  std::optional<std::vector<Stop>> read_path(const Entry& entry) {
+  std::optional<std::vector<Stop>> read_path(const Entry& entry, std::vector<ForeignNode>& foreign) {
     std::vector<Stop> stops;
     const std::vector<const Node*>& items = items_of(*entry.value, entry.span, "path", out_);
     if (!entry.value->is_sequence() && !entry.value->is_null()) return std::nullopt;
     bool good = true;
-    for (const Node* item : items)
-      good = read_stop(*item, item->is_null() ? entry.span : item->span, item == items.front(),
-                       item == items.back(), stops) &&
+    for (std::size_t at = 0; at < items.size(); ++at) {
+      const Node& item = *items[at];
+      const Span span = item.is_null() ? entry.span : item.span;
+      const bool is_first = at == 0 || items[at - 1]->is_map(),
+                 is_last = at + 1 == items.size() || items[at + 1]->is_map();
+      const bool follows = !foreign.empty() && foreign.back().after == stops.size();
+      good = (item.is_map() ? read_foreign(item, span, is_first || is_last, stops.size(), foreign)
+                            : read_stop(item, span, is_first, is_last, follows, stops)) &&
              good;
+    }
     if (!good) return std::nullopt;
+    for (const ForeignNode& node : foreign)
+      if (!joins(node, stops)) return std::nullopt;
     if (stops.size() < 2) {
       out_.error("E382", entry.span, "a path needs at least two subsystems", stops_hint);
       return std::nullopt;
@@ -96,7 +118,45 @@ class TimingReader {
     return begins && ends ? std::optional(std::move(stops)) : std::nullopt;
   }
 
-  bool read_stop(const Node& node, Span at, bool is_first, bool is_last, std::vector<Stop>& stops) {
+  /// is_outside: nothing of the system comes before it, or behind it.
+  bool read_foreign(const Node& node, Span at, bool is_outside, std::size_t after,
+                    std::vector<ForeignNode>& foreign) {
+    const Section section(node, at, "a foreign node", {"node", "takes"}, out_);
+    if (!section.readable()) return false;
+    ForeignNode read{{}, {}, {}, after, at};
+    const Entry* name = section.require("node", foreign_hint);
+    const Node* text = name == nullptr ? nullptr : text_of(*name->value, name->span, "a name", out_);
+    const Entry* takes = section.require("takes", foreign_hint);
+    const std::optional<Takes> time =
+        takes == nullptr ? std::nullopt : read_takes(*takes->value, takes->span, out_);
+    if (text == nullptr || !time) return false;
+    read.name = text->text;
+    read.shortest = time->shortest;
+    read.longest = time->longest;
+    if (is_outside) {
+      out_.error("E387", at, in_quotes(read.name) + " stands at an end of the path, or beside another node",
+                 "a node that is not of this system stands between an effector and a receptor of this one");
+      return false;
+    }
+    foreign.push_back(std::move(read));
+    return true;
+  }
+
+  bool joins(const ForeignNode& node, const std::vector<Stop>& stops) {
+    const Subsystem &before = lookup_.subsystem(stops[node.after - 1].target),
+                    &behind = lookup_.subsystem(stops[node.after].target);
+    if (before.kind == SubsystemKind::effector && behind.kind == SubsystemKind::receptor) return true;
+    const bool is_before = before.kind != SubsystemKind::effector;
+    out_.error("E388", stops[is_before ? node.after - 1 : node.after].path.whole,
+               is_before ? "before " + in_quotes(node.name) + " stands no effector, which commands it"
+                         : "behind " + in_quotes(node.name) + " stands no receptor, which reads its answers",
+               foreign_hint);
+    return false;
+  }
+
+  /// follows: the item before it is a foreign node.
+  bool read_stop(const Node& node, Span at, bool is_first, bool is_last, bool follows,
+                 std::vector<Stop>& stops) {
     const Node* text = text_of(node, at, "a subsystem of a path", out_, stops_hint);
     if (text == nullptr) return false;
     if (text->text.find('.') == std::string::npos) {
@@ -116,7 +176,8 @@ class TimingReader {
     }
     if (!path->buffer.empty() && !find_buffer(stop, is_first, is_last)) return false;
     // [..., robot.control.line, robot.control.motion, ...]: in and out of one subsystem.
-    if (!stops.empty() && is_same(stops.back(), stop) && stops.back().in && !stops.back().out && stop.out) {
+    if (!follows && !stops.empty() && is_same(stops.back(), stop) && stops.back().in && !stops.back().out &&
+        stop.out) {
       stops.back().out = stop.out;
       stops.back().leaves = stop.leaves;
     } else {
@@ -206,6 +267,10 @@ class TimingReader {
     for (std::size_t at = 0; at + 1 < stops.size(); ++at) {
       const Stop &from = stops[at], &to = stops[at + 1];
       std::vector<ChannelId> hop;
+      if (std::ranges::find(chain.foreign, at + 1, &ForeignNode::after) != chain.foreign.end()) {
+        chain.hops.emplace_back();
+        continue;
+      }
       if (const auto found = channels_.find({chain.path[at].value, chain.path[at + 1].value});
           found != channels_.end())
         hop = found->second;

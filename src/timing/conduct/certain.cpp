@@ -118,6 +118,8 @@ Time Certain::wait_by_mean(EventId z) const {
 }
 
 Time Certain::wait(EventId z) const {
+  // A message may be on the way for longer than the next one.
+  if (occurrences_.system().crosses(events_[z].channel)) return 0;
   const Time least_gap = occurrences_.least_gap(partner_of(z)), arrival = occurrences_.arrival(z);
   if (arrival >= unbounded || occurrences_.gap(partner_of(z)) >= unbounded) return 0;
   return std::max(

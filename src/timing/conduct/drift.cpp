@@ -50,6 +50,8 @@ std::optional<Drift> drift_of(const Bounds& bounds, const Chain& chain) {
   const System& system = bounds.occurrences().system();
   std::vector<std::uint32_t> path{system.channels[chain.front()].from};
   for (const std::uint32_t c : chain) {
+    // Over networks and foreign nodes there are sums whatever the rates are.
+    if (system.crosses(c) || system.channels[c].from != path.back()) return std::nullopt;
     if (!bounds.occurrences().keeps_values(c)) return std::nullopt;
     path.push_back(system.channels[c].to);
   }

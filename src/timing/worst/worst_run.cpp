@@ -89,6 +89,9 @@ std::optional<WorstRunSearch::Obstacle> WorstRunSearch::obstacle(
   for (const std::uint32_t i : subsystems) {
     if (!declared_.missing[i].empty() || system.subsystems[i].longest >= unbounded)
       return Obstacle{Obstacle::Kind::missing, i};
+    // A run of the search has one grid, and channels without a delay.
+    if (system.subsystems[i].process != system.subsystems[subsystems.front()].process)
+      return Obstacle{Obstacle::Kind::processes, i};
     if (declared_.differ[i]) return Obstacle{Obstacle::Kind::differ, i};
     const auto is_equal = [&](std::uint32_t other) {
       return other != i && system.subsystems[other].processor == system.subsystems[i].processor &&
@@ -101,7 +104,16 @@ std::optional<WorstRunSearch::Obstacle> WorstRunSearch::obstacle(
   return std::nullopt;
 }
 
+/// Its channels do not follow one another: something that is not of the system stands between them.
+bool WorstRunSearch::is_foreign(const Chain& way) const {
+  const std::vector<Channel>& channels = bounds_.occurrences().system().channels;
+  for (std::size_t hop = 1; hop < way.size(); ++hop)
+    if (channels[way[hop - 1]].to != channels[way[hop]].from) return true;
+  return false;
+}
+
 std::string WorstRunSearch::obstacle(const Chain& way, const spec::Model& model) const {
+  if (is_foreign(way)) return "the chain leads over something that is not of the system";
   const std::optional<Obstacle> found = obstacle(depends_on(way));
   if (!found) return {};
   const std::string path = model.instance_path(spec::InstanceId{found->subsystem});
@@ -112,6 +124,8 @@ std::string WorstRunSearch::obstacle(const Chain& way, const spec::Model& model)
       return "the behaviours of " + path + " do not all take the same time";
     case Obstacle::Kind::takes_turns:
       return path + " takes turns with others on its processor (`round_robin`)";
+    case Obstacle::Kind::processes:
+      return path + " runs in another process, whose calls begin on a grid of its own";
     case Obstacle::Kind::too_many:
       break;
   }
@@ -179,6 +193,7 @@ WorstRuns WorstRunSearch::find(const DeclaredChain& chain) {
   const Chain *oldest = nullptr, *slowest = nullptr;
   Time age = -1, reaction = -1;
   for (const Chain& way : chain.ways) {
+    if (is_foreign(way)) return {};
     const ChainBound bound = bounds_.chain(way);
     if (bound.reaction >= unbounded) return {};
     if (bound.age > age) oldest = &way;

@@ -89,13 +89,14 @@ class WorstRunSearch {
   };
 
   struct Obstacle {
-    enum class Kind : std::uint8_t { missing, differ, takes_turns, too_many } kind = Kind::missing;
+    enum class Kind : std::uint8_t { missing, differ, takes_turns, processes, too_many } kind = Kind::missing;
     std::uint32_t subsystem = 0;
   };
   static constexpr std::size_t most_subsystems = 64;
 
   [[nodiscard]] std::optional<Obstacle> obstacle(const std::vector<std::uint32_t>& subsystems) const;
   [[nodiscard]] std::vector<std::uint32_t> depends_on(const Chain& way) const;
+  [[nodiscard]] bool is_foreign(const Chain& way) const;
   [[nodiscard]] Part part_of(const Chain& way) const;
   [[nodiscard]] std::optional<WorstRun> find(const Chain& way, bool age);
 

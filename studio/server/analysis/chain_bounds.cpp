@@ -75,21 +75,26 @@ std::string channel_name(const spec::Model& model, std::uint32_t channel) {
   return model.channel_name(model.channels[spec::ChannelId{channel}]);
 }
 
-json steps_json(const std::vector<timing::Step>& steps, const spec::Model& model) {
+json steps_json(const std::vector<timing::Step>& steps, const timing::DeclaredChain& chain,
+                const spec::Model& model) {
+  using Kind = timing::Step::Kind;
   json all = json::array();
-  for (const timing::Step& step : steps)
+  for (const timing::Step& step : steps) {
+    const bool over_channel = step.kind == Kind::until_read || step.kind == Kind::network;
     all.push_back(
         {{"kind", word_of(step.kind)},
-         {"subsystem", model.instance_path(InstanceId{step.subsystem})},
-         {"channel", step.kind == timing::Step::Kind::until_read ? json(channel_name(model, step.channel))
-                                                                 : json(nullptr)},
+         {"subsystem", step.kind == Kind::foreign ? chain.foreign[step.channel].node
+                                                  : model.instance_path(InstanceId{step.subsystem})},
+         {"channel", over_channel ? json(channel_name(model, step.channel)) : json(nullptr)},
          {"ns", step.time}});
+  }
   return all;
 }
 
 json steps_of(const timing::DeclaredChain& chain, const timing::Bounds& bounds, const spec::Model& model) {
-  const timing::ChainSteps steps = timing::steps_of(bounds, chain.ways);
-  return {{"age", steps_json(steps.age, model)}, {"reaction", steps_json(steps.reaction, model)}};
+  const timing::ChainSteps steps = timing::steps_of(bounds, chain.ways, chain.foreign);
+  return {{"age", steps_json(steps.age, chain, model)},
+          {"reaction", steps_json(steps.reaction, chain, model)}};
 }
 
 /// Empty: it has several, and the run does not say which.

@@ -537,13 +537,13 @@ export interface TimedSubsystem {
 /** A part of an age or a reaction. The parts follow one another, and add up to the bound. */
 export interface TimedStep {
   /**
-   * next_reading: an event comes just after a reading. until_read: the value stands in the channel. until_begin:
-   * until the next iteration begins. latency: the thread goes on later than it may. processor: others go first on
-   * it. takes: the transition function. until_sent: other sends come first.
+   * next_reading: an event comes just after a reading. network: on the way to another process. foreign: the node
+   * `subsystem`. until_read: it stands in the channel. until_begin: until the next iteration. latency: the thread
+   * is late. processor: others go first. takes: the transition function. until_sent: other sends.
    */
-  kind: "next_reading" | "until_read" | "until_begin" | "latency" | "processor" | "takes" | "until_sent";
+  kind: "next_reading" | "network" | "foreign" | "until_read" | "until_begin" | "latency" | "processor" | "takes" | "until_sent";
   subsystem: string;
-  /** until_read: FROM->TO; else null. */
+  /** until_read, network: FROM->TO; else null. */
   channel: string | null;
   ns: number;
 }

@@ -87,6 +87,10 @@ export function saidStep({ kind, subsystem, channel }: TimedStep, isAge: boolean
   switch (kind) {
     case "next_reading":
       return `${who} has just read its device: until it reads again`;
+    case "network":
+      return `the value is on the way to ${who} (network)`;
+    case "foreign":
+      return `${subsystem} answers, which is not of this system`;
     case "until_read":
       return `the value waits in the channel${channel ? ` to ${last(channel.split("->")[1] ?? "")}` : ""} until ${who} receives it${isAge ? " for the last time" : ""}`;
     case "until_begin":

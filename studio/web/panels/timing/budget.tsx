@@ -48,9 +48,9 @@ function Bar({ title, steps, other }: { title: string; steps: readonly TimedStep
 }
 
 const shadeOf = ({ kind }: TimedStep) =>
-  kind === "takes"
+  kind === "takes" || kind === "foreign"
     ? "part-works"
-    : kind === "until_read"
+    : kind === "until_read" || kind === "network"
       ? "part-stands"
       : kind === "processor" || kind === "latency"
         ? "part-late"

@@ -1,7 +1,17 @@
 import { expect, test } from "vitest";
 import type { TimedChain, Timing } from "../../model/protocol";
 import { readStructure } from "../../model/structure/structure";
-import { chainName, periodsBeside, sharesOf, shownChain, shownRate, shownTime, verdictOf, worstFirst } from "../../model/timing";
+import {
+  chainName,
+  periodsBeside,
+  saidStep,
+  sharesOf,
+  shownChain,
+  shownRate,
+  shownTime,
+  verdictOf,
+  worstFirst,
+} from "../../model/timing";
 import { editsOf, limitEdits } from "../../model/timing_edits";
 
 const text = `agents:
@@ -75,6 +85,13 @@ test("parts of one subsystem that follow one another are its share", () => {
     ["a.y", 4],
     ["a.x", 8],
   ]);
+});
+
+test("a message and a foreign node are parts in words", () => {
+  const sent = { kind: "network" as const, subsystem: "base.control", channel: "robot.control.x->base.control.x", ns: 1 };
+  expect(saidStep(sent, true)).toBe("the value is on the way to control (network)");
+  const answered = { kind: "foreign" as const, subsystem: "planner", channel: null, ns: 1 };
+  expect(saidStep(answered, false)).toBe("planner answers, which is not of this system");
 });
 
 const timing: Timing = {

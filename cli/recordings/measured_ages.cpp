@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "replay/times/call_durations.hpp"
 #include "tessera/printable.hpp"
 #include "timing/declared.hpp"
+#include "timing/words.hpp"
 
 namespace tessera::cli {
 namespace {
@@ -16,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 std::string in_ms(std::int64_t ns) { return fmt::format("{:.3f} ms", static_cast<double>(ns) * 1e-6); }
-std::string in_ms(std::optional<std::int64_t> ns) { return ns ? in_ms(*ns) : "none"; }
+std::string in_ms(std::optional<std::int64_t> ns) { return ns ? in_ms(*ns) : "no bound"; }
 double in_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 /// The bounds of each group: the largest of its chains.
@@ -27,7 +30,7 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
   const timing::Bounds bounds(declared.system);
   std::map<std::string, std::uint64_t> judged;
   for (const timing::DeclaredChain& chain : declared.chains) {
-    const auto found = of_group.find(fleet_name_of(chain.name));
+    const auto found = of_group.find(timing::without_members(chain.name));
     if (found == of_group.end()) continue;
     AgesOfChain& one = *found->second;
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
@@ -45,6 +48,27 @@ void add_bounds(const spec::Model& model, std::vector<AgesOfChain>& all) {
       one.why = model.timing.chains ? "`timing` does not name it"
                                     : "the behaviours of a subsystem use different channels";
     if (!one.why.empty()) one.age_ns = one.reaction_ns = std::nullopt;
+  }
+}
+
+/// Only the recordings say it: the specification may say more by now.
+void add_timeless(std::span<const Recording> recordings, const std::vector<replay::MeasuredChain>& chains,
+                  std::vector<AgesOfChain>& all) {
+  std::map<std::string, std::set<std::string>> names;  // by group
+  for (const Recording& recording : recordings) {
+    if (recording.clock != "simulated") continue;
+    replay::DurationsOfBehaviours calls;
+    replay::add_durations(recording, calls);
+    for (const replay::MeasuredChain& chain : chains)
+      for (const std::string& subsystem : chain.subsystems)
+        for (auto at = calls.lower_bound({subsystem, ""}); at != calls.end() && at->first.first == subsystem;
+             ++at)
+          if (at->second.count > 0 && at->second.most_ns == 0)
+            names[chain.group].insert(timing::without_members(subsystem) + "." + at->first.second);
+  }
+  for (AgesOfChain& one : all) {
+    const std::set<std::string>& found = names[one.measured.group];
+    one.timeless.assign(found.begin(), found.end());
   }
 }
 
@@ -103,7 +127,7 @@ std::vector<std::vector<std::string>> ways_along(
 std::vector<replay::MeasuredChain> named_chains(const spec::Model& model) {
   std::vector<replay::MeasuredChain> chains;
   for (const spec::TimedChain& named : *model.timing.chains) {
-    replay::MeasuredChain chain{named.name, fleet_name_of(named.name), {}, {{}}};
+    replay::MeasuredChain chain{named.name, timing::without_members(named.name), {}, {{}}};
     for (const spec::InstanceId instance : named.path)
       chain.subsystems.push_back(model.instance_path(instance));
     for (const std::vector<spec::ChannelId>& hop : named.hops) {
@@ -123,17 +147,6 @@ std::vector<replay::MeasuredChain> named_chains(const spec::Model& model) {
 }
 
 }  // namespace
-
-std::string fleet_name_of(const std::string& name) {
-  std::string result;
-  bool inside = false;
-  for (const char c : name) {
-    if (c == ']') inside = false;
-    if (!inside) result += c;
-    if (c == '[') inside = true;
-  }
-  return result;
-}
 
 std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
   if (model.timing.chains) return named_chains(model);
@@ -161,7 +174,7 @@ std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
           chain.subsystems.push_back(model.instance_path(instance));
           chain.name += (chain.name.empty() ? "" : " -> ") + chain.subsystems.back();
         }
-        chain.group = fleet_name_of(chain.name);
+        chain.group = timing::without_members(chain.name);
         chains.push_back(std::move(chain));
       }
   }
@@ -169,12 +182,27 @@ std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model) {
 }
 
 std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings, const spec::Model& model) {
-  replay::Ages ages(measured_chains(model));
+  const std::vector<replay::MeasuredChain> chains = measured_chains(model);
+  replay::Ages ages(chains);
   for (const Recording& recording : recordings) ages.add(recording);
   std::vector<AgesOfChain> all;
-  for (replay::ChainAges& one : ages.finish()) all.push_back({std::move(one), {}, {}, false, {}});
+  for (replay::ChainAges& one : ages.finish()) all.push_back({std::move(one), {}, {}, false, {}, {}});
   add_bounds(model, all);
+  add_timeless(recordings, chains, all);
   return all;
+}
+
+std::string timeless_note(const AgesOfChain& one) {
+  if (one.timeless.empty()) return {};
+  constexpr std::size_t shown = 3;
+  std::string names;
+  for (std::size_t index = 0; index < std::min(one.timeless.size(), shown); ++index)
+    names += (index == 0 ? "" : ", ") + one.timeless[index];
+  if (one.timeless.size() > shown) names += fmt::format(" and {} more", one.timeless.size() - shown);
+  return printable(
+      fmt::format("a simulation in which the calls of {} take no time, because they have no `takes`: a real "
+                  "robot is slower",
+                  names));
 }
 
 std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::string> names) {
@@ -201,12 +229,14 @@ std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::
       text += fmt::format("  {} {} of the last subsystem gave no command: failed, or the safe command held\n",
                           measured.withheld, measured.withheld == 1 ? "call" : "calls");
     if (!one.why.empty()) text += "  no bound: " + one.why + "\n";
+    if (const std::string note = timeless_note(one); !note.empty()) text += "  " + note + "\n";
   }
   if (std::ranges::any_of(all, &AgesOfChain::exceeds))
     text +=
-        "\nA time above its bound: a call took longer than its `takes`, a thread had to wait for a "
-        "processor,\n"
-        "or something failed. See tessera replay --takes.\n";
+        "\nA time above its bound: a call took longer than its `takes` (tessera replay --takes tells), a "
+        "thread "
+        "went on\n"
+        "later than `timing: { latency }` says, or something failed.\n";
   return text;
 }
 
@@ -224,6 +254,7 @@ json ages_json(const std::vector<AgesOfChain>& all, std::span<const std::string>
       chain["bound"] = {{"age_ns", *one.age_ns}, {"reaction_ns", *one.reaction_ns}, {"exact", one.exact}};
     else
       chain["no_bound"] = one.why;
+    if (!one.timeless.empty()) chain["takes_no_time"] = one.timeless;
     chains.push_back(std::move(chain));
   }
   return chains;

@@ -19,14 +19,13 @@ struct AgesOfChain {
   std::optional<std::int64_t> age_ns, reaction_ns;  ///< proved, for all its chains; nullopt: nothing is
   bool exact = false;                               ///< some run takes so long
   std::string why;                                  ///< there are no bounds, because of this
+  /// Behaviours on the way whose calls took no time, in runs on the simulated clock: `takes` said nothing of them.
+  std::vector<std::string> timeless;
 
   [[nodiscard]] bool exceeds() const {
     return (age_ns && measured.age.most > *age_ns) || (reaction_ns && measured.reaction.most > *reaction_ns);
   }
 };
-
-/// "robot[].control": the members of a fleet have one name.
-[[nodiscard]] std::string fleet_name_of(const std::string& name);
 
 /// Those that the specification names; else each receptor -> control -> effector of one agent.
 [[nodiscard]] std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model);
@@ -34,6 +33,9 @@ struct AgesOfChain {
 /// The chains of the model, measured in all the recordings together.
 [[nodiscard]] std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings,
                                                const spec::Model& model);
+
+/// What the measured times leave out; empty: nothing.
+[[nodiscard]] std::string timeless_note(const AgesOfChain& one);
 
 /// names: of the recordings, for the worst cases.
 [[nodiscard]] std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::string> names);

@@ -106,18 +106,29 @@ std::string verdict_text(const timing::DeclaredChain& chain, const timing::Chain
 
 ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop) try {
   ChainVerdicts result{{}, {}, nlohmann::json::array(), nlohmann::json::object()};
-  if (!timing::says_times(model)) return result;
   const timing::Declared declared = timing::declared(model);
+  if (!timing::says_times(model)) {
+    if (!declared.chains.empty())
+      result.explained =
+          "times: not known: no behaviour says what its calls take, for example follow: { takes: 1..3 ms }\n";
+    return result;
+  }
   if (declared.chains.empty()) return result;
   const timing::Bounds bounds(declared.system, stop);
   VerdictLines lines;
+  const timing::DeclaredChain* unbounded = nullptr;  // the last one that has no bound
   for (const timing::DeclaredChain& chain : declared.chains) {
     timing::check(stop);
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
     result.json.push_back(chain_json(chain, verdict));
     result.overall = worse_of(result.overall, overall(verdict));
     lines.add(chain.name, verdict_text(chain, verdict));
+    if (!verdict.why.empty()) unbounded = &chain;
   }
+  const std::string missing =
+      unbounded == nullptr
+          ? ""
+          : fmt::format("  (tessera verify --explain \"{}\" names all that is missing)\n", unbounded->name);
   const timing::Conduct conduct = timing::conduct_of(declared, bounds);
   VerdictLines notable, all;
   for (const ConductLine& line : lines_of(conduct, declared, model)) {
@@ -125,8 +136,8 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
     if (line.is_notable) notable.add(line.name, line.text);
   }
   result.conduct = conduct_json(conduct, declared, model);
-  result.text = assumptions_of_times + lines.text() + notable.text();
-  result.explained = assumptions_of_times + lines.text() + all.text();
+  result.text = assumptions_of_times + lines.text() + missing + notable.text();
+  result.explained = assumptions_of_times + lines.text() + missing + all.text();
   return result;
 } catch (const timing::Interrupted&) {
   ChainVerdicts result{"times: not computed: the time limit is reached, or the search was stopped\n",

@@ -1,5 +1,7 @@
 #include "timing/words.hpp"
 
+#include <fmt/format.h>
+
 namespace tessera::timing {
 
 const char* word_of(Answer answer) {
@@ -58,6 +60,35 @@ const char* word_of(Change::Kind kind) {
       break;
   }
   return "own_processor";
+}
+
+std::string time_text(Time time) {
+  struct Unit {
+    Time ns;
+    const char* name;
+  };
+  for (const Unit unit : {Unit{1'000'000'000, "s"}, Unit{1'000'000, "ms"}, Unit{1'000, "us"}})
+    if (time >= unit.ns) {
+      Time step = unit.ns / 1000;
+      while (time / step >= 10'000) step *= 10;
+      return fmt::format("{:g} {}",
+                         static_cast<double>(ceil_div(time, step) * step) / static_cast<double>(unit.ns),
+                         unit.name);
+    }
+  return fmt::format("{} ns", time);
+}
+
+std::string bound_text(Time time) { return time >= unbounded ? "no bound" : time_text(time); }
+
+std::string without_members(const std::string& name) {
+  std::string result;
+  bool inside = false;
+  for (const char c : name) {
+    if (c == ']') inside = false;
+    if (!inside) result += c;
+    if (c == '[') inside = true;
+  }
+  return result;
 }
 
 }  // namespace tessera::timing

@@ -18,6 +18,9 @@ export function shownTime(ns: number): string {
   return `${Number(((Math.ceil(ns / step) * step) / unit.ns).toFixed(3))} ${unit.name}`;
 }
 
+/** "82 ms", or that there is no bound. */
+export const shownBound = (at_most_ns: number | null): string => (at_most_ns === null ? "no bound" : shownTime(at_most_ns));
+
 /** "20 Hz" */
 export const shownRate = (period_ns: number): string =>
   period_ns === 0 ? "no rate" : `${Number((1e9 / period_ns).toPrecision(6))} Hz`;

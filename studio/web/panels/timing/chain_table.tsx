@@ -1,6 +1,6 @@
 import { useStudio } from "../../hooks/use";
 import type { TimedBound, TimedChain, Timing } from "../../model/protocol";
-import { chainKey, chainName, shownTime, verdictOf, type Verdict } from "../../model/timing";
+import { chainKey, chainName, shownBound, shownTime, verdictOf, type Verdict } from "../../model/timing";
 import { Icon } from "../icons";
 
 const marks = { holds: "check", violated: "cross", unknown: "question", none: "question" } as const;
@@ -81,8 +81,8 @@ function Bound({ bound, other }: { bound: TimedBound; other: TimedBound | undefi
   const differs = other !== undefined && other.at_most_ns !== at_most_ns;
   return (
     <td className={answer}>
-      <span className={differs ? "old" : ""}>{at_most_ns === null ? "none" : shownTime(at_most_ns)}</span>
-      {differs && <strong>{other.at_most_ns === null ? "no bound" : shownTime(other.at_most_ns)}</strong>}
+      <span className={differs ? "old" : ""}>{shownBound(at_most_ns)}</span>
+      {differs && <strong>{shownBound(other.at_most_ns)}</strong>}
       {asked_ns !== null && <span className="asked-limit">asked: {shownTime(asked_ns)}</span>}
     </td>
   );

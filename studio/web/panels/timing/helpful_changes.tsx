@@ -1,7 +1,7 @@
 import { useStore, useStudio } from "../../hooks/use";
 import type { TimedBound, TimedChain, TimedChange, Timing } from "../../model/protocol";
 import type { Structure } from "../../model/structure/structure";
-import { shownTime } from "../../model/timing";
+import { shownBound } from "../../model/timing";
 import { editsOf, saidChange } from "../../model/timing_edits";
 
 interface ChangesProps {
@@ -56,7 +56,7 @@ export function HelpfulChanges({ structure, found, chain, fresh }: ChangesProps)
 
 const Change = ({ from, to }: { from: TimedBound; to: number | null }) => (
   <span>
-    {from.at_most_ns === null ? "none" : shownTime(from.at_most_ns)} → {to === null ? "none" : shownTime(to)}
+    {shownBound(from.at_most_ns)} → {shownBound(to)}
   </span>
 );
 

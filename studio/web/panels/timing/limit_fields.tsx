@@ -12,6 +12,16 @@ interface LimitProps {
   chain: TimedChain;
 }
 
+const limits = [
+  {
+    limit: "reaction",
+    label: "Reaction at most",
+    placeholder: "100 ms",
+    hint: "The longest reaction that this robot may have. Verify judges it.",
+  },
+  { limit: "age", label: "Age at most", placeholder: "80 ms", hint: "The oldest reading that a command may be based on." },
+] as const;
+
 /** The limits that the specification asks for. */
 export function LimitFields({ structure, found, chain }: LimitProps) {
   const studio = useStudio();
@@ -25,20 +35,16 @@ export function LimitFields({ structure, found, chain }: LimitProps) {
   const asked = (ns: number | null) => (ns === null ? "" : shownTime(ns));
   return (
     <div className="limits">
-      <Field
-        label="Reaction at most"
-        value={asked(chain.reaction.asked_ns)}
-        placeholder="100 ms"
-        hint="The longest reaction that this robot may have. Verify judges it."
-        onChange={write("reaction")}
-      />
-      <Field
-        label="Age at most"
-        value={asked(chain.age.asked_ns)}
-        placeholder="80 ms"
-        hint="The oldest reading that a command may be based on."
-        onChange={write("age")}
-      />
+      {limits.map(({ limit, label, placeholder, hint }) => (
+        <Field
+          key={limit}
+          label={label}
+          value={asked(chain[limit].asked_ns)}
+          placeholder={placeholder}
+          hint={hint}
+          onChange={write(limit)}
+        />
+      ))}
       {chain.agents > 1 && <p className="faint">A limit counts for each of the {chain.agents} agents.</p>}
       {!chain.named && structure.yaml.pair(["timing", "chains"]) === undefined && found.chains.length > 1 && (
         <p className="faint">The first limit writes the {found.chains.length} chains into the specification, under `timing`.</p>

@@ -30,7 +30,7 @@ namespace tessera::codegen {
 [[nodiscard]] File format_style();
 
 /// tessera::tables_version that the output is made for; the generated code states it.
-inline constexpr int tables_version_made = 6;
+inline constexpr int tables_version_made = 7;
 
 /// Stands before the includes of a source that has no text of the user but conditions (tessera/time.hpp).
 inline constexpr std::string_view only_durations = "#define TESSERA_ONLY_DURATIONS\n";

@@ -8,6 +8,7 @@
 
 #include "tessera/net_roles.hpp"
 #include "tessera/overrun.hpp"
+#include "tessera/overtime.hpp"
 #include "tessera/time.hpp"
 
 /// The net of a generated controller: constant tables, read once at start. Generated code includes this
@@ -16,7 +17,7 @@
 /// the hash of the net.
 namespace tessera {
 
-inline constexpr int tables_version = 6;
+inline constexpr int tables_version = 7;
 
 class DriverSetup;
 class RealEffector;
@@ -149,10 +150,26 @@ struct Port {
   std::string_view buffer;
 };
 
+/// A point of the distribution of the times of calls: `below` of 2^32 calls take less than `time`.
+struct TimePoint {
+  Duration time;
+  std::uint32_t below;
+};
+
+/// The use of a resource while a behaviour is the present one.
+struct Use {
+  std::uint16_t resource;  ///< into System::resources
+  double per_second;       ///< in the unit of the resource
+};
+
 struct Behaviour {
   std::string_view name;
   Duration takes{0};    ///< least simulated time of its transition function
   Duration at_most{0};  ///< most; less than `takes`: that is the time of each call
+  /// The distribution between the two; all times between two neighbouring points are equally likely. `below` is 0
+  /// in the first point and UINT32_MAX in the last one. Empty: all times between the two are equally likely.
+  std::span<const TimePoint> times{};
+  std::span<const Use> uses{};
 };
 
 /// The part of the net that one subsystem executes.
@@ -177,6 +194,7 @@ struct RealTime {
 /// How a subsystem treats time and faults.
 struct Policies {
   Overrun overrun = Overrun::skip;
+  Overtime overtime = Overtime::tell;
   Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: no watchdog
   bool operator_resets = false;     ///< effector: a fault or a stale input begins an emergency stop
   bool non_finite_allowed = false;  ///< outputs to channels may be infinite or NaN; real ones: Bindings
@@ -273,6 +291,25 @@ struct Process {
   std::string_view interface;  ///< network interface of its machine; empty: none given
 };
 
+/// A chain of subsystems from a receptor to an effector, with what is proved of its times. A row stands for the
+/// chains of all members of a fleet.
+struct Chain {
+  std::string_view name;         ///< "joints to motors"; of a fleet "robot[].eye -> robot[].control -> ..."
+  Duration age{0}, reaction{0};  ///< at most; zero: there is no bound
+};
+
+/// A way of values along a chain: channels, each of which ends where the next one begins.
+struct ChainWay {
+  std::uint32_t chain;                            ///< into System::chains
+  std::initializer_list<std::uint32_t> channels;  ///< into System::channels
+  std::uint32_t member = UINT32_MAX;              ///< of the fleet; UINT32_MAX: there is none
+};
+
+/// Something that behaviours use: "energy", in "J".
+struct Resource {
+  std::string_view name, unit;
+};
+
 struct VerifiedProperty {
   std::string_view name, verdict, method;
 };
@@ -294,6 +331,12 @@ struct System {
   std::span<const std::uint32_t> process_of{};   ///< per instance, into processes
   std::uint32_t domain = 0;                      ///< of DDS
   Duration liveliness{0};  ///< a process that is silent for longer is disconnected for the others
+  /// A thread goes on at most so long after it may; zero: the specification does not say it.
+  Duration latency{0};
+  std::span<const Resource> resources{};
+  std::span<const Chain> chains{};  ///< their ages are measured; empty: the specification says no times
+  /// Without those over a network, or over a channel with a communication model of its own.
+  std::span<const ChainWay> chain_ways{};
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

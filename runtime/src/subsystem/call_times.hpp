@@ -1,15 +1,21 @@
 // How long transition functions take in simulated time.
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <iterator>
+#include <span>
 #include <string_view>
 
 #include "tessera/tables.hpp"
 
 namespace tessera {
 
-/// Draws the times of the calls of one subsystem, uniformly between the shortest and the longest one. They depend on the
-/// seed of the run and on the path of the subsystem only, so that no order of turns changes them.
+/// Draws the times of the calls of one subsystem: uniformly between the shortest and the longest one, or from the
+/// distribution of the behaviour. They depend on the seed of the run and on the path of the subsystem only, so that no
+/// order of turns changes them. Each call takes one number of the generator, so that a change of one distribution
+/// leaves the times of other behaviours as they are.
 class CallTimes {
  public:
   CallTimes() = default;
@@ -20,11 +26,21 @@ class CallTimes {
 
   [[nodiscard]] Duration draw(const Behaviour& behaviour) {
     if (behaviour.at_most <= behaviour.takes) return behaviour.takes;
+    if (!behaviour.times.empty()) return at(behaviour.times, static_cast<std::uint32_t>(next() >> 32));
     const auto width = static_cast<std::uint64_t>((behaviour.at_most - behaviour.takes).count()) + 1;
     return behaviour.takes + Duration(static_cast<Duration::rep>(next() % width));
   }
 
  private:
+  /// Inversion of the cumulative distribution. share: of 2^32.
+  [[nodiscard]] static Duration at(std::span<const TimePoint> points, std::uint32_t share) {
+    const auto after = std::ranges::upper_bound(points, share, {}, &TimePoint::below);
+    if (after == points.end()) return points.back().time;
+    const TimePoint &from = *std::prev(after), &to = *after;
+    const double part = static_cast<double>(share - from.below) / static_cast<double>(to.below - from.below);
+    return from.time + Duration(std::llround(static_cast<double>((to.time - from.time).count()) * part));
+  }
+
   /// Source: Steele, Lea, Flood, OOPSLA 2014 (SplitMix64): a state of eight bytes, for fleets.
   std::uint64_t next() {
     std::uint64_t mixed = state_ += 0x9e3779b97f4a7c15U;

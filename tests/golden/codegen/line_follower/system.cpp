@@ -8,7 +8,7 @@
 
 #include "subsystems.hpp"
 
-static_assert(tessera::tables_version == 6, "made for another version of Tessera: generate it again");
+static_assert(tessera::tables_version == 7, "made for another version of Tessera: generate it again");
 
 namespace tessera_generated {
 
@@ -48,7 +48,7 @@ constexpr tessera::VerifiedProperty verdicts[] = {
 };
 
 constexpr tessera::System whole{
-    .tables_version = 6, .name = "line_follower",
+    .tables_version = 7, .name = "line_follower",
     .net_hash = "07554c57a82a68d180835d7120dfa0b4", .verification_hash = "42ad129d3e77b0abe2303d897ae4a012",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .system_page = &system_page, .agent_page = &agent_page,

@@ -129,7 +129,7 @@ void add_guard(CommandLine& app) {
   command.option("--for", options.duration, "End after this time: 60s (default: until Ctrl-C)");
   command.footer(
       "Example:\n  tessera guard /cmd_vel_in /cmd_vel --stale 200ms --max 0.5,1.0\n"
-      "Its project is examples/14_guard; docs/use/ros2.md#a-guard-for-any-base says what it promises.");
+      "Its project is examples/14_guard; docs/use/ros2_nodes.md#a-guard-for-any-base says what it promises.");
 }
 
 }  // namespace tessera::cli

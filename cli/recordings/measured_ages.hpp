@@ -34,7 +34,7 @@ struct AgesOfChain {
 [[nodiscard]] std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings,
                                                const spec::Model& model);
 
-/// What the measured times leave out; empty: nothing.
+/// Tells that the measured times leave out calls; empty: they do not.
 [[nodiscard]] std::string timeless_note(const AgesOfChain& one);
 
 /// names: of the recordings, for the worst cases.

@@ -1,4 +1,5 @@
 import type { CheckOutcome, MeasureOutcome, Outcome } from "../../model/protocol";
+import { TableHead } from "../table_head";
 
 const count = (many: number) => many.toLocaleString("en");
 
@@ -21,14 +22,7 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
       {checks && checks.length > 0 && <ChecksOf checks={checks} />}
       {measures && Object.keys(measures).length > 0 && <MeasuresOf measures={measures} />}
       <table className="outcome">
-        <thead>
-          <tr>
-            <th scope="col">Subsystem</th>
-            <th scope="col">Iterations</th>
-            <th scope="col">Overruns</th>
-            <th scope="col">Errors</th>
-          </tr>
-        </thead>
+        <TableHead columns={["Subsystem", "Iterations", "Overruns", "Errors"]} />
         <tbody>
           {subsystems.map((one) => (
             <tr key={one.path}>
@@ -49,13 +43,7 @@ export function OutcomeOf({ outcome }: { outcome: Outcome }) {
 function ChecksOf({ checks }: { checks: readonly CheckOutcome[] }) {
   return (
     <table className="outcome">
-      <thead>
-        <tr>
-          <th scope="col">Check</th>
-          <th scope="col">Verdict</th>
-          <th scope="col">At</th>
-        </tr>
-      </thead>
+      <TableHead columns={["Check", "Verdict", "At"]} />
       <tbody>
         {checks.map(({ name, text, verdict, time_s, detail }) => (
           <tr key={name} title={detail ? `${text}: ${detail}` : text}>
@@ -72,14 +60,7 @@ function ChecksOf({ checks }: { checks: readonly CheckOutcome[] }) {
 function MeasuresOf({ measures }: { measures: Readonly<Record<string, MeasureOutcome | null>> }) {
   return (
     <table className="outcome">
-      <thead>
-        <tr>
-          <th scope="col">Measure</th>
-          <th scope="col">Least</th>
-          <th scope="col">Mean</th>
-          <th scope="col">Greatest</th>
-        </tr>
-      </thead>
+      <TableHead columns={["Measure", "Least", "Mean", "Greatest"]} />
       <tbody>
         {Object.entries(measures).map(([name, one]) => (
           <tr key={name}>

@@ -2,6 +2,7 @@ import { useStudio } from "../../hooks/use";
 import type { TimedBound, TimedChain, Timing } from "../../model/protocol";
 import { chainKey, chainName, shownBound, shownTime, verdictOf, type Verdict } from "../../model/timing";
 import { Icon } from "../icons";
+import { TableHead } from "../table_head";
 
 const marks = { holds: "check", violated: "cross", unknown: "question", none: "question" } as const;
 const spoken: Record<Verdict, string> = {
@@ -33,13 +34,7 @@ export function ChainTable({ found, other, chosen }: { found: Timing; other: Tim
     <div className="chain-table">
       <table>
         <caption className="visually-hidden">Chains from a receptor to an effector</caption>
-        <thead>
-          <tr>
-            <th scope="col">Chain</th>
-            <th scope="col">Age</th>
-            <th scope="col">Reaction</th>
-          </tr>
-        </thead>
+        <TableHead columns={["Chain", "Age", "Reaction"]} />
         <tbody>
           {found.chains.slice(0, mostRows).map((chain) => {
             const key = chainKey(chain);

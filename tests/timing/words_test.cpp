@@ -1,0 +1,32 @@
+// Times in words.
+#include "timing/words.hpp"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <string>
+
+namespace tessera::timing {
+namespace {
+
+struct Written {
+  Time time;
+  const char* text;
+};
+constexpr auto list = std::to_array<Written>({
+#include "time_texts.inc"
+});
+
+TEST(Words, ATimeIsWrittenAsTheStudioWritesIt) {
+  for (const Written& one : list) EXPECT_EQ(time_text(one.time), one.text);
+  EXPECT_EQ(bound_text(82'000'000), "82 ms");
+  EXPECT_EQ(bound_text(unbounded), "no bound");
+}
+
+TEST(Words, MembersOfAFleetHaveOneName) {
+  EXPECT_EQ(without_members("robot.control"), "robot.control");
+  EXPECT_EQ(without_members("robot[12].control -> cart[0].motor"), "robot[].control -> cart[].motor");
+}
+
+}  // namespace
+}  // namespace tessera::timing

@@ -10,9 +10,9 @@
 #include "cli/outputs.hpp"
 #include "cli/path_plot.hpp"
 #include "cli/recordings/film.hpp"
-#include "cli/recordings/measured_ages.hpp"
 #include "cli/recordings/slow_calls.hpp"
 #include "cli/terminal.hpp"
+#include "replay/times/measured_ages.hpp"
 #include "tessera/judgement.hpp"
 #include "tessera/printable.hpp"
 #include "tessera/result.hpp"
@@ -223,7 +223,7 @@ std::vector<report::ChainTimes> chain_times_of(const RunOutcome& outcome, const 
   const std::optional<Recording> recording = read_recording(outcome.recording.string(), error);
   if (!recording) throw std::runtime_error(error);
   std::vector<report::ChainTimes> chains;
-  for (const AgesOfChain& one : ages_in({&*recording, 1}, model))
+  for (const replay::AgesOfChain& one : replay::ages_in({&*recording, 1}, model))
     chains.push_back({one.measured.group,
                       one.measured.chains,
                       {one.measured.age, one.age_ns},

@@ -11,8 +11,8 @@
 
 #include "language/edits/edits.hpp"
 #include "language/language.hpp"
+#include "spec/model/chain_ways.hpp"
 #include "tessera/printable.hpp"
-#include "timing/words.hpp"
 
 namespace tessera::cli {
 namespace {
@@ -143,7 +143,7 @@ std::vector<LearnedTakes> learned_takes(const spec::Model& model,
       const auto [at, is_new] = written.try_emplace({behaviour.span.line, behaviour.span.column}, all.size());
       if (is_new) all.push_back({{}, behaviour.span, behaviour.takes, {}});
       LearnedTakes& one = all[at->second];
-      const std::string name = timing::without_members(path) + "." + behaviour.name;
+      const std::string name = spec::fleet_name_of(path) + "." + behaviour.name;
       if (std::ranges::find(one.names, name) == one.names.end()) one.names.push_back(name);
       if (const auto found = measured.find({path, behaviour.name}); found != measured.end())
         one.measured = replay::joined(one.measured, found->second);

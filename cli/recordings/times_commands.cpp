@@ -7,14 +7,15 @@
 #include <optional>
 
 #include "cli/line_difference.hpp"
+#include "cli/recordings/ages_text.hpp"
 #include "cli/recordings/bags.hpp"
 #include "cli/recordings/learned_takes.hpp"
-#include "cli/recordings/measured_ages.hpp"
 #include "cli/terminal.hpp"
 #include "project/build/user_sources.hpp"
 #include "project/packaging/scratch_folder.hpp"
 #include "project/verification/pipeline.hpp"
 #include "replay/times/call_durations.hpp"
+#include "replay/times/measured_ages.hpp"
 #include "spec/parser.hpp"
 #include "tessera/recording.hpp"
 #include "verify/hashes.hpp"
@@ -96,7 +97,7 @@ int ages_command(const TimesOptions& options) {
   const std::optional<Input> input = read_input(options, code);
   if (!input) return code;
   note_on_other_nets(*input, options.recordings);
-  const std::vector<AgesOfChain> all = ages_in(input->recordings, input->specification.model);
+  const std::vector<replay::AgesOfChain> all = replay::ages_in(input->recordings, input->specification.model);
   if (all.empty())
     return complain(
         "no values lead from a receptor over a control subsystem to an effector of the same agent");
@@ -105,8 +106,9 @@ int ages_command(const TimesOptions& options) {
     std::fflush(stdout);
   }
   if (!options.json.empty())
-    write_output(options.json, nlohmann::json{{"ages", ages_json(all, options.recordings)}}.dump(2) + "\n");
-  return std::ranges::any_of(all, &AgesOfChain::exceeds) ? failed : ok;
+    write_output(options.json,
+                 nlohmann::json{{"ages", replay::ages_json(all, options.recordings)}}.dump(2) + "\n");
+  return std::ranges::any_of(all, &replay::AgesOfChain::exceeds) ? failed : ok;
 }
 
 int takes_command(const TimesOptions& options) {

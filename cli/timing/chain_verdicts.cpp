@@ -8,6 +8,7 @@
 
 #include "cli/timing/conduct_texts.hpp"
 #include "cli/timing/time_texts.hpp"
+#include "spec/model/chain_ways.hpp"
 #include "timing/words.hpp"
 
 namespace tessera::cli {
@@ -47,7 +48,7 @@ class VerdictLines {
  public:
   void add(const std::string& name, const std::string& text) {
     const auto [at, is_new] =
-        line_of_.try_emplace({without_members(name), without_members(text)}, lines_.size());
+        line_of_.try_emplace({spec::fleet_name_of(name), spec::fleet_name_of(text)}, lines_.size());
     if (is_new) lines_.push_back({name, text});
     ++lines_[at->second].count;
   }

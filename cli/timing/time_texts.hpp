@@ -7,7 +7,6 @@ namespace tessera::cli {
 
 using timing::bound_text;
 using timing::time_text;
-using timing::without_members;
 
 /// The first lines of what is said about times.
 inline constexpr const char* assumptions_of_times =

@@ -80,15 +80,4 @@ std::string time_text(Time time) {
 
 std::string bound_text(Time time) { return time >= unbounded ? "no bound" : time_text(time); }
 
-std::string without_members(const std::string& name) {
-  std::string result;
-  bool inside = false;
-  for (const char c : name) {
-    if (c == ']') inside = false;
-    if (!inside) result += c;
-    if (c == '[') inside = true;
-  }
-  return result;
-}
-
 }  // namespace tessera::timing

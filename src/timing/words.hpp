@@ -18,7 +18,5 @@ namespace tessera::timing {
 [[nodiscard]] std::string time_text(Time time);
 /// "82 ms", or "no bound".
 [[nodiscard]] std::string bound_text(Time time);
-/// "robot[].control": the members of a fleet have one name.
-[[nodiscard]] std::string without_members(const std::string& name);
 
 }  // namespace tessera::timing

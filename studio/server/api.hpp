@@ -64,6 +64,7 @@ class Api {
   void put_notes(const Request& request, Response& response);
   static void control_run(Run& run, const Request& request, Response& response);
   [[nodiscard]] static std::optional<Recordings::Span> span_of(const Request& request, Response& response);
+  void get_measured_times(const Request& request, Response& response);
   void get_views(const Request& request, Response& response);
   void get_scene(const Request& request, Response& response);
   void get_track(const Request& request, Response& response);

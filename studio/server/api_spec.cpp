@@ -79,6 +79,7 @@ void Api::serve_spec(HttpServer& server) {
   });
   server.Post("/api/timing", by(&Api::get_timing));
   server.Post("/api/timing/changes", by(&Api::get_changes_of_chain));
+  server.Post("/api/timing/measured", by(&Api::get_measured_times));
   server.Post("/api/timing/worst", by(&Api::get_worst_run_of_chain));
 }
 
@@ -100,6 +101,17 @@ void Api::get_changes_of_chain(const Request& request, Response& response) {
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
   if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
   answer_found(response, chain_changes(*analysis->model, chain));
+}
+
+void Api::get_measured_times(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string text = body.text("text"), recording = body.text("recording");
+  if (!body.good()) return;
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+  if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
+  const auto found = parts_.recordings.measured_times(recording, *analysis->model);
+  if (!found) return answer_error(response, 404, "there is no such recording");
+  answer_found(response, *found);
 }
 
 void Api::get_worst_run_of_chain(const Request& request, Response& response) {

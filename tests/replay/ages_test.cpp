@@ -1,10 +1,12 @@
 // Ages and reactions of runs that are written by hand.
 #include "replay/times/ages.hpp"
 
-#include <gtest/gtest.h>
+#include <gmock/gmock.h>
 
 #include <string>
 #include <vector>
+
+#include "replay/times/recorded_way.hpp"
 
 namespace tessera::replay {
 namespace {
@@ -199,6 +201,52 @@ TEST(Ages, WithoutCallsItSaysHowToRecordThem) {
   const ChainAges ages = measured({run.recording});
   EXPECT_EQ(ages.age.count, 0U);
   EXPECT_NE(ages.why.find("--record-values small"), std::string::npos) << ages.why;
+}
+
+RecordedWay way_of(WrittenRun& run, const ExplainedTime& time) {
+  run.recording.behaviours = {{"watch"}, {"follow"}, {"drive"}};
+  RecordedWayReader reader(
+      run.recording, {"", "", {"robot.sensor", "robot.control", "robot.motor"}, {{"line", "motion"}}}, time);
+  for (const Recording::Entry& entry : run.recording.entries) reader.take(run.recording, entry);
+  return reader.finish();
+}
+
+TEST(RecordedWay, TheValueOfACommandIsFollowedBackToItsReading) {
+  WrittenRun run;
+  run.start().pass(100, 1).pass(140, 5).fire(165, 2, Step::skip, 1).end(165, 2).call(2, 170, 172);
+  const RecordedWay way = way_of(run, {ExplainedTime::Of::age, 140 * ms, 172 * ms});
+  ASSERT_EQ(way.hops.size(), 2U);
+  EXPECT_EQ(way.hops[0].channel, "line");
+  EXPECT_EQ(way.hops[0].from, "robot.sensor");
+  EXPECT_EQ(way.hops[0].to, "robot.control");
+  EXPECT_EQ(way.hops[0].written_ns, 142 * ms);
+  EXPECT_EQ(way.hops[0].read_ns, 145 * ms);
+  EXPECT_EQ(way.hops[1].written_ns, 152 * ms);
+  EXPECT_EQ(way.hops[1].read_ns, 155 * ms);
+  std::vector<std::string> calls;
+  for (const RecordedWay::Call& call : way.calls) {
+    calls.push_back(call.subsystem + "." + call.behaviour + " " + std::to_string(call.begin_ns / ms));
+    EXPECT_EQ(call.end_ns - call.begin_ns, 2 * ms);
+  }
+  EXPECT_THAT(calls, testing::ElementsAre("robot.sensor.watch 140", "robot.control.follow 150",
+                                          "robot.motor.drive 160", "robot.motor.drive 170"));
+}
+
+TEST(RecordedWay, AReactionGoesOverALaterReading) {
+  WrittenRun run;
+  run.start().pass(100, 1).pass(140, 5);
+  const RecordedWay way = way_of(run, {ExplainedTime::Of::reaction, 100 * ms, 162 * ms});
+  ASSERT_EQ(way.hops.size(), 2U);
+  EXPECT_EQ(way.hops[0].written_ns, 142 * ms);
+  EXPECT_EQ(way.calls.front().begin_ns, 100 * ms);
+}
+
+TEST(RecordedWay, LostEventsLeaveOnlyTheCalls) {
+  WrittenRun run;
+  run.start().pass(100, 1).lose(1).move(125, 2, 1, 7).end(125, 2).call(2, 150, 152);
+  const RecordedWay way = way_of(run, {ExplainedTime::Of::age, 90 * ms, 152 * ms});
+  EXPECT_TRUE(way.hops.empty());
+  EXPECT_FALSE(way.calls.empty());
 }
 
 }  // namespace

@@ -147,6 +147,13 @@ TEST_F(Timing, AChangeThatHelpsHasTheBoundsOfATextWithIt) {
   EXPECT_EQ(post("/api/timing/changes", {{"text", "agents: ["}, {"chain", chain_}}).status, 422);
 }
 
+TEST_F(Timing, TimesOfARecordingThatIsNotThereAreNone) {
+  serve();
+  EXPECT_EQ(post("/api/timing/measured", {{"text", single_}, {"recording", "none"}}).status, 404);
+  EXPECT_EQ(post("/api/timing/measured", {{"text", "agents: ["}, {"recording", "none"}}).status, 422);
+  EXPECT_EQ(post("/api/timing/measured", {{"text", single_}}).status, 400);
+}
+
 TEST_F(Timing, TheWorstRunReachesTheBound) {
   serve();
   const auto run = [&](const std::string& of, const json& what_if = json::array()) {

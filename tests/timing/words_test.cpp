@@ -6,6 +6,8 @@
 #include <array>
 #include <string>
 
+#include "spec/model/chain_ways.hpp"
+
 namespace tessera::timing {
 namespace {
 
@@ -24,8 +26,8 @@ TEST(Words, ATimeIsWrittenAsTheStudioWritesIt) {
 }
 
 TEST(Words, MembersOfAFleetHaveOneName) {
-  EXPECT_EQ(without_members("robot.control"), "robot.control");
-  EXPECT_EQ(without_members("robot[12].control -> cart[0].motor"), "robot[].control -> cart[].motor");
+  EXPECT_EQ(spec::fleet_name_of("robot.control"), "robot.control");
+  EXPECT_EQ(spec::fleet_name_of("robot[12].control -> cart[0].motor"), "robot[].control -> cart[].motor");
 }
 
 }  // namespace

@@ -2,21 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
-#include <set>
-#include <unordered_map>
 #include <utility>
-
-#include "replay/times/reading_trace.hpp"
 
 namespace tessera::replay {
 namespace {
 
 constexpr std::size_t age_steps = 24;
 
-template <class Names>
-std::unordered_map<std::string_view, std::uint32_t> numbered_names(const Names& names) {
-  std::unordered_map<std::string_view, std::uint32_t> numbers;
+std::unordered_map<std::string, std::uint32_t> numbered_names(const std::vector<std::string>& names) {
+  std::unordered_map<std::string, std::uint32_t> numbers;
   for (std::size_t index = 0; index < names.size(); ++index)
     numbers.emplace(names[index], static_cast<std::uint32_t>(index));
   return numbers;
@@ -56,16 +50,32 @@ Ages::Ages(std::vector<MeasuredChain> chains) : chains_(std::move(chains)) {
 }
 
 void Ages::add(const Recording& recording) {
-  const std::uint32_t number = recordings_++;
-  const auto instances = numbered_names(recording.instances);
-  const auto channels = numbered_names(recording.channels);
-  std::set<std::uint32_t> wanted;
-  std::set<std::string_view> networked(recording.networked.begin(), recording.networked.end());
+  begin(recording);
+  for (const Recording::Entry& entry : recording.entries) take(recording, entry);
+  end();
+}
+
+void Ages::begin(const Recording& header) {
+  reading_ = {numbered_names(header.instances),
+              numbered_names(header.channels),
+              {header.networked.begin(), header.networked.end()},
+              {}};
   for (const MeasuredChain& chain : chains_)
     for (const std::string& subsystem : chain.subsystems)
-      if (const auto found = instances.find(subsystem); found != instances.end())
-        wanted.insert(found->second);
-  const auto steps = steps_in(recording, wanted);
+      if (const auto found = reading_.instances.find(subsystem); found != reading_.instances.end())
+        reading_.readers[found->second];
+}
+
+void Ages::take(const Recording& header, const Recording::Entry& entry) {
+  if (const auto reader = reading_.readers.find(entry.event.instance()); reader != reading_.readers.end())
+    reader->second.take(header, entry);
+}
+
+void Ages::end() {
+  const std::uint32_t number = recordings_++;
+  const auto& [instances, channels, networked, readers] = reading_;
+  std::unordered_map<std::uint32_t, Steps> steps;
+  for (auto& [instance, reader] : reading_.readers) steps.emplace(instance, reader.finish());
 
   for (std::uint32_t index = 0; index < chains_.size(); ++index) {
     const MeasuredChain& chain = chains_[index];

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
+#include <set>
 #include <string>
+#include <unordered_map>
 #include <vector>
 
+#include "replay/times/reading_trace.hpp"
 #include "tessera/recording.hpp"
 
 /// How old the readings are that commands act on, as a recording tells.
@@ -55,6 +57,10 @@ class Ages {
   explicit Ages(std::vector<MeasuredChain> chains);
   /// Linear in the recording. A chain of which the recording has no subsystem is not measured in it.
   void add(const Recording& recording);
+  /// The same for a recording that is read piece by piece: its header, all its entries, and its end.
+  void begin(const Recording& header);
+  void take(const Recording& header, const Recording::Entry& entry);
+  void end();
   /// By group, in order of first appearance.
   [[nodiscard]] std::vector<ChainAges> finish() const;
 
@@ -75,6 +81,13 @@ class Ages {
   std::vector<std::size_t> group_of_;  // per chain
   std::vector<Group> groups_;
   std::uint32_t recordings_ = 0;
+
+  /// The recording that is being read.
+  struct Reading {
+    std::unordered_map<std::string, std::uint32_t> instances, channels;
+    std::set<std::string> networked;
+    std::unordered_map<std::uint32_t, StepReader> readers;
+  } reading_;
 };
 
 }  // namespace tessera::replay

@@ -1,89 +1,13 @@
 #include "replay/times/reading_trace.hpp"
 
-#include <map>
 #include <optional>
 
 #include "replay/source.hpp"
-#include "tessera/transition_role.hpp"
 
 namespace tessera::replay {
 namespace {
 
 using Moved = Steps::Step::Kind;
-
-/// Reads the steps of one subsystem from its events.
-class StepReader {
- public:
-  void take(const Recording& recording, const Recording::Entry& entry) {
-    const Event& event = entry.event;
-    if (is_counted(event)) follow_sequence(event);
-    if (event.kind() == Event::Kind::call) {
-      steps_.has_calls = true;
-      in_call_ = true;
-      failed_ = false;
-      steps_.all.push_back({Moved::called, event.time_ns});
-    } else if (event.kind() == Event::Kind::fault) {
-      failed_ = failed_ || (in_call_ && !event.is_told_fault());
-    } else if (event.kind() == Event::Kind::safe) {
-      follow_device(event, entry.text);
-    } else if (event.kind() == Event::Kind::firing) {
-      fire(recording.transitions[event.subject].role, event);
-    }
-  }
-  [[nodiscard]] Steps finish() { return std::move(steps_); }
-
- private:
-  void follow_sequence(const Event& event) {
-    if (!next_)
-      steps_.is_whole = event.sequence == 0;
-    else if (event.sequence != *next_) {
-      steps_.all.push_back({Moved::lost, event.time_ns});
-      accessed_.clear();
-      in_call_ = false;
-    }
-    next_ = event.sequence + 1;
-  }
-
-  /// "DEVICE: what happened".
-  void follow_device(const Event& event, const std::string& text) {
-    const std::string device = text.substr(0, text.find(": "));
-    if (event.version == static_cast<std::uint32_t>(SafeEvent::ended))
-      safe_.erase(device);
-    else
-      safe_.insert(device);
-  }
-
-  void fire(const TransitionRole& role, const Event& event) {
-    if (role.step == Step::start) {
-      steps_.all.push_back({Moved::started, event.time_ns});
-      accessed_.clear();
-    } else if (role.step == Step::begin_sending) {
-      const bool withheld = failed_ || !safe_.empty();
-      steps_.all.push_back({withheld ? Moved::withheld : Moved::finished, event.time_ns, 0, 0, 0, failed_});
-      in_call_ = failed_ = false;
-    } else if (role.ends_iteration()) {
-      accessed_.clear();
-    } else if (role.communicates() && role.channel) {
-      follow_channel(role.step, *role.channel, event);
-    }
-  }
-
-  /// The first firing of an end in an iteration decides: a block that begins otherwise moves no value.
-  void follow_channel(Step step, std::uint32_t channel, const Event& event) {
-    const auto [moved, is_first] = accessed_.try_emplace(channel, std::nullopt);
-    if (moved->second) steps_.all[*moved->second].last_version = event.version;
-    if (!is_first || (step != Step::transfer && step != Step::overwrite)) return;
-    moved->second = steps_.all.size();
-    steps_.all.push_back({Moved::transferred, event.time_ns, channel, event.version, event.version});
-  }
-
-  Steps steps_;
-  std::optional<std::uint32_t> next_;
-  /// The channels of this iteration, with the step that moves their value.
-  std::map<std::uint32_t, std::optional<std::size_t>> accessed_;
-  std::set<std::string> safe_;  // devices with their safe command
-  bool in_call_ = false, failed_ = false;
-};
 
 /// The reading that a receive finds. Receives must come in their order.
 class Arrivals {
@@ -174,16 +98,65 @@ class Sending {
 
 }  // namespace
 
-std::unordered_map<std::uint32_t, Steps> steps_in(const Recording& recording,
-                                                  const std::set<std::uint32_t>& instances) {
-  std::unordered_map<std::uint32_t, StepReader> readers;
-  for (const std::uint32_t instance : instances) readers[instance];
-  for (const Recording::Entry& entry : recording.entries)
-    if (const auto reader = readers.find(entry.event.instance()); reader != readers.end())
-      reader->second.take(recording, entry);
-  std::unordered_map<std::uint32_t, Steps> result;
-  for (auto& [instance, reader] : readers) result.emplace(instance, reader.finish());
-  return result;
+void StepReader::take(const Recording& header, const Recording::Entry& entry) {
+  const Event& event = entry.event;
+  if (is_counted(event)) follow_sequence(event);
+  if (event.kind() == Event::Kind::call) {
+    steps_.has_calls = true;
+    in_call_ = true;
+    failed_ = false;
+    steps_.all.push_back({Moved::called, event.time_ns});
+  } else if (event.kind() == Event::Kind::fault) {
+    failed_ = failed_ || (in_call_ && !event.is_told_fault());
+  } else if (event.kind() == Event::Kind::safe) {
+    follow_device(event, entry.text);
+  } else if (event.kind() == Event::Kind::firing) {
+    fire(header.transitions[event.subject].role, event);
+  }
+}
+
+void StepReader::follow_sequence(const Event& event) {
+  if (!next_)
+    steps_.is_whole = event.sequence == 0;
+  else if (event.sequence != *next_) {
+    steps_.all.push_back({Moved::lost, event.time_ns});
+    accessed_.clear();
+    in_call_ = false;
+  }
+  next_ = event.sequence + 1;
+}
+
+/// "DEVICE: what happened".
+void StepReader::follow_device(const Event& event, const std::string& text) {
+  const std::string device = text.substr(0, text.find(": "));
+  if (event.version == static_cast<std::uint32_t>(SafeEvent::ended))
+    safe_.erase(device);
+  else
+    safe_.insert(device);
+}
+
+void StepReader::fire(const TransitionRole& role, const Event& event) {
+  if (role.step == Step::start) {
+    steps_.all.push_back({Moved::started, event.time_ns});
+    accessed_.clear();
+  } else if (role.step == Step::begin_sending) {
+    const bool withheld = failed_ || !safe_.empty();
+    steps_.all.push_back({withheld ? Moved::withheld : Moved::finished, event.time_ns, 0, 0, 0, failed_});
+    in_call_ = failed_ = false;
+  } else if (role.ends_iteration()) {
+    accessed_.clear();
+  } else if (role.communicates() && role.channel) {
+    follow_channel(role.step, *role.channel, event);
+  }
+}
+
+/// The first firing of an end in an iteration decides: a block that begins otherwise moves no value.
+void StepReader::follow_channel(Step step, std::uint32_t channel, const Event& event) {
+  const auto [moved, is_first] = accessed_.try_emplace(channel, std::nullopt);
+  if (moved->second) steps_.all[*moved->second].last_version = event.version;
+  if (!is_first || (step != Step::transfer && step != Step::overwrite)) return;
+  moved->second = steps_.all.size();
+  steps_.all.push_back({Moved::transferred, event.time_ns, channel, event.version, event.version});
 }
 
 SentReadings readings_sent(const Steps& steps, std::uint32_t channel, std::vector<ReadingCommand>& readings) {

@@ -2,12 +2,15 @@
 
 #include <cstdint>
 #include <limits>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
-#include <unordered_map>
+#include <utility>
 #include <vector>
 
 #include "tessera/recording.hpp"
+#include "tessera/transition_role.hpp"
 
 /// The way of readings through the subsystems of a recording.
 namespace tessera::replay {
@@ -33,9 +36,26 @@ struct Steps {
   bool has_calls = false;
 };
 
-/// The steps of some subsystems. instances: their numbers in the recording. Linear in the recording.
-[[nodiscard]] std::unordered_map<std::uint32_t, Steps> steps_in(const Recording& recording,
-                                                                const std::set<std::uint32_t>& instances);
+/// Reads the steps of one subsystem from its events.
+class StepReader {
+ public:
+  /// header: of the recording, or of the segment. Entries of other subsystems must not come.
+  void take(const Recording& header, const Recording::Entry& entry);
+  [[nodiscard]] Steps finish() { return std::move(steps_); }
+
+ private:
+  void follow_sequence(const Event& event);
+  void follow_device(const Event& event, const std::string& text);
+  void fire(const TransitionRole& role, const Event& event);
+  void follow_channel(Step step, std::uint32_t channel, const Event& event);
+
+  Steps steps_;
+  std::optional<std::uint32_t> next_;
+  /// The channels of this iteration, with the step that moves their value.
+  std::map<std::uint32_t, std::optional<std::size_t>> accessed_;
+  std::set<std::string> safe_;  // devices with their safe command
+  bool in_call_ = false, failed_ = false;
+};
 
 /// The time of a reading, or one of these.
 using ReadingTime = std::int64_t;

@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "spec/model/chain_ways.hpp"
 #include "timing/changes.hpp"
 #include "timing/declared.hpp"
 #include "timing/steps.hpp"
@@ -160,15 +161,15 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model, const std
   for (const timing::DeclaredChain& chain : declared.chains) {
     const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
     if (chain.name == explained && verdict.why.empty()) steps = steps_of(chain, bounds, model);
-    std::string name = chain.is_named ? timing::without_members(chain.name) + ":" : "";
+    std::string name = chain.is_named ? spec::fleet_name_of(chain.name) + ":" : "";
     json path = json::array();
     for (const InstanceId instance : chain.path) {
       path.push_back(model.instance_path(instance));
-      name += " " + timing::without_members(path.back());
+      name += " " + spec::fleet_name_of(path.back());
     }
-    const auto [at, is_new] = entries.try_emplace({name, verdict.bound.age, verdict.bound.reaction,
-                                                   verdict.exact, timing::without_members(verdict.why)},
-                                                  chains.size());
+    const auto [at, is_new] = entries.try_emplace(
+        {name, verdict.bound.age, verdict.bound.reaction, verdict.exact, spec::fleet_name_of(verdict.why)},
+        chains.size());
     if (!is_new) {
       json& agents = chains[at->second]["agents"];
       agents = agents.get<int>() + 1;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
+#include <variant>
 
 #include "server/analysis/analysis.hpp"
 #include "server/analysis/spec_file.hpp"
@@ -54,6 +55,10 @@ class Recordings {
   /// The part of the specification's net that the recorded run has reached: docs/reference/studio.md. nullopt: no
   /// recording has that name. Throws std::runtime_error if it cannot be read, or is of another net.
   [[nodiscard]] std::optional<std::string> coverage(const std::string& name) const;
+  /// How old commands were in it, and its worst cases: the answer of POST /api/timing/measured, or why there is none.
+  /// nullopt: no recording has that name. Throws std::runtime_error if it cannot be read.
+  [[nodiscard]] std::optional<std::variant<nlohmann::json, std::string>> measured_times(
+      const std::string& name, const spec::Model& model) const;
   /// The glTF file of the scene beside a recording; nullopt: none has it.
   [[nodiscard]] std::optional<std::string> scene(const std::string& hash) const;
 

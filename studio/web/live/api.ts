@@ -136,6 +136,7 @@ export class Api {
       body: { text, what_if: [...tried].map(([path, period_ns]) => ({ path, period_ns })), chain },
     });
   timingChanges = (text: string, chain: string) => this.ask("POST /api/timing/changes", { body: { text, chain } });
+  timingMeasured = (text: string, recording: string) => this.ask("POST /api/timing/measured", { body: { text, recording } });
   functions = (text: string) => this.ask("POST /api/functions", { body: { text } });
   addFunction = (text: string, subsystem: string, name: string) =>
     this.ask("POST /api/functions/add", { body: { text, subsystem, function: name } });

@@ -13,6 +13,7 @@ import { Editor, type Wish } from "./editor";
 import type { Project, RunRequest, Verdict } from "../model/protocol";
 import { linkTo, readLink, type Linked, type Moment } from "./link";
 import type { ViewState } from "../model/view_state";
+import { Measured } from "./measured";
 import { Operator } from "./operate/operator";
 import { Play } from "./play";
 import { PlottedRecordings } from "./plots/plotted";
@@ -70,6 +71,7 @@ export class Studio {
   readonly play = new Play(this.desk);
   readonly verifier = new Verifier(this.api, this.draft, this.connection, (verdicts) => this.verified(verdicts));
   readonly timing = new Timing(this.api, this.draft);
+  readonly measured = new Measured(this.api, this.draft);
   readonly lens = new Lens(this.api);
   readonly repairs = new Repairs(this.api);
   readonly sources = new Sources(this.api, this.draft);
@@ -180,7 +182,7 @@ export class Studio {
   }
 
   /** Opens the recording and the time that an address names. */
-  private async goTo(moment: Moment): Promise<void> {
+  async goTo(moment: Moment): Promise<void> {
     this.wanted = moment;
     const shown = () => this.recordings.store.get().open[0];
     if (shown()?.name !== moment.recording) await this.replay(moment.recording, 0);

@@ -56,14 +56,7 @@ export interface Requests {
   "POST /api/check": { body: { text: string }; status: 200; answer: Analysis };
   /** About a text as it is typed; saves nothing. */
   "POST /api/language": { body: LanguageQuestion; status: 200; answer: LanguageAnswer };
-  "POST /api/verify": {
-    body: VerifyRequest;
-    status: 202;
-    answer: {
-      /** Names the job. */
-      job: string;
-    };
-  };
+  "POST /api/verify": { body: VerifyRequest; status: 202; answer: { job: string } };
   "GET /api/verify/JOB": { status: 200; answer: VerifyAnswer };
   "DELETE /api/verify/JOB": { status: 200; answer: Nothing };
   "GET /api/controllers": {
@@ -84,6 +77,19 @@ export interface Requests {
     };
     status: 200;
     answer: Timing;
+  };
+  /**
+   * How old commands were in a recording: the chains of the text. 404: there is no such recording. 422: the text
+   * has errors, or the recording is of another system.
+   */
+  "POST /api/timing/measured": {
+    body: {
+      text: string;
+      /** Its name. */
+      recording: string;
+    };
+    status: 200;
+    answer: { chains: MeasuredChain[] };
   };
   /**
    * The single changes of rates, modes and processors that make a time of a chain smaller. 422: there is no such
@@ -239,14 +245,7 @@ export interface Requests {
     answer: CommandDone;
   };
   /** 403: the project is not trusted. */
-  "POST /api/runs": {
-    body: RunRequest;
-    status: 202;
-    answer: {
-      /** Names the run. */
-      run: string;
-    };
-  };
+  "POST /api/runs": { body: RunRequest; status: 202; answer: { run: string } };
   "GET /api/runs": { status: 200; answer: RunListed[] };
   "GET /api/runs/RUN": { status: 200; answer: RunInfo };
   "GET /api/runs/RUN/coverage": { status: 200; answer: Coverage };
@@ -262,37 +261,13 @@ export interface Requests {
     /** The newest first. */
     answer: RecordingInfo[];
   };
-  "GET /api/recordings/NAME": {
-    query?: {
-      /** Nanoseconds of the run's clock. */
-      from?: string;
-      /** Nanoseconds of the run's clock. */
-      to?: string;
-    };
-    status: 200;
-    answer: Recording;
-  };
+  /** `from` and `to` are nanoseconds of the run's clock. */
+  "GET /api/recordings/NAME": { query?: { from?: string; to?: string }; status: 200; answer: Recording };
   "GET /api/recordings/NAME/coverage": { status: 200; answer: Coverage };
-  "GET /api/recordings/NAME/poses": {
-    query?: {
-      /** Nanoseconds of the run's clock. */
-      from?: string;
-      /** Nanoseconds of the run's clock. */
-      to?: string;
-    };
-    status: 200;
-    answer: RecordedPoses;
-  };
-  "GET /api/recordings/NAME/arrays": {
-    query: {
-      /** Nanoseconds of the run's clock. */
-      from?: string;
-      /** Nanoseconds of the run's clock. */
-      to?: string;
-    };
-    status: 200;
-    answer: RecordedArrays;
-  };
+  /** `from` and `to` are nanoseconds of the run's clock. */
+  "GET /api/recordings/NAME/poses": { query?: { from?: string; to?: string }; status: 200; answer: RecordedPoses };
+  /** `from` and `to` are nanoseconds of the run's clock. */
+  "GET /api/recordings/NAME/arrays": { query: { from?: string; to?: string }; status: 200; answer: RecordedArrays };
   /** 409: somebody else has changed the notes, or they are not the studio's; the answer has `notes` as they are. */
   "PUT /api/recordings/NAME/notes": { body: NotesRequest; status: 200; answer: { notes: Notes | null } };
   "POST /api/sweeps": {
@@ -420,13 +395,11 @@ export interface VerifyRequest {
   timeout?: string;
 }
 export interface VerifyRunning {
-  /** Names the job. */
   job: string;
   state: "running";
   result: null;
 }
 export interface VerifyEnd {
-  /** Names the job. */
   job: string;
   state: "done" | "stopped";
   result: VerifyReport | VerifyProblem;
@@ -580,6 +553,70 @@ export interface TimedStep {
   channel: string | null;
   ns: number;
 }
+/** A chain as `tessera replay --ages --json` tells it; members of a fleet are one. */
+export interface MeasuredChain {
+  /** Its name; of a fleet, without the number of a member. */
+  chain: string;
+  /** How many members of a fleet have it. */
+  chains: number;
+  /** Its name; of a fleet, that of the first member. */
+  name: string;
+  /** The specification names it. */
+  named: boolean;
+  /** Its subsystems; of a fleet, those of the first member. */
+  path: string[];
+  age: MeasuredTimes;
+  reaction: MeasuredTimes;
+  withheld: number;
+  exceeds: boolean;
+  /** Why nothing is measured. */
+  not_measured?: string;
+  /** Proved for all its members. */
+  bound?: { age_ns: number; reaction_ns: number; exact: boolean };
+  /** Why there is none. */
+  no_bound?: string;
+}
+/** One age for each command, one reaction for each reading. */
+export interface MeasuredTimes {
+  /** 0: there is nothing else. */
+  count: number;
+  least_ns?: number;
+  median_ns?: number;
+  p95_ns?: number;
+  p99_ns?: number;
+  most_ns?: number;
+  /** Numbers of times in equal steps from the least to the greatest; empty: all are equal. */
+  histogram?: number[];
+  /** The greatest one: from the reading, or from an event just after it, to the end of the command. */
+  worst?: {
+    /** Its name; of a fleet, that of one member. */
+    chain: string;
+    from_ns: number;
+    to_ns: number;
+    /** All calls of its subsystems meanwhile. */
+    calls: TimedCall[];
+    /** The way of the value; empty: events are missing. */
+    hops: TimedHop[];
+  };
+}
+/** A call of a transition function, in nanoseconds of the run's clock. No behaviour: the subsystem has several. */
+export interface TimedCall {
+  subsystem: string;
+  behaviour: string;
+  begin_ns: number;
+  end_ns: number;
+}
+/**
+ * The way of a value over a channel between two subsystems, in nanoseconds of the run's clock. It is read for
+ * the last time before it is used.
+ */
+export interface TimedHop {
+  channel: string;
+  from: string;
+  to: string;
+  written_ns: number;
+  read_ns: number;
+}
 /** A change of the specification, and the bounds of the chain with it. Other chains may get worse. */
 export interface TimedChange {
   /** event_driven: no rate, and a receive over the channel that waits. */
@@ -612,25 +649,9 @@ export interface WorstRun {
   /** The run takes as long as the bound, which is then exact. */
   reaches: boolean;
   /** The calls between the two times, of all subsystems that matter, by their begin. */
-  calls: {
-    subsystem: string;
-    /** Empty: the subsystem has several. */
-    behaviour: string;
-    begin_ns: number;
-    end_ns: number;
-  }[];
+  calls: TimedCall[];
   /** The way of the value that the command is based on, channel by channel. */
-  hops: {
-    /** FROM->TO */
-    channel: string;
-    /** The subsystem that writes. */
-    from: string;
-    /** The subsystem that reads. */
-    to: string;
-    written_ns: number;
-    /** For the last time before it is used. */
-    read_ns: number;
-  }[];
+  hops: TimedHop[];
 }
 export interface FunctionShown {
   /** The path of an agent or a template: "walker.control". */
@@ -749,7 +770,6 @@ export interface DeploymentRequest {
   kind: "deployment";
 }
 export interface RunListed {
-  /** Names the run. */
   run: string;
   state: RunState;
   kind: RunKind;
@@ -760,7 +780,6 @@ export interface RunListed {
   t: number;
 }
 export interface RunInfo {
-  /** Names the run. */
   run: string;
   state: RunState;
   kind: RunKind;
@@ -1315,12 +1334,10 @@ export interface LayoutEvent {
   revision: string;
 }
 export interface VerifyStarted {
-  /** Names the job. */
   job: string;
   state: "running";
 }
 export interface VerifyProgress {
-  /** Names the job. */
   job: string;
   state: "running";
   property: string;
@@ -1331,12 +1348,10 @@ export interface VerifyProgress {
 }
 /** Output of the build, or of the controller. */
 export interface LineEvent {
-  /** Names the run. */
   run: string;
   line: string;
 }
 export interface RunEvent {
-  /** Names the run. */
   run: string;
   state: RunState;
   why: string;
@@ -1347,7 +1362,6 @@ export interface RunEvent {
   firings: number;
 }
 export interface FiringsEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1361,7 +1375,6 @@ export interface FiringsEvent {
 }
 /** The report of a controller about itself. */
 export interface SubsystemsEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1370,7 +1383,6 @@ export interface SubsystemsEvent {
 }
 /** The state of all processes of a deployed system, and their knowledge of each other. */
 export interface DeploymentEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1385,7 +1397,6 @@ export interface DeploymentEvent {
 }
 /** Values of the buffers that changed since the last such event. */
 export interface ValuesEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1396,7 +1407,6 @@ export interface ValuesEvent {
 }
 /** All parameters: when the run begins, and when one has taken a value. */
 export interface ParametersEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1404,21 +1414,18 @@ export interface ParametersEvent {
 }
 /** The notices since the last such event. */
 export interface NoticesEvent {
-  /** Names the run. */
   run: string;
   notices: Notice[];
   /** Older ones that are left out: there were too many of their kind. */
   dropped: number;
 }
 export interface ArraysEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
   arrays: Arrays;
 }
 export interface PoseEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;
@@ -1427,14 +1434,12 @@ export interface PoseEvent {
   heading: number;
 }
 export interface SceneEvent {
-  /** Names the run. */
   run: string;
   hash: string;
   /** As in SceneShown. */
   bodies: [string, string][];
 }
 export interface PosesEvent {
-  /** Names the run. */
   run: string;
   /** Nanoseconds of the run's clock. */
   t: number;

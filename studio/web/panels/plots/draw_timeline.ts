@@ -1,7 +1,9 @@
+import type { MarkedRun } from "../../live/measured";
 import type { Track } from "../../live/run/track";
 import { inMiddle } from "../../model/net/labels";
 import { Timeline } from "../../model/run/timeline";
 import type { Colours, Size } from "../world/painted";
+import { drawMarkedRun } from "./draw_marked_run";
 
 const axis = 18;
 const last = 4;
@@ -48,7 +50,7 @@ export function drawTimeline(
   context: CanvasRenderingContext2D,
   size: Size,
   colours: Colours,
-  { track, seconds, scrolled }: { track: Track; seconds: number; scrolled: number },
+  { track, seconds, scrolled, marked }: { track: Track; seconds: number; scrolled: number; marked: MarkedRun | null },
 ): void {
   const { timeline } = track;
   const { start, end } = shownTime(track, seconds);
@@ -71,6 +73,14 @@ export function drawTimeline(
     drawBands(context, colours, lane, Math.min(end, track.end), start, x, y, height);
     drawTicks(context, colours, lane.firings, start, x, y + height - 5, size.width);
   });
+  if (marked) {
+    const lane = (subsystem: string) => timeline.lanes.findIndex(({ path }) => path === subsystem);
+    const y = (subsystem: string) => (lane(subsystem) < 0 ? undefined : (lane(subsystem) + 0.5) * height - scrolled);
+    context.beginPath();
+    context.rect(names, 0, size.width - names, size.height - axis);
+    context.clip();
+    drawMarkedRun(context, colours, marked, { x, y, height: size.height - axis });
+  }
   context.restore();
   if (track.end <= track.now) return;
   context.fillStyle = colours.text;

@@ -1,4 +1,5 @@
 import { useRef, useState } from "react";
+import type { MarkedRun } from "../../live/measured";
 import type { Track } from "../../live/run/track";
 import { Painted } from "../world/painted";
 import { drawTimeline, heightOfAll, laneAt, timeAt } from "./draw_timeline";
@@ -7,10 +8,13 @@ import { drawTimeline, heightOfAll, laneAt, timeAt } from "./draw_timeline";
 export function TimelineLanes({
   track,
   seconds,
+  marked,
   onSeek,
 }: {
   track: Track;
   seconds: number;
+  /** A run of a chain in this recording that is marked. */
+  marked: MarkedRun | null;
   onSeek: ((time: number) => void) | undefined;
 }) {
   const frame = useRef<HTMLDivElement>(null);
@@ -33,8 +37,12 @@ export function TimelineLanes({
         <div className="lanes-seen">
           <Painted
             label="Behaviours and firings of each subsystem over time"
-            draw={(context, size, colours) => drawTimeline(context, size, colours, { track, seconds, scrolled: scrolled() })}
-            of={() => `${track.id} ${track.now} ${track.firings} ${seconds} ${scrolled()}`}
+            draw={(context, size, colours) =>
+              drawTimeline(context, size, colours, { track, seconds, scrolled: scrolled(), marked })
+            }
+            of={() =>
+              `${track.id} ${track.now} ${track.firings} ${seconds} ${scrolled()} ${marked?.run.from_ns} ${marked?.run.to_ns}`
+            }
             onPick={onSeek && ((x, width) => onSeek(timeAt(track, seconds, x, width)))}
           />
         </div>

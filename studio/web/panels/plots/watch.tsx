@@ -29,6 +29,7 @@ function useWatched() {
 export function Timelines() {
   const studio = useStudio();
   const seconds = useStore(studio.watched, (all) => all.seconds);
+  const marked = useStore(studio.measured.store, (all) => all.marked);
   return (
     <div className="watches">
       {useWatched().map(({ id, label, title, track, replay, fixed }) => (
@@ -49,7 +50,12 @@ export function Timelines() {
               ))}
             </select>
           </div>
-          <TimelineLanes track={track} seconds={seconds} onSeek={replay && !fixed ? (time) => replay.seek(time) : undefined} />
+          <TimelineLanes
+            track={track}
+            seconds={seconds}
+            marked={marked && marked.recording === replay?.name ? marked : null}
+            onSeek={replay && !fixed ? (time) => replay.seek(time) : undefined}
+          />
         </section>
       ))}
     </div>

@@ -6,6 +6,7 @@ import { chainKey, chainName, chainTitle, saidChain, shownRate } from "../../mod
 import { Budget } from "./budget";
 import { HelpfulChanges } from "./helpful_changes";
 import { LimitFields } from "./limit_fields";
+import { MeasuredTimes } from "./measured_times";
 import { RateSlider } from "./rate_slider";
 import { TakesFields } from "./takes_fields";
 
@@ -58,6 +59,7 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
         </>
       )}
       {!chain.why && <HelpfulChanges structure={structure} found={found} chain={chain} fresh={fresh} />}
+      <MeasuredTimes found={found} chain={chain} />
       <h3>Rates</h3>
       {members.map(({ timed, subsystem, agent }) => (
         <div key={timed.path} className="on-chain">

@@ -11,11 +11,11 @@
 #include "spec/model/model.hpp"
 #include "tessera/recording.hpp"
 
-namespace tessera::cli {
+namespace tessera::replay {
 
 /// The times of a group of chains, and its bounds.
 struct AgesOfChain {
-  replay::ChainAges measured;
+  ChainAges measured;
   std::optional<std::int64_t> age_ns, reaction_ns;  ///< proved, for all its chains; nullopt: nothing is
   bool exact = false;                               ///< some run takes so long
   std::string why;                                  ///< there are no bounds, because of this
@@ -28,19 +28,21 @@ struct AgesOfChain {
 };
 
 /// Those that the specification names; else each receptor -> control -> effector of one agent.
-[[nodiscard]] std::vector<replay::MeasuredChain> measured_chains(const spec::Model& model);
+[[nodiscard]] std::vector<MeasuredChain> measured_chains(const spec::Model& model);
+
+/// Adds the bounds of the model to measured times.
+[[nodiscard]] std::vector<AgesOfChain> beside_bounds(std::vector<ChainAges> measured,
+                                                     const spec::Model& model);
 
 /// The chains of the model, measured in all the recordings together.
 [[nodiscard]] std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings,
                                                const spec::Model& model);
 
 /// Tells that the measured times leave out calls; empty: they do not.
-[[nodiscard]] std::string timeless_note(const AgesOfChain& one);
+[[nodiscard]] std::string timeless_note(const AgesOfChain\& one);
 
-/// names: of the recordings, for the worst cases.
-[[nodiscard]] std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::string> names);
-/// docs/reference/recordings.md describes it.
+/// names: of the recordings, for the worst cases. docs/reference/recordings.md describes it.
 [[nodiscard]] nlohmann::json ages_json(const std::vector<AgesOfChain>& all,
                                        std::span<const std::string> names);
 
-}  // namespace tessera::cli
+}  // namespace tessera::replay

@@ -39,7 +39,7 @@ struct AgesOfChain {
                                                const spec::Model& model);
 
 /// Tells that the measured times leave out calls; empty: they do not.
-[[nodiscard]] std::string timeless_note(const AgesOfChain\& one);
+[[nodiscard]] std::string timeless_note(const AgesOfChain& one);
 
 /// names: of the recordings, for the worst cases. docs/reference/recordings.md describes it.
 [[nodiscard]] nlohmann::json ages_json(const std::vector<AgesOfChain>& all,

@@ -19,6 +19,8 @@ using Kind = Selector::Kind;
 
 constexpr const char* chain_hint =
     "for example { name: line to wheels, path: [robot.sensor, robot.control, robot.motor], age: 100 ms }";
+constexpr const char* list_hint =
+    "for example chains: [{ name: line to wheels, path: [robot.sensor, robot.control, robot.motor] }]";
 constexpr const char* stops_hint =
     "a path names subsystems, receptor first: [robot.sensor, robot.control, robot.motor]";
 
@@ -46,7 +48,7 @@ class TimingReader {
           read_moment(*latency->value, latency->span, "latency", out_).value_or(std::chrono::nanoseconds{0});
     if (const Entry* chains = section.find("chains")) {
       timing.chains.emplace();
-      for (const Node* item : items_of(*chains->value, chains->span, "chains", out_))
+      for (const Node* item : items_of(*chains->value, chains->span, "chains", out_, list_hint))
         read_chain(*item, item->is_null() ? chains->span : item->span, *timing.chains);
     }
     return timing;
@@ -79,7 +81,7 @@ class TimingReader {
 
   std::optional<std::vector<Stop>> read_path(const Entry& entry) {
     std::vector<Stop> stops;
-    const std::vector<const Node*>& items = items_of(*entry.value, entry.span, "path", out_);
+    const std::vector<const Node*>& items = items_of(*entry.value, entry.span, "path", out_, stops_hint);
     if (!entry.value->is_sequence() && !entry.value->is_null()) return std::nullopt;
     bool good = true;
     for (const Node* item : items)

@@ -248,7 +248,8 @@ std::vector<report::ChainTimes> chain_times_of(const RunOutcome& outcome, const 
                       one.measured.chains,
                       {one.measured.age, one.age_ns},
                       {one.measured.reaction, one.reaction_ns},
-                      one.why});
+                      one.why,
+                      timeless_note(one)});
   return chains;
 }
 

@@ -14,7 +14,7 @@ namespace {
 using replay::AgesOfChain;
 
 std::string in_ms(std::int64_t ns) { return fmt::format("{:.3f} ms", static_cast<double>(ns) * 1e-6); }
-std::string in_ms(std::optional<std::int64_t> ns) { return ns ? in_ms(*ns) : "none"; }
+std::string in_ms(std::optional<std::int64_t> ns) { return ns ? in_ms(*ns) : "no bound"; }
 double in_seconds(std::int64_t ns) { return static_cast<double>(ns) * 1e-9; }
 
 void put_row(std::string& text, const char* name, const replay::MeasuredTimes& times,
@@ -60,12 +60,13 @@ std::string ages_text(const std::vector<AgesOfChain>& all, std::span<const std::
       text += fmt::format("  {} {} of the last subsystem gave no command: failed, or the safe command held\n",
                           measured.withheld, measured.withheld == 1 ? "call" : "calls");
     if (!one.why.empty()) text += "  no bound: " + one.why + "\n";
+    if (const std::string note = replay::timeless_note(one); !note.empty()) text += "  " + note + "\n";
   }
   if (std::ranges::any_of(all, &AgesOfChain::exceeds))
     text +=
-        "\nA time above its bound: a call took longer than its `takes`, a thread had to wait for a "
-        "processor,\n"
-        "or something failed. See tessera replay --takes.\n";
+        "\nA time above its bound: a call took longer than its `takes` (tessera replay --takes tells), a "
+        "thread went\n"
+        "on later than `timing: { latency }` says, or something failed.\n";
   return text;
 }
 

@@ -44,11 +44,14 @@ std::string number_in(std::int64_t ns, const TimeUnit& unit) {
   return text;
 }
 
-/// Exactly what the specification says, or was measured.
+/// Exactly what the specification says, or was measured: "1.5..9 ms", "1.7 us..7 ms".
 std::string range_text(std::int64_t shortest_ns, std::int64_t longest_ns) {
   const TimeUnit unit = unit_of(longest_ns);
   const std::string longest = number_in(longest_ns, unit) + " " + unit.name;
-  return shortest_ns == longest_ns ? longest : number_in(shortest_ns, unit) + ".." + longest;
+  if (shortest_ns == longest_ns) return longest;
+  if (shortest_ns == 0 || shortest_ns * 10 >= unit.ns) return number_in(shortest_ns, unit) + ".." + longest;
+  const TimeUnit own = unit_of(shortest_ns);
+  return number_in(shortest_ns, own) + " " + own.name + ".." + longest;
 }
 
 /// To the path of the entry whose key stands at that byte.
@@ -91,6 +94,36 @@ std::string joined_names(const LearnedTakes& one) {
   return text;
 }
 
+/// The proposals for the behaviours that stand in the file.
+void write_takes(const diagnostics::Diagnostics& specification, const std::vector<LearnedTakes>& all,
+                 TakesEdit::File& file, TakesEdit& result) {
+  const language::Grammar grammar("{}");  // which keys are allowed is not asked
+  const language::Document document(file.before, grammar, file.name.empty() ? specification.folder() : "");
+  std::vector<language::Edit> edits;
+  for (const LearnedTakes& one : all) {
+    const diagnostics::SourceLine at = specification.sources().at(one.span.line);
+    if (one.text.empty() || at.file != file.name) continue;
+    language::Path path;
+    if (!find_entry(document.outline().root(), document.lines().start_of(at.line - 1) + one.span.column - 1,
+                    path)) {
+      result.elsewhere.push_back(fmt::format("{}: takes: {} ({})", joined_names(one), one.text,
+                                             specification.sources().words(one.span.line)));
+      continue;
+    }
+    language::Edit& set = edits.emplace_back();
+    set.kind = language::Edit::Kind::set;
+    set.at = std::move(path);
+    set.key = "takes";
+    set.text = one.text;
+  }
+  if (edits.empty()) return;
+  const language::Renaming done = language::edit(document, edits, {});
+  if (!done.problem)
+    file.after = language::edited(document, done.edits);
+  else if (result.problem.empty())
+    result.problem = *done.problem;
+}
+
 }  // namespace
 
 std::string takes_text(std::int64_t& shortest_ns, std::int64_t& longest_ns) {
@@ -122,30 +155,12 @@ std::vector<LearnedTakes> learned_takes(const spec::Model& model,
 
 TakesEdit with_takes(const diagnostics::Diagnostics& specification, const std::vector<LearnedTakes>& all) {
   TakesEdit result;
-  const language::Grammar grammar("{}");  // which keys are allowed is not asked
-  const language::Document document(specification.text(), grammar, specification.folder());
-  std::vector<language::Edit> edits;
-  for (const LearnedTakes& one : all) {
-    if (one.text.empty()) continue;
-    const std::uint32_t line = specification.sources().own_line(one.span.line);
-    language::Path path;
-    if (line == 0 || !find_entry(document.outline().root(),
-                                 document.lines().start_of(line - 1) + one.span.column - 1, path)) {
-      result.elsewhere.push_back(fmt::format("{}: takes: {} ({})", joined_names(one), one.text,
-                                             specification.sources().words(one.span.line)));
-      continue;
-    }
-    language::Edit& set = edits.emplace_back();
-    set.kind = language::Edit::Kind::set;
-    set.at = std::move(path);
-    set.key = "takes";
-    set.text = one.text;
+  result.files.push_back({{}, specification.text(), specification.text()});
+  for (const std::string& name : specification.sources().included()) {
+    const std::string& text = specification.included_text(result.files.size() - 1);
+    result.files.push_back({name, text, text});
   }
-  const language::Renaming done = language::edit(document, edits, {});
-  if (done.problem)
-    result.problem = *done.problem;
-  else
-    result.text = language::edited(document, done.edits);
+  for (TakesEdit::File& file : result.files) write_takes(specification, all, file, result);
   return result;
 }
 

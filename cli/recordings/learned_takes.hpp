@@ -31,14 +31,19 @@ struct LearnedTakes {
                                                       const replay::DurationsOfBehaviours& measured,
                                                       double margin);
 
-/// "1.5..9 ms": at most two digits of each, rounded outwards, in the unit of the longest. Sets both to what they say.
+/// "1.5..9 ms": at most two digits of each, rounded outwards. Sets both to what they say.
 [[nodiscard]] std::string takes_text(std::int64_t& shortest_ns, std::int64_t& longest_ns);
 
-/// The text of the specification with the proposals. `problem`: why it cannot be changed; then the text is empty.
-/// Behaviours of included files are left as they are, and named in `elsewhere`.
+/// The files of the specification with the proposals.
 struct TakesEdit {
-  std::string text, problem;
-  std::vector<std::string> elsewhere;
+  struct File {
+    std::string name;  ///< empty: the given file; else the included one, relative to its folder
+    std::string before, after;
+  };
+  std::vector<File> files;  ///< all that were read, also those that stay; the given one is the first
+  std::string problem;      ///< why they cannot be changed; then `after` means nothing
+  std::vector<std::string>
+      elsewhere;  ///< proposals for behaviours that are not written as an entry of their own
 };
 [[nodiscard]] TakesEdit with_takes(const diagnostics::Diagnostics& specification,
                                    const std::vector<LearnedTakes>& all);

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <filesystem>
 #include <optional>
 
 #include "cli/line_difference.hpp"
@@ -11,6 +12,7 @@
 #include "cli/recordings/learned_takes.hpp"
 #include "cli/terminal.hpp"
 #include "project/build/user_sources.hpp"
+#include "project/packaging/scratch_folder.hpp"
 #include "project/verification/pipeline.hpp"
 #include "replay/times/call_durations.hpp"
 #include "replay/times/measured_ages.hpp"
@@ -20,6 +22,8 @@
 
 namespace tessera::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 /// Tells the reader of the figures what the recording lacks.
 void note(const Recording& recording, const std::string& file) {
@@ -70,6 +74,22 @@ void note_on_other_nets(const Input& input, const std::vector<std::string>& file
           files[index], input.specification.file.string());
 }
 
+/// Prints the mistakes that the changed files would have. The files are read as a whole, so they stand in a folder
+/// of their own.
+bool is_correct(const TakesEdit& edit, const fs::path& specification) {
+  const project::ScratchFolder folder;
+  for (const TakesEdit::File& file : edit.files) {
+    if (file.name.empty()) continue;
+    const fs::path path = folder.path() / file.name;
+    fs::create_directories(path.parent_path());
+    write_output(path.string(), file.after);
+  }
+  diagnostics::Diagnostics after(specification.string(), edit.files.front().after, folder.path());
+  if (spec::parse(after)) return true;
+  terminal().say(after);
+  return false;
+}
+
 }  // namespace
 
 int ages_command(const TimesOptions& options) {
@@ -113,7 +133,7 @@ int takes_command(const TimesOptions& options) {
   if (std::ranges::none_of(all, [](const LearnedTakes& one) { return one.measured.count > 0; }))
     return complain(
         "no recording tells how long a call takes: record a real run (tessera run) with "
-        "--record-values small");
+        "--record-values small; tessera run --world tells the times on this computer");
   const diagnostics::Diagnostics& before = input->specification.diagnostics;
   const TakesEdit edit = with_takes(before, all);
   if (!options.json.empty())
@@ -127,23 +147,26 @@ int takes_command(const TimesOptions& options) {
                options.margin_percent);
   for (const std::string& other : edit.elsewhere) fmt::print(stderr, "write it there yourself: {}\n", other);
   if (!edit.problem.empty()) return complain("the specification cannot be changed: " + edit.problem);
-  diagnostics::Diagnostics after(input->specification.file.string(), edit.text, before.folder());
-  if (!spec::parse(after)) {
-    terminal().say(after);
+  if (!is_correct(edit, input->specification.file))
     return complain("the specification with these times would not be correct, so nothing was changed");
+  std::string difference;
+  std::vector<project::Replacement> replacements;
+  for (const TakesEdit::File& file : edit.files) {
+    const fs::path path = file.name.empty() ? input->specification.file : before.folder() / file.name;
+    if (const std::string lines = line_difference(file.before, file.after); !lines.empty())
+      difference += fmt::format("\n{}\n{}", path.string(), lines);
+    replacements.push_back({path, file.before, file.after});
   }
-  const std::string difference = line_difference(before.text(), edit.text);
   if (difference.empty()) {
     if (is_shown) fmt::print("{}: nothing to change\n", input->specification.file.string());
     return ok;
   }
-  if (is_shown) fmt::print("\n{}\n{}", input->specification.file.string(), difference);
+  if (is_shown) fmt::print("{}", difference);
   if (!options.write) {
     if (is_shown) fmt::print("--write writes this\n");
     return ok;
   }
-  if (const auto problem = project::replace_together(input->specification.project,
-                                                     {{input->specification.file, before.text(), edit.text}}))
+  if (const auto problem = project::replace_together(input->specification.project, replacements))
     return complain("nothing was changed: " + *problem);
   if (is_shown) fmt::print("written\n");
   return ok;

@@ -140,10 +140,7 @@ class ChainExplainer {
 
   static json time_json(timing::Time time) { return time >= timing::unbounded ? json(nullptr) : json(time); }
   static std::string from_to(const timing::ChainVerdict& verdict, timing::Time from, timing::Time to) {
-    const auto name = [](timing::Time time) {
-      return time >= timing::unbounded ? std::string("none") : time_text(time);
-    };
-    return name(verdict.why.empty() ? from : timing::unbounded) + " -> " + name(to);
+    return bound_text(verdict.why.empty() ? from : timing::unbounded) + " -> " + bound_text(to);
   }
 
   [[nodiscard]] std::string words_of(const timing::Change& change) const {

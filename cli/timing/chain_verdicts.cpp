@@ -9,6 +9,7 @@
 
 #include "cli/timing/conduct_texts.hpp"
 #include "cli/timing/time_texts.hpp"
+#include "spec/model/chain_ways.hpp"
 #include "timing/conduct/drift.hpp"
 #include "timing/words.hpp"
 #include "timing/worst/worst_run.hpp"
@@ -53,7 +54,7 @@ class VerdictLines {
  public:
   void add(const std::string& name, const std::string& text) {
     const auto [at, is_new] =
-        line_of_.try_emplace({without_members(name), without_members(text)}, lines_.size());
+        line_of_.try_emplace({spec::fleet_name_of(name), spec::fleet_name_of(text)}, lines_.size());
     if (is_new) lines_.push_back({name, text});
     ++lines_[at->second].count;
   }
@@ -135,12 +136,18 @@ std::string verdict_text(const timing::DeclaredChain& chain, const timing::Chain
 
 ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& stop, bool explained) try {
   ChainVerdicts result{{}, {}, nlohmann::json::array(), nlohmann::json::object()};
-  if (!timing::says_times(model)) return result;
   const timing::Declared declared = timing::declared(model);
+  if (!timing::says_times(model)) {
+    if (!declared.chains.empty())
+      result.explained =
+          "times: not known: no behaviour says what its calls take, for example follow: { takes: 1..3 ms }\n";
+    return result;
+  }
   if (declared.chains.empty()) return result;
   const timing::Bounds bounds(declared.system, stop);
   timing::WorstRunSearch search(declared, bounds, stop);
   VerdictLines lines;
+  const timing::DeclaredChain* unbounded = nullptr;  // the last one that has no bound
   for (const timing::DeclaredChain& chain : declared.chains) {
     timing::check(stop);
     timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
@@ -151,12 +158,19 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
     result.json.push_back(chain_json(chain, verdict));
     result.overall = worse_of(result.overall, overall(verdict));
     lines.add(chain.name, verdict_text(chain, verdict));
-    if (!verdict.why.empty()) continue;
+    if (!verdict.why.empty()) {
+      unbounded = &chain;
+      continue;
+    }
     if (const std::optional<timing::Drift> drift = drift_of(bounds, chain)) {
       lines.add(chain.name, drift_text(*drift, model));
       result.json.back()["drifts"] = model.instance_path(spec::InstanceId{drift->subsystem});
     }
   }
+  const std::string missing =
+      unbounded == nullptr
+          ? ""
+          : fmt::format("  (tessera verify --explain \"{}\" names all that is missing)\n", unbounded->name);
   const timing::Conduct conduct = timing::conduct_of(declared, bounds);
   VerdictLines notable, all;
   for (const ConductLine& line : lines_of(conduct, declared, model)) {
@@ -170,8 +184,8 @@ ChainVerdicts chain_verdicts(const spec::Model& model, const timing::StopAsked& 
           : fmt::format(
                 "  `tessera verify --explain \"{}\"` tells a run that shows it, --scenario FILE writes it\n",
                 result.violated);
-  result.text = assumptions_of_times + lines.text() + see + notable.text();
-  result.explained = assumptions_of_times + lines.text() + see + all.text();
+  result.text = assumptions_of_times + lines.text() + see + missing + notable.text();
+  result.explained = assumptions_of_times + lines.text() + see + missing + all.text();
   return result;
 } catch (const timing::Interrupted&) {
   ChainVerdicts result{"times: not computed: the time limit is reached, or the search was stopped\n",

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "ros2/codec/cdr.hpp"
+#include "ros2/codec/cdr_message.hpp"
 #include "ros2/codec/message_copy.hpp"
 
 namespace tessera::ros2 {
@@ -42,15 +42,6 @@ void write(const GoalInfo& info, CdrWriter& writer) {
 /// The data may be padded to four bytes.
 bool is_read(const CdrReader& reader) { return reader.ok() && reader.left() <= most_padding; }
 
-template <class Write>
-MessageBytes written(Write write_data) {
-  MessageBytes message;
-  CdrWriter writer(message);
-  write_data(writer);
-  writer.finish();
-  return message;
-}
-
 template <class Read>
 auto read(std::span<const std::byte> message, Read read_data) {
   std::optional<decltype(read_data(std::declval<CdrReader&>()))> data;
@@ -81,7 +72,7 @@ std::optional<NamedMessage> split_goal_id(std::span<const std::byte> message) {
 }
 
 MessageBytes goal_answer(bool accepted, const Stamp& at) {
-  return written([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     write(static_cast<std::uint8_t>(accepted), writer);
     write(at.sec, writer);
     write(at.nanosec, writer);
@@ -100,7 +91,7 @@ std::optional<bool> read_goal_answer(std::span<const std::byte> message) {
 }
 
 MessageBytes result_request(const GoalId& id) {
-  return written([&](CdrWriter& writer) { write(id, writer); });
+  return cdr_message([&](CdrWriter& writer) { write(id, writer); });
 }
 
 std::optional<GoalId> read_result_request(std::span<const std::byte> message) {
@@ -115,7 +106,7 @@ std::optional<std::int8_t> read_result_status(std::span<const std::byte> message
 }
 
 MessageBytes cancel_request(const CancelRequest& request) {
-  return written([&](CdrWriter& writer) { write(GoalInfo{request.id, request.stamp}, writer); });
+  return cdr_message([&](CdrWriter& writer) { write(GoalInfo{request.id, request.stamp}, writer); });
 }
 
 std::optional<CancelRequest> read_cancel_request(std::span<const std::byte> message) {
@@ -124,7 +115,7 @@ std::optional<CancelRequest> read_cancel_request(std::span<const std::byte> mess
 }
 
 MessageBytes cancel_answer(CancelCode code, std::span<const GoalInfo> canceling) {
-  return written([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     write(static_cast<std::int8_t>(code), writer);
     writer.length(static_cast<std::uint32_t>(canceling.size()));
     for (const GoalInfo& one : canceling) write(one, writer);
@@ -141,7 +132,7 @@ std::optional<CancelCode> read_cancel_answer(std::span<const std::byte> message)
 }
 
 MessageBytes status_message(std::span<const GoalStatus> goals) {
-  return written([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     writer.length(static_cast<std::uint32_t>(goals.size()));
     for (const GoalStatus& one : goals) {
       write(one.info, writer);
@@ -175,7 +166,7 @@ std::optional<MessageBytes> ProgressType::join(std::span<const std::byte> feedba
     copy_message(part(index), *reader, writer);
     good = is_read(*reader);
   };
-  MessageBytes joined = written([&](CdrWriter& writer) {
+  MessageBytes joined = cdr_message([&](CdrWriter& writer) {
     add(feedback, feedback_part, writer);
     add(result, result_part, writer);
   });
@@ -187,8 +178,8 @@ std::optional<ProgressType::Parts> ProgressType::split(std::span<const std::byte
   auto reader = CdrReader::open(progress);
   if (!reader) return std::nullopt;
   Parts parts;
-  parts.feedback = written([&](CdrWriter& writer) { copy_message(part(feedback_part), *reader, writer); });
-  parts.result = written([&](CdrWriter& writer) {
+  parts.feedback = cdr_message([&](CdrWriter& writer) { copy_message(part(feedback_part), *reader, writer); });
+  parts.result = cdr_message([&](CdrWriter& writer) {
     write(status, writer);
     copy_message(part(result_part), *reader, writer);
   });
@@ -196,7 +187,7 @@ std::optional<ProgressType::Parts> ProgressType::split(std::span<const std::byte
 }
 
 MessageBytes ProgressType::empty_result(std::int8_t status) const {
-  return written([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     write(status, writer);
     write_empty_message(part(result_part), writer);
   });

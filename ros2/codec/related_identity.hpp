@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -12,6 +13,12 @@ namespace tessera::ros2 {
 using Guid = std::array<std::uint8_t, 16>;
 /// The part of a GUID that all endpoints of a participant share.
 inline constexpr std::size_t participant_bytes = 12;
+
+/// The GUIDs of Fast DDS begin with the number of its vendor.
+[[nodiscard]] inline bool is_fast(const Guid& guid) { return guid[0] == 0x01 && guid[1] == 0x0f; }
+[[nodiscard]] inline bool same_participant(const Guid& one, const Guid& other) {
+  return std::equal(one.begin(), one.begin() + participant_bytes, other.begin());
+}
 
 /// Identifies a request as rmw_fastrtps_cpp does: in the inline QoS of the datagram, beside the data. In a
 /// request it names the client's reader of replies. In a reply it names that reader, or, if the request had

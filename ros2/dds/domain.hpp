@@ -17,9 +17,6 @@
 
 namespace tessera::ros2 {
 
-/// The GUIDs of Fast DDS begin with the number of its vendor.
-[[nodiscard]] inline bool is_fast(const Guid& guid) { return guid[0] == 0x01 && guid[1] == 0x0f; }
-
 /// The network of a participant.
 struct Network {
   std::uint32_t domain = 0;

@@ -31,10 +31,6 @@ std::optional<std::string> value_of(std::string_view user_data, std::string_view
   return std::nullopt;
 }
 
-bool same_participant(const Guid& one, const Guid& other) {
-  return std::equal(one.begin(), one.begin() + participant_bytes, other.begin());
-}
-
 }  // namespace
 
 ServiceEnds::ServiceEnds(const ServiceSetup& setup) : path_(setup.endpoint.path) {

@@ -66,13 +66,6 @@ std::int64_t number_of(const rtps::SequenceNumber_t& sequence) {
   return sequence.high * of_high + sequence.low;
 }
 
-/// The GUIDs of Fast DDS begin with the number of its vendor.
-bool is_fast(const Guid& guid) { return guid[0] == 0x01 && guid[1] == 0x0f; }
-
-bool same_participant(const Guid& one, const Guid& other) {
-  return std::equal(one.begin(), one.begin() + participant_bytes, other.begin());
-}
-
 class Service final : public FastService, private dds::DataWriterListener, private dds::DataReaderListener {
  public:
   explicit Service(const FastSetup& setup) : is_client_(setup.is_client) {

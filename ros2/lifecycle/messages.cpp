@@ -1,6 +1,6 @@
 #include "ros2/lifecycle/messages.hpp"
 
-#include "ros2/codec/cdr.hpp"
+#include "ros2/codec/cdr_message.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -20,15 +20,6 @@ void put_step(const LifecycleTransition& step, CdrWriter& writer) {
   put_state(step.to, writer);
 }
 
-template <class Put>
-std::vector<std::byte> lifecycle_message(Put put) {
-  std::vector<std::byte> message;
-  CdrWriter writer(message);
-  put(writer);
-  writer.finish();
-  return message;
-}
-
 }  // namespace
 
 std::optional<ChangeRequest> read_change_request(std::span<const std::byte> message) {
@@ -42,29 +33,29 @@ std::optional<ChangeRequest> read_change_request(std::span<const std::byte> mess
 }
 
 std::vector<std::byte> change_answer(bool success) {
-  return lifecycle_message([&](CdrWriter& writer) { writer.number(&success, sizeof success); });
+  return cdr_message([&](CdrWriter& writer) { writer.number(&success, sizeof success); });
 }
 
 std::vector<std::byte> state_answer(LifecycleState state) {
-  return lifecycle_message([&](CdrWriter& writer) { put_state(state, writer); });
+  return cdr_message([&](CdrWriter& writer) { put_state(state, writer); });
 }
 
 std::vector<std::byte> states_answer(std::span<const LifecycleState> states) {
-  return lifecycle_message([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     writer.length(static_cast<std::uint32_t>(states.size()));
     for (const LifecycleState state : states) put_state(state, writer);
   });
 }
 
 std::vector<std::byte> transitions_answer(std::span<const LifecycleTransition> transitions) {
-  return lifecycle_message([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     writer.length(static_cast<std::uint32_t>(transitions.size()));
     for (const LifecycleTransition& step : transitions) put_step(step, writer);
   });
 }
 
 std::vector<std::byte> transition_event(std::uint64_t time_ns, const LifecycleTransition& step) {
-  return lifecycle_message([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     writer.number(&time_ns, sizeof time_ns);
     put_step(step, writer);
   });

@@ -10,7 +10,7 @@
 #include <string_view>
 #include <type_traits>
 
-#include "ros2/codec/cdr.hpp"
+#include "ros2/codec/cdr_message.hpp"
 
 namespace tessera::ros2 {
 namespace {
@@ -136,15 +136,6 @@ void put(const Stamp& stamp, CdrWriter& writer) {
   put(stamp.nanosec, writer);
 }
 
-template <class Write>
-std::vector<std::byte> message_of(Write write) {
-  std::vector<std::byte> message;
-  CdrWriter writer(message);
-  write(writer);
-  writer.finish();
-  return message;
-}
-
 /// The nearest whole number of 64 bits.
 std::int64_t whole_number(double number) {
   constexpr double beyond = 9223372036854775808.0;
@@ -223,37 +214,37 @@ std::optional<std::vector<NamedValue>> read_set_request(std::span<const std::byt
 
 std::vector<std::byte> list_answer(std::span<const std::string> names,
                                    std::span<const std::string> prefixes) {
-  return message_of([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     put_all(names, writer);
     put_all(prefixes, writer);
   });
 }
 
 std::vector<std::byte> values_answer(std::span<const ParameterValue> values) {
-  return message_of([&](CdrWriter& writer) { put_all(values, writer); });
+  return cdr_message([&](CdrWriter& writer) { put_all(values, writer); });
 }
 
 std::vector<std::byte> types_answer(std::span<const ParameterValue> values) {
-  return message_of([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     writer.length(static_cast<std::uint32_t>(values.size()));
     for (const ParameterValue& one : values) put(static_cast<std::uint8_t>(one.index()), writer);
   });
 }
 
 std::vector<std::byte> descriptors_answer(std::span<const Described> parameters) {
-  return message_of([&](CdrWriter& writer) { put_all(parameters, writer); });
+  return cdr_message([&](CdrWriter& writer) { put_all(parameters, writer); });
 }
 
 std::vector<std::byte> set_answer(std::span<const SetOutcome> outcomes) {
-  return message_of([&](CdrWriter& writer) { put_all(outcomes, writer); });
+  return cdr_message([&](CdrWriter& writer) { put_all(outcomes, writer); });
 }
 
 std::vector<std::byte> set_all_answer(const SetOutcome& outcome) {
-  return message_of([&](CdrWriter& writer) { put(outcome, writer); });
+  return cdr_message([&](CdrWriter& writer) { put(outcome, writer); });
 }
 
 std::vector<std::byte> event_message(const ParameterEvent& event) {
-  return message_of([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     put(event.stamp, writer);
     put(event.node, writer);
     put(event.made, writer);
@@ -265,7 +256,7 @@ std::vector<std::byte> event_message(const ParameterEvent& event) {
 std::vector<std::byte> diagnostics_message(const Stamp& stamp, const std::string& node,
                                            const std::string& hardware,
                                            std::span<const Ros2Status> statuses) {
-  return message_of([&](CdrWriter& writer) {
+  return cdr_message([&](CdrWriter& writer) {
     put(stamp, writer);
     put(std::string(), writer);  // frame_id
     writer.length(static_cast<std::uint32_t>(statuses.size()));

@@ -126,11 +126,16 @@ std::vector<std::string> missing_drivers(const spec::Model& model, const LaunchO
 
 std::string hint_for(const std::string& buffer, const spec::Model& model, const LaunchOptions& options,
                      bool simulated) {
-  if (!simulated)
-    return fmt::format(
+  if (!simulated) {
+    std::string hint = fmt::format(
         "hint: name a class of src/drivers.hpp under `drivers:` of the specification, for example\n"
         "      {}: {{ cpp: Motor }}\n",
         buffer);
+    if (model.simulation && missing_drivers(model, options, true).empty())
+      hint += fmt::format("      `tessera run --world {}` runs it in its simulated world, in real time.\n",
+                          options.spec);
+    return hint;
+  }
   std::string hint = fmt::format(
       "hint: name a part of the world or a class of src/drivers.hpp under `drivers:` of `simulation:`, for "
       "example\n"

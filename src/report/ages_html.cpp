@@ -109,6 +109,8 @@ std::string ages_html(const ReportInput& input) {
     html += "</div>";
     if (!chain.no_bound.empty())
       put(html, R"(<p class="note">no bound: {}</p>)", escaped(shortened(chain.no_bound, 300, 2)));
+    if (!chain.left_out.empty())
+      put(html, R"(<p class="note">{}</p>)", escaped(shortened(chain.left_out, 600, 3)));
   }
   if (shown.size() > most_chains)
     put(html, R"(<p class="note">and {} more chains: <code>tessera replay --ages</code> shows them all</p>)",

@@ -52,6 +52,7 @@ struct ChainTimes {
   std::uint64_t chains = 1;  ///< that are measured together
   Measured age{}, reaction{};
   std::string no_bound{};  ///< why; empty: there is one
+  std::string left_out{};  ///< by the measured times; may be empty
 };
 
 /// Calls of one behaviour that took longer than its `takes`.

@@ -1,6 +1,28 @@
 #include "timing/words.hpp"
 
+#include <fmt/format.h>
+
 namespace tessera::timing {
+namespace {
+
+/// round: to a multiple of the step.
+template <class Round>
+std::string four_digits(Time time, Round round) {
+  struct Unit {
+    Time ns;
+    const char* name;
+  };
+  for (const Unit unit : {Unit{1'000'000'000, "s"}, Unit{1'000'000, "ms"}, Unit{1'000, "us"}})
+    if (time >= unit.ns) {
+      Time step = unit.ns / 1000;
+      while (time / step >= 10'000) step *= 10;
+      return fmt::format(
+          "{:g} {}", static_cast<double>(round(time, step) * step) / static_cast<double>(unit.ns), unit.name);
+    }
+  return fmt::format("{} ns", time);
+}
+
+}  // namespace
 
 const char* word_of(Answer answer) {
   switch (answer) {
@@ -63,5 +85,9 @@ const char* word_of(Change::Kind kind) {
   }
   return "own_processor";
 }
+
+std::string time_text(Time time) { return four_digits(time, ceil_div); }
+std::string least_time_text(Time time) { return four_digits(time, floor_div); }
+std::string bound_text(Time time) { return time >= unbounded ? "no bound" : time_text(time); }
 
 }  // namespace tessera::timing

@@ -105,7 +105,8 @@ TEST_F(AgesOfCommands, AreThoseOfTheStampsAndStayBelowTheirBounds) {
   replace(project / "spec.yaml", "next: follow }", "next: follow, takes: 2..8 ms }");
   replace(project / "spec.yaml", "follow: {}", "follow: { takes: 2..8 ms }");
   replace(project / "spec.yaml", "drive: {}", "drive: { takes: 1..2 ms }");
-  ASSERT_EQ(tessera("simulate 01_line_follower --for 30s --record run.tsr").code, 0);
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 30s --record run.tsr --report page").code, 0);
+  EXPECT_EQ(content_of(folder_ / "page/index.html").find("take no time"), std::string::npos);
   const nlohmann::json chain = json("replay run.tsr --ages --spec 01_line_follower").at("ages").at(0);
   EXPECT_EQ(chain.at("chain"), "robot.sensor -> robot.control -> robot.motor");
   EXPECT_EQ(chain.at("bound").at("age_ns"), 82'000'000);
@@ -128,6 +129,18 @@ TEST_F(AgesOfCommands, AreThoseOfTheStampsAndStayBelowTheirBounds) {
     EXPECT_EQ(std::exchange(named.at(times).at("worst").at("chain"), chain.at("chain")), "line to wheels");
   EXPECT_EQ(named, chain);
   write(project / "spec.yaml", unnamed);
+
+  // Without `takes`, calls take no time in a simulation. The recording says so, whatever the specification says now.
+  replace(project / "spec.yaml", "drive: { takes: 1..2 ms }", "drive: {}");
+  ASSERT_EQ(tessera("simulate 01_line_follower --for 10s --record free.tsr --report page").code, 0);
+  EXPECT_NE(content_of(folder_ / "page/index.html").find("the calls of robot.motor.drive take no time"),
+            std::string::npos);
+  write(project / "spec.yaml", unnamed);
+  const project::Exit free = tessera("replay free.tsr --ages --spec 01_line_follower");
+  EXPECT_NE(free.text.find("the calls of robot.motor.drive take no time"), std::string::npos) << free.text;
+  const nlohmann::json told = json("replay run.tsr free.tsr --ages --spec 01_line_follower").at("ages").at(0);
+  EXPECT_EQ(told.at("takes_no_time"), nlohmann::json({"robot.motor.drive"}));
+  EXPECT_FALSE(chain.contains("takes_no_time"));
 
   // In segments, of which the first are gone, and cut off.
   ASSERT_EQ(tessera("simulate 01_line_follower --for 60s --record part.tsr --record-limit 1MB").code, 0);

@@ -79,8 +79,9 @@ TEST(LearnedTakes, ChangeTheSpecificationAndKeepItsComments) {
     std::erase(from, ' ');
     return from;
   };
-  EXPECT_EQ(without_blanks(edit.text), without_blanks(expected));
-  const spec::Reading again(edit.text);
+  ASSERT_EQ(edit.files.size(), 1U);
+  EXPECT_EQ(without_blanks(edit.files[0].after), without_blanks(expected));
+  const spec::Reading again(edit.files[0].after);
   EXPECT_TRUE(again.model) << again.report();
 }
 
@@ -92,7 +93,7 @@ TEST(LearnedTakes, ThatAreDeclaredStayIfAllCallsAreWithinThem) {
       cli::learned_takes(*reading.model, {{{"robot[0].control", "follow"}, calls(500, 2 * ms, 8 * ms)}}, 0.2);
   EXPECT_EQ(all.at(1).text, "");
   EXPECT_NE(cli::takes_table(all).find("within takes: 2..8 ms"), std::string::npos) << cli::takes_table(all);
-  EXPECT_EQ(cli::with_takes(diagnostics::Diagnostics("spec.yaml", text), all).text, text);
+  EXPECT_EQ(cli::with_takes(diagnostics::Diagnostics("spec.yaml", text), all).files.at(0).after, text);
 }
 
 }  // namespace
@@ -122,6 +123,29 @@ TEST_F(TakesOfRuns, AreProposedAndWrittenAndASimulatedRunTeachesNothing) {
   EXPECT_EQ(again.code, 0) << again.text;
   EXPECT_NE(again.text.find("nothing to change"), std::string::npos) << again.text;
   EXPECT_EQ(tessera("replay real.tsr --takes --margin 100 --spec 01_line_follower").code, 2);
+
+  // Behaviours of an included file get theirs there.
+  const std::size_t agents = before.find("agents:\n"), channels = before.find("\nchannels:");
+  std::string agent = before.substr(agents, channels - agents);
+  agent.replace(0, agent.find("robot:"), "templates:\n  ");
+  fs::create_directory(project / "parts");
+  write(project / "parts/robot.yaml", agent);
+  const std::string whole = "include: parts/robot.yaml\n" + before.substr(0, agents) +
+                            "agents: { robot: { use: robot } }\n" + before.substr(channels);
+  write(project / "spec.yaml", whole);
+  fs::rename(project / "parts/robot.yaml", project / "parts/elsewhere.yaml");
+  fs::create_symlink("elsewhere.yaml", project / "parts/robot.yaml");
+  const project::Exit refused = tessera("replay real.tsr --takes --spec 01_line_follower --write");
+  EXPECT_EQ(refused.code, 1) << refused.text;
+  EXPECT_NE(refused.text.find("nothing was changed: "), std::string::npos) << refused.text;
+  EXPECT_EQ(content_of(project / "parts/elsewhere.yaml"), agent);
+  fs::rename(project / "parts/elsewhere.yaml", project / "parts/robot.yaml");
+  const project::Exit there = tessera("replay real.tsr --takes --spec 01_line_follower --write");
+  EXPECT_EQ(there.code, 0) << there.text;
+  EXPECT_NE(there.text.find("parts/robot.yaml"), std::string::npos) << there.text;
+  EXPECT_EQ(content_of(project / "spec.yaml"), whole);
+  EXPECT_NE(content_of(project / "parts/robot.yaml").find("watch: { takes: "), std::string::npos);
+  EXPECT_NE(tessera("verify 01_line_follower").text.find("reaction at most "), std::string::npos);
 }
 
 /// The recording of a simulated run, told as one of a real run.

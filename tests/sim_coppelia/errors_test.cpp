@@ -12,6 +12,7 @@
 #include <string>
 #include <thread>
 
+#include "../eventually.hpp"
 #include "scene_server.hpp"
 #include "world_library.hpp"
 
@@ -109,7 +110,7 @@ std::string mark_of_a_killed_run(SceneServer& server, const std::string& scene) 
     if (world != nullptr) world->advance_to(Time(20ms));
     kill(getpid(), SIGKILL);
   }
-  for (int tries = 0; tries < 500 && server.signals().empty(); ++tries) std::this_thread::sleep_for(10ms);
+  EXPECT_TRUE(eventually([&] { return !server.signals().empty(); }));
   const auto signals = server.signals();
   while (waitid(P_PID, static_cast<id_t>(run), nullptr, WEXITED | WNOWAIT) != 0) {
   }

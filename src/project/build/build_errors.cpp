@@ -56,8 +56,8 @@ class Explanation {
   explicit Explanation(const BuildContext& context) : context_(context) {}
 
   void add(CompilerError error) {
-    lead_to_specification(error.at);
-    for (SourcePlace& place : error.reached) lead_to_specification(place);
+    lead_to_file(error.at);
+    for (SourcePlace& place : error.reached) lead_to_file(place);
     const std::optional<Shown> shown = place_of(error);
     // Errors in a library follow from a mistake that has been shown.
     if (!shown || (count_ > 0 && !is_of_user(shown->file.string()))) return;
@@ -94,9 +94,11 @@ class Explanation {
 
   /// A place in a generated source whose text stands in the specification becomes the place there. The line before
   /// the text belongs to its beginning.
-  void lead_to_specification(SourcePlace& place) const {
+  void lead_to_file(SourcePlace& place) const {
     // Some compilers are started with paths that are relative to the folder of the build, for example by ccache.
-    const auto file = context_.lines.find((context_.log.parent_path() / place.file).lexically_normal());
+    if (!place.file.starts_with('<'))  // "<command-line>"
+      place.file = (context_.log.parent_path() / place.file).lexically_normal().string();
+    const auto file = context_.lines.find(place.file);
     if (file == context_.lines.end()) return;
     const auto line = std::ranges::lower_bound(file->second, place.line, {}, &codegen::SourceLine::line);
     if (line == file->second.end() || line->line > place.line + 1) return;

@@ -1,10 +1,15 @@
 #include "replay/times/measured_ages.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <map>
+#include <set>
 #include <utility>
 
+#include "replay/times/call_durations.hpp"
 #include "spec/model/chain_ways.hpp"
+#include "tessera/printable.hpp"
 #include "timing/declared.hpp"
 
 namespace tessera::replay {
@@ -57,6 +62,27 @@ void add_unmeasured(const spec::Model& model, std::vector<AgesOfChain>& all) {
   }
 }
 
+/// Only the recordings say it: the specification may say more by now.
+void add_timeless(std::span<const Recording> recordings, const std::vector<MeasuredChain>& chains,
+                  std::vector<AgesOfChain>& all) {
+  std::map<std::string, std::set<std::string>> names;  // by group
+  for (const Recording& recording : recordings) {
+    if (recording.clock != "simulated") continue;
+    DurationsOfBehaviours calls;
+    add_durations(recording, calls);
+    for (const MeasuredChain& chain : chains)
+      for (const std::string& subsystem : chain.subsystems)
+        for (auto at = calls.lower_bound({subsystem, ""}); at != calls.end() && at->first.first == subsystem;
+             ++at)
+          if (at->second.count > 0 && at->second.most_ns == 0)
+            names[chain.group].insert(spec::fleet_name_of(subsystem) + "." + at->first.second);
+  }
+  for (AgesOfChain& one : all) {
+    const std::set<std::string>& found = names[one.measured.group];
+    one.timeless.assign(found.begin(), found.end());
+  }
+}
+
 json times_json(const MeasuredTimes& times, std::span<const std::string> names) {
   json one{{"count", times.count}};
   if (times.count == 0) return one;
@@ -91,16 +117,32 @@ std::vector<MeasuredChain> measured_chains(const spec::Model& model) {
 
 std::vector<AgesOfChain> beside_bounds(std::vector<ChainAges> measured, const spec::Model& model) {
   std::vector<AgesOfChain> all;
-  for (ChainAges& one : measured) all.push_back({std::move(one), {}, {}, false, {}});
+  for (ChainAges& one : measured) all.push_back({std::move(one), {}, {}, false, {}, {}});
   add_unmeasured(model, all);
   add_bounds(model, all);
   return all;
 }
 
 std::vector<AgesOfChain> ages_in(std::span<const Recording> recordings, const spec::Model& model) {
-  Ages ages(measured_chains(model));
+  const std::vector<MeasuredChain> chains = measured_chains(model);
+  Ages ages(chains);
   for (const Recording& recording : recordings) ages.add(recording);
-  return beside_bounds(ages.finish(), model);
+  std::vector<AgesOfChain> all = beside_bounds(ages.finish(), model);
+  add_timeless(recordings, chains, all);
+  return all;
+}
+
+std::string timeless_note(const AgesOfChain& one) {
+  if (one.timeless.empty()) return {};
+  constexpr std::size_t shown = 3;
+  std::string names;
+  for (std::size_t index = 0; index < std::min(one.timeless.size(), shown); ++index)
+    names += (index == 0 ? "" : ", ") + one.timeless[index];
+  if (one.timeless.size() > shown) names += fmt::format(" and {} more", one.timeless.size() - shown);
+  return printable(
+      fmt::format("a simulation in which the calls of {} take no time, because they have no `takes`: a real "
+                  "robot is slower",
+                  names));
 }
 
 json ages_json(const std::vector<AgesOfChain>& all, std::span<const std::string> names) {
@@ -117,6 +159,7 @@ json ages_json(const std::vector<AgesOfChain>& all, std::span<const std::string>
       chain["bound"] = {{"age_ns", *one.age_ns}, {"reaction_ns", *one.reaction_ns}, {"exact", one.exact}};
     else
       chain["no_bound"] = one.why;
+    if (!one.timeless.empty()) chain["takes_no_time"] = one.timeless;
     chains.push_back(std::move(chain));
   }
   return chains;

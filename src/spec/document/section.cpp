@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "diagnostics/utf8.hpp"
 #include "tessera/nearest.hpp"
@@ -45,6 +46,16 @@ std::string list_of(const std::vector<std::string>& words) {
   return result;
 }
 
+/// Keys that are looked for in a place above their own, and what has them.
+constexpr std::array keys_below = std::to_array<std::pair<std::string_view, const char*>>({
+    {"takes", "a behaviour has it: behaviours: { follow: { takes: 1..3 ms } }"},
+    {"age",
+     "a chain has it: chains: [{ name: stop, path: [robot.eye, robot.control, robot.motor], age: 100 ms }]"},
+    {"reaction",
+     "a chain has it: chains: [{ name: stop, path: [robot.eye, robot.control, robot.motor], reaction: 100 ms "
+     "}]"},
+});
+
 }  // namespace
 
 Section::Section(const Node& node, Span at, std::string what, std::initializer_list<std::string_view> keys,
@@ -62,6 +73,11 @@ Section::Section(const Node& node, Span at, std::string what, std::initializer_l
     guesses_.push_back(nearest(entry.key, known));
     Hint hint = did_you_mean(entry.key, known);
     if (entry.key == "<<") hint = "merge keys are not read; use a template of agents or an alias";
+    if (hint.empty())
+      if (const auto* const below =
+              std::ranges::find(keys_below, entry.key, &std::pair<std::string_view, const char*>::first);
+          below != keys_below.end())
+        hint = below->second;
     if (hint.empty()) hint = what_ + " has " + list_of(known);
     out.error("E102", entry.span, "unknown key " + in_quotes(entry.key), hint);
   }
@@ -94,8 +110,9 @@ const std::vector<Entry>& entries_of(const Node& node, Span at, std::string_view
   return node.entries;
 }
 
-const std::vector<const Node*>& items_of(const Node& node, Span at, std::string_view what, Diagnostics& out) {
-  if (!node.is_sequence() && !node.is_null()) complain(node, at, what, "a list", "write [A, B] or - A", out);
+const std::vector<const Node*>& items_of(const Node& node, Span at, std::string_view what, Diagnostics& out,
+                                         std::string hint) {
+  if (!node.is_sequence() && !node.is_null()) complain(node, at, what, "a list", std::move(hint), out);
   return node.items;
 }
 

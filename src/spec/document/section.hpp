@@ -45,7 +45,8 @@ class Section {
 
 /// The items of a list; empty if `node` is empty. Errors: E104 not a list.
 [[nodiscard]] const std::vector<const Node*>& items_of(const Node& node, Span at, std::string_view what,
-                                                       Diagnostics& out);
+                                                       Diagnostics& out,
+                                                       std::string hint = "write [A, B] or - A");
 
 /// The text of a scalar that is not empty, or nullptr. Errors: E104.
 /// at: position for a complaint about a missing value.

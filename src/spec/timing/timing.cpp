@@ -19,6 +19,8 @@ using Kind = Selector::Kind;
 
 constexpr const char* chain_hint =
     "for example { name: line to wheels, path: [robot.sensor, robot.control, robot.motor], age: 100 ms }";
+constexpr const char* list_hint =
+    "for example chains: [{ name: line to wheels, path: [robot.sensor, robot.control, robot.motor] }]";
 constexpr const char* stops_hint =
     "a path names subsystems, receptor first: [robot.sensor, robot.control, robot.motor]";
 
@@ -60,7 +62,7 @@ class TimingReader {
     }
     if (const Entry* chains = section.find("chains")) {
       timing.chains.emplace();
-      for (const Node* item : items_of(*chains->value, chains->span, "chains", out_))
+      for (const Node* item : items_of(*chains->value, chains->span, "chains", out_, list_hint))
         read_chain(*item, item->is_null() ? chains->span : item->span, *timing.chains);
     }
     return timing;
@@ -93,7 +95,7 @@ class TimingReader {
 
   std::optional<std::vector<Stop>> read_path(const Entry& entry, std::vector<ForeignNode>& foreign) {
     std::vector<Stop> stops;
-    const std::vector<const Node*>& items = items_of(*entry.value, entry.span, "path", out_);
+    const std::vector<const Node*>& items = items_of(*entry.value, entry.span, "path", out_, stops_hint);
     if (!entry.value->is_sequence() && !entry.value->is_null()) return std::nullopt;
     bool good = true;
     for (std::size_t at = 0; at < items.size(); ++at) {

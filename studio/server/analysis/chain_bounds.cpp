@@ -8,6 +8,7 @@
 #include <set>
 #include <tuple>
 
+#include "spec/model/chain_ways.hpp"
 #include "timing/changes.hpp"
 #include "timing/declared.hpp"
 #include "timing/steps.hpp"
@@ -21,17 +22,14 @@ using nlohmann::json;
 using spec::InstanceId;
 using timing::Time;
 
-/// "robot.control" for "robot[3].control"
-std::string without_member(const std::string& path) {
-  const std::size_t from = path.find('['), to = path.find(']');
-  return from == std::string::npos || to < from ? path : path.substr(0, from) + path.substr(to + 1);
-}
-
+/// path: of an instance, or as the specification names it: "robot.control" for each "robot[3].control".
 std::vector<InstanceId> instances_at(const spec::Model& model, const std::string& path) {
   std::optional<spec::Instance> found;
   for (const InstanceId id : model.instances.ids()) {
-    const std::string name = model.instance_path(id);
-    if (name != path && without_member(name) != path) continue;
+    const std::string& agent = model.agents[model.instances[id].agent].path;
+    if (model.instance_path(id) != path &&
+        agent.substr(0, agent.find('[')) + "." + model.subsystem(id).name != path)
+      continue;
     found = model.instances[id];
     break;
   }
@@ -174,14 +172,14 @@ std::variant<json, std::string> chain_bounds(const spec::Model& model, const std
     timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
     if (timing::is_open(verdict)) timing::take_runs(verdict, chain, search.find(chain));
     if (chain.name == explained && verdict.why.empty()) steps = steps_of(chain, bounds, model);
-    std::string name = chain.is_named ? without_member(chain.name) + ":" : "";
+    std::string name = chain.is_named ? spec::fleet_name_of(chain.name) + ":" : "";
     json path = json::array();
     for (const InstanceId instance : chain.path) {
       path.push_back(model.instance_path(instance));
-      name += " " + without_member(path.back());
+      name += " " + spec::fleet_name_of(path.back());
     }
     const auto [at, is_new] = entries.try_emplace(
-        {name, verdict.bound.age, verdict.bound.reaction, verdict.exact, without_member(verdict.why)},
+        {name, verdict.bound.age, verdict.bound.reaction, verdict.exact, spec::fleet_name_of(verdict.why)},
         chains.size());
     if (!is_new) {
       json& agents = chains[at->second]["agents"];

@@ -1,3 +1,4 @@
+import { readFileSync } from "node:fs";
 import { expect, test } from "vitest";
 import type { TimedChain, Timing } from "../../model/protocol";
 import { readStructure } from "../../model/structure/structure";
@@ -6,6 +7,7 @@ import {
   periodsBeside,
   saidStep,
   sharesOf,
+  shownBound,
   shownChain,
   shownRate,
   shownTime,
@@ -44,15 +46,14 @@ const chain = (answer?: TimedChain["age"]["answer"], change: Partial<TimedChain>
   ...change,
 });
 
-test("a time has at most four digits and is rounded up", () => {
-  expect([82e6, 142_000_001, 1.5e9, 12_345_678, 999, 1e3].map(shownTime)).toEqual([
-    "82 ms",
-    "142.1 ms",
-    "1.5 s",
-    "12.35 ms",
-    "999 ns",
-    "1 us",
-  ]);
+/** The list of the C++ test of the same words. */
+const timeTexts = readFileSync(new URL("../../../../tests/timing/time_texts.inc", import.meta.url), "utf8");
+
+test("a time has at most four digits, is rounded up, and is written as the commands write it", () => {
+  const list = [...timeTexts.matchAll(/^\{(\d+), "(.+)"\},$/gm)].map(([, ns, text]) => ({ ns: Number(ns), text }));
+  expect(list.length).toBeGreaterThan(10);
+  for (const { ns, text } of list) expect(shownTime(ns)).toBe(text);
+  expect(shownBound(null)).toBe("no bound");
   expect([50e6, 33_333_333, 0].map(shownRate)).toEqual(["20 Hz", "30 Hz", "no rate"]);
 });
 

@@ -1,9 +1,10 @@
-#include "spec/model/behaviour_flow.hpp"
+#include "spec/behaviours/behaviour_flow.hpp"
 
 #include <algorithm>
 #include <string>
 
 #include "diagnostics/utf8.hpp"
+#include "spec/behaviours/complete_lists.hpp"
 #include "spec/model/endings.hpp"
 #include "spec/model/member.hpp"
 #include "spec/model/successors.hpp"

@@ -140,6 +140,11 @@ TakesEdit with_takes(const diagnostics::Diagnostics& specification, const std::v
     set.at = std::move(path);
     set.key = "takes";
     set.text = one.text;
+    // A distribution stays; its bounds change.
+    if (!one.declared.points.empty() || one.declared.measured) {
+      set.at.emplace_back("takes");
+      set.key = "within";
+    }
   }
   const language::Renaming done = language::edit(document, edits, {});
   if (done.problem)

@@ -130,6 +130,14 @@ std::string process_members(const spec::Model& model) {
       model.deployment->domain, duration(model.deployment->liveliness));
 }
 
+/// The resources that behaviours use; empty: there are none.
+std::string resource_table(const spec::Model& model) {
+  std::string rows;
+  for (const spec::Resource& resource : spec::resources_of(model))
+    rows += fmt::format("    {{{}, {}}},\n", string_literal(resource.name), string_literal(resource.unit));
+  return rows.empty() ? rows : table("Resource", "resources", rows);
+}
+
 /// The contents of the namespace of the system.
 std::set<std::string> names_in_system(const spec::Model& model) {
   std::set<std::string> names;
@@ -190,6 +198,7 @@ File system_source(const Project& project, const Numbered<spec::ChannelId, Chann
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
   const SharedTables shared = shared_tables(project.net.net());
+  const std::string model_resources = resource_table(model);
   const std::string externs =
       declared("real_drivers", drivers.real) + declared("simulated_drivers", drivers.simulated);
   return {"system.cpp",
@@ -214,12 +223,12 @@ using namespace std::chrono_literals;
 {3}{5}
 {6}
 {7}
-{8}constexpr tessera::System whole{{
+{8}{17}constexpr tessera::System whole{{
     .tables_version = {1}, .name = "{9}",
     .net_hash = "{10}", .verification_hash = "{11}",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .system_page = &system_page, .agent_page = &agent_page,
-    .real_drivers = {12}, .simulated_drivers = {13}{14}}};
+    .real_drivers = {12}, .simulated_drivers = {13}{14}{16}}};
 // clang-format on
 
 }}  // namespace
@@ -235,7 +244,8 @@ const tessera::System& system() {{ return whole; }}
                       model.system, report.net_hash, report.verification_hash,
                       drivers.real.size == 0 ? "{}" : "real_drivers",
                       drivers.simulated.size == 0 ? "{}" : "simulated_drivers", process_members(model),
-                      only_durations)};
+                      only_durations, model_resources.empty() ? "" : ",\n    .resources = resources",
+                      model_resources)};
 }
 
 File drivers_source(const Project& project, const DriverTables& drivers) {

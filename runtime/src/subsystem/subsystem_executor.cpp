@@ -391,6 +391,7 @@ void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
 }
 
 void SubsystemExecutor::end() {
+  operations_.present().end(now());
   static_cast<void>(register_waits());  // withdraws: no other subsystem must yield to one that has ended
   leave();
   control_.mark_ended(index_);

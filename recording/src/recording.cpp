@@ -59,7 +59,7 @@ constexpr std::uint32_t buffer_shift = 24, buffer_bits = (1U << buffer_shift) - 
     case Event::Kind::poses:
       return recording.scene && event.instance() == system_instance;
     case Event::Kind::fault:
-      return !name_of(static_cast<Fault>(event.version)).empty();
+      return !name_of(event.fault()).empty() && event.version < 2 * told_fault;
   }
   return false;
 }
@@ -164,6 +164,8 @@ std::string_view name_of(Fault fault) {
       return "crash";
     case Fault::limit:
       return "limit";
+    case Fault::overtime:
+      return "overtime";
   }
   return "";
 }

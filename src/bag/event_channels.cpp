@@ -45,8 +45,7 @@ std::string members(const Recording& recording, const Recording::Entry& entry) {
     case Event::Kind::overrun:
       return fmt::format(R"(,"missed":{})", event.subject);
     case Event::Kind::fault:
-      return fmt::format(R"(,"fault":"{}","text":{})", name_of(static_cast<Fault>(event.version)),
-                         json_text(entry.text));
+      return fmt::format(R"(,"fault":"{}","text":{})", name_of(event.fault()), json_text(entry.text));
     default:
       return fmt::format(R"(,"number":{},"text":{})", event.version, json_text(entry.text));
   }
@@ -62,7 +61,7 @@ std::uint8_t level_of(const Event& event) {
     case Event::Kind::stop:
       return event.version == 0 ? level_info : level_error;
     case Event::Kind::fault:
-      return level_error;
+      return event.is_told_fault() ? level_warn : level_error;
     case Event::Kind::overrun:
       return level_warn;
     case Event::Kind::safe:
@@ -81,7 +80,7 @@ std::string log_text(const Recording::Entry& entry) {
     case Event::Kind::overrun:
       return fmt::format("{} instants of its rate missed", event.subject);
     case Event::Kind::fault:
-      return fmt::format("fault ({}): {}", name_of(static_cast<Fault>(event.version)), entry.text);
+      return fmt::format("fault ({}): {}", name_of(event.fault()), entry.text);
     case Event::Kind::parameter:
       return "parameter: " + entry.text;
     case Event::Kind::process:

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "codegen/cpp_text.hpp"
+#include "codegen/emit.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -193,6 +194,50 @@ bool has_whole_driver(const Project& project, const Unit& unit) {
   };
   return std::ranges::any_of(project.model.drivers, serves_unit) ||
          std::ranges::any_of(simulated_drivers(project.model), serves_unit);
+}
+
+std::string declaration_of(std::string_view name, const DriverTables::Table& drivers) {
+  if (drivers.size == 0) return {};
+  return fmt::format("extern const tessera::CppDriver {}[{}];\n", name, drivers.size);
+}
+
+File drivers_source(const Project& project, const DriverTables& drivers) {
+  const auto table_of = [](std::string_view name, const DriverTables::Table& one) {
+    if (one.size == 0) return std::string();
+    return fmt::format("{}const tessera::CppDriver {}[] = {{\n{}}};\n", declaration_of(name, one), name,
+                       one.rows);
+  };
+  const std::string tables =
+      table_of("real_drivers", drivers.real) + table_of("simulated_drivers", drivers.simulated);
+  return {"system.drivers.cpp", fmt::format(R"({}#include <tessera/device.hpp>
+#include <tessera/tables.hpp>
+
+{}{}namespace tessera_generated {{
+
+extern const char* const driver_places[];  // lines of the specification
+
+// clang-format off
+{}{}// clang-format on
+
+}}  // namespace tessera_generated
+)",
+                                            project.banner(), include_block(drivers.headers), drivers.classes,
+                                            drivers.options, tables)};
+}
+
+File driver_lines_source(const Project& project, const DriverTables& drivers) {
+  std::string rows;
+  for (const std::string& place : drivers.places) rows += fmt::format("    {},\n", string_literal(place));
+  return {"system.lines.cpp", fmt::format(R"({}namespace tessera_generated {{
+
+// The lines of the specification that messages about drivers name.
+extern const char* const driver_places[];
+const char* const driver_places[] = {{
+{}}};
+
+}}  // namespace tessera_generated
+)",
+                                          project.banner(), rows)};
 }
 
 }  // namespace tessera::codegen

@@ -2,6 +2,7 @@
 
 #include <set>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "codegen/project.hpp"
@@ -23,6 +24,9 @@ struct DriverTables {
   [[nodiscard]] bool empty() const { return places.empty(); }
 };
 [[nodiscard]] DriverTables driver_tables(const Project& project);
+
+/// "extern const tessera::CppDriver real_drivers[3];"; empty if there are none, as in many controllers.
+[[nodiscard]] std::string declaration_of(std::string_view name, const DriverTables::Table& drivers);
 
 /// Whether some driver serves all real buffers of the unit, so that it needs the structure `Real`.
 [[nodiscard]] bool has_whole_driver(const Project& project, const Unit& unit);

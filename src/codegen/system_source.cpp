@@ -2,13 +2,19 @@
 
 #include <algorithm>
 #include <array>
+#include <charconv>
+#include <map>
 #include <optional>
+#include <set>
+#include <tuple>
 
 #include "codegen/cpp_text.hpp"
 #include "codegen/driver_tables.hpp"
 #include "codegen/emit.hpp"
 #include "codegen/net_tables.hpp"
 #include "codegen/shared_tables.hpp"
+#include "spec/model/chain_ways.hpp"
+#include "timing/declared.hpp"
 
 namespace tessera::codegen {
 namespace {
@@ -22,17 +28,13 @@ std::string table(std::string_view type, std::string_view name, const std::strin
   return fmt::format("constexpr tessera::{} {}[] = {{\n{}}};\n", type, name, rows);
 }
 
-/// "extern const tessera::CppDriver real_drivers[3];": many controllers have none.
-std::string declared(std::string_view name, const DriverTables::Table& drivers) {
-  if (drivers.size == 0) return {};
-  return fmt::format("extern const tessera::CppDriver {}[{}];\n", name, drivers.size);
-}
-
 /// ", {.overrun = ..., ...}" of what differs from the defaults; empty if nothing does.
 std::string policies(const spec::Subsystem& subsystem) {
   std::vector<std::string> members;
   if (subsystem.overrun != spec::Overrun::skip)
     members.push_back(fmt::format(".overrun = tessera::Overrun::{}", name_of(subsystem.overrun)));
+  if (subsystem.overtime != spec::Overtime::tell)
+    members.push_back(fmt::format(".overtime = tessera::Overtime::{}", name_of(subsystem.overtime)));
   if (subsystem.watchdog) members.push_back(".watchdog = " + duration(*subsystem.watchdog));
   if (subsystem.operator_resets) members.emplace_back(".operator_resets = true");
   if (subsystem.non_finite_allowed) members.emplace_back(".non_finite_allowed = true");
@@ -138,6 +140,101 @@ std::string resource_table(const spec::Model& model) {
   return rows.empty() ? rows : table("Resource", "resources", rows);
 }
 
+std::string latency_member(const spec::Model& model) {
+  if (model.timing.latency == spec::Duration{0}) return {};
+  return ",\n    .latency = " + duration(model.timing.latency);
+}
+
+/// A chain of which a value can be followed in the tables.
+struct FollowedChain {
+  std::string name, of_fleet;
+  std::uint32_t member = no_member;
+  timing::Time age = 0, reaction = 0;  ///< 0: there is no bound
+  std::vector<std::string> ways;       ///< numbers of rows: "3, 4"
+
+  static constexpr std::uint32_t no_member = UINT32_MAX;
+  [[nodiscard]] auto bounds() const { return std::pair(age, reaction); }
+};
+
+/// 3 for "robot[3].eye -> robot[3].control", since "robot[].eye -> robot[].control" is the name of the fleet.
+std::uint32_t member_in(const std::string& name, const std::string& of_fleet) {
+  const std::size_t open = name.find('[');
+  std::uint32_t member = FollowedChain::no_member;
+  if (open == std::string::npos ||
+      std::from_chars(name.data() + open + 1, name.data() + name.size(), member).ec != std::errc{})
+    return FollowedChain::no_member;
+  std::string expected;
+  for (const char c : of_fleet) {
+    expected += c;
+    if (c == '[') expected += std::to_string(member);
+  }
+  return expected == name ? member : FollowedChain::no_member;
+}
+
+/// The proved times of chains, by name.
+std::map<std::string, std::pair<timing::Time, timing::Time>> proved_times(const spec::Model& model) {
+  std::map<std::string, std::pair<timing::Time, timing::Time>> all;
+  const timing::Declared declared = timing::declared(model);
+  const timing::Bounds bounds(declared.system);
+  for (const timing::DeclaredChain& chain : declared.chains)
+    if (const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, chain);
+        verdict.why.empty())
+      all[chain.name] = {verdict.bound.age, verdict.bound.reaction};
+  return all;
+}
+
+std::vector<FollowedChain> followed_chains(const spec::Model& model,
+                                           const Numbered<spec::ChannelId, ChannelPorts>& ports) {
+  if (!timing::says_times(model)) return {};
+  const auto proved = proved_times(model);
+  Numbered<spec::ChannelId, std::optional<std::size_t>> rows(model.channels.size());
+  std::size_t count = 0;
+  for (const spec::ChannelId at : model.channels.ids()) {
+    if (!ports[at].from && !ports[at].to) continue;
+    const bool is_followed = ports[at].from && ports[at].to && !model.crosses_processes(model.channels[at]);
+    rows[at] = is_followed ? std::optional(count) : std::nullopt;
+    ++count;
+  }
+  std::vector<FollowedChain> chains;
+  for (const spec::ChainWays& chain : spec::chain_ways(model)) {
+    FollowedChain one;
+    one.name = chain.name;
+    one.of_fleet = spec::fleet_name_of(chain.name);
+    one.member = member_in(one.name, one.of_fleet);
+    if (const auto bounds = proved.find(chain.name); bounds != proved.end())
+      std::tie(one.age, one.reaction) = bounds->second;
+    for (const std::vector<spec::ChannelId>& way : chain.ways) {
+      std::vector<std::size_t> numbers;
+      for (const spec::ChannelId channel : way)
+        if (rows[channel]) numbers.push_back(*rows[channel]);
+      if (numbers.size() == way.size()) one.ways.push_back(fmt::to_string(fmt::join(numbers, ", ")));
+    }
+    if (!one.ways.empty()) chains.push_back(std::move(one));
+  }
+  return chains;
+}
+
+/// The tables of chains; empty: there is none. The chains of a fleet share a row if their bounds are equal.
+std::string chain_tables(const std::vector<FollowedChain>& chains) {
+  if (chains.empty()) return {};
+  std::map<std::string, std::set<std::pair<timing::Time, timing::Time>>> bounds_in;
+  for (const FollowedChain& chain : chains) bounds_in[chain.of_fleet].insert(chain.bounds());
+  std::map<std::string, std::size_t> row_of;
+  std::string rows, ways;
+  for (const FollowedChain& chain : chains) {
+    const bool shares = chain.member != FollowedChain::no_member && bounds_in[chain.of_fleet].size() == 1;
+    const std::string& name = shares ? chain.of_fleet : chain.name;
+    const auto [row, is_new] = row_of.emplace(name, row_of.size());
+    const auto times = fmt::format(", {}, {}", duration(spec::Duration(chain.age)),
+                                   duration(spec::Duration(chain.reaction)));
+    if (is_new) rows += fmt::format("    {{{}{}}},\n", string_literal(name), chain.reaction > 0 ? times : "");
+    for (const std::string& way : chain.ways)
+      ways += fmt::format("    {{{}, {{{}}}{}}},\n", row->second, way,
+                          shares ? fmt::format(", {}", chain.member) : "");
+  }
+  return table("Chain", "chains", rows) + table("ChainWay", "chain_ways", ways);
+}
+
 /// The contents of the namespace of the system.
 std::set<std::string> names_in_system(const spec::Model& model) {
   std::set<std::string> names;
@@ -198,9 +295,10 @@ File system_source(const Project& project, const Numbered<spec::ChannelId, Chann
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
   const SharedTables shared = shared_tables(project.net.net());
-  const std::string model_resources = resource_table(model);
+  const std::string resources = resource_table(model);
+  const std::string chains = chain_tables(followed_chains(model, ports));
   const std::string externs =
-      declared("real_drivers", drivers.real) + declared("simulated_drivers", drivers.simulated);
+      declaration_of("real_drivers", drivers.real) + declaration_of("simulated_drivers", drivers.simulated);
   return {"system.cpp",
           fmt::format(R"({0}{15}#include "system.hpp"
 
@@ -223,12 +321,12 @@ using namespace std::chrono_literals;
 {3}{5}
 {6}
 {7}
-{8}{17}constexpr tessera::System whole{{
+{8}{16}constexpr tessera::System whole{{
     .tables_version = {1}, .name = "{9}",
     .net_hash = "{10}", .verification_hash = "{11}",
     .verdicts = verdicts, .instances = instances, .channels = channels,
     .system_page = &system_page, .agent_page = &agent_page,
-    .real_drivers = {12}, .simulated_drivers = {13}{14}{16}}};
+    .real_drivers = {12}, .simulated_drivers = {13}{14}{17}}};
 // clang-format on
 
 }}  // namespace
@@ -243,47 +341,12 @@ const tessera::System& system() {{ return whole; }}
                       table("VerifiedProperty", "verdicts", verdict_rows(report)), process_tables(model),
                       model.system, report.net_hash, report.verification_hash,
                       drivers.real.size == 0 ? "{}" : "real_drivers",
-                      drivers.simulated.size == 0 ? "{}" : "simulated_drivers", process_members(model),
-                      only_durations, model_resources.empty() ? "" : ",\n    .resources = resources",
-                      model_resources)};
-}
-
-File drivers_source(const Project& project, const DriverTables& drivers) {
-  const auto table_of = [](std::string_view name, const DriverTables::Table& one) {
-    if (one.size == 0) return std::string();
-    return fmt::format("{}const tessera::CppDriver {}[] = {{\n{}}};\n", declared(name, one), name, one.rows);
-  };
-  const std::string tables =
-      table_of("real_drivers", drivers.real) + table_of("simulated_drivers", drivers.simulated);
-  return {"system.drivers.cpp", fmt::format(R"({}#include <tessera/device.hpp>
-#include <tessera/tables.hpp>
-
-{}{}namespace tessera_generated {{
-
-extern const char* const driver_places[];  // lines of the specification
-
-// clang-format off
-{}{}// clang-format on
-
-}}  // namespace tessera_generated
-)",
-                                            project.banner(), include_block(drivers.headers), drivers.classes,
-                                            drivers.options, tables)};
-}
-
-File driver_lines_source(const Project& project, const DriverTables& drivers) {
-  std::string rows;
-  for (const std::string& place : drivers.places) rows += fmt::format("    {},\n", string_literal(place));
-  return {"system.lines.cpp", fmt::format(R"({}namespace tessera_generated {{
-
-// The lines of the specification that messages about drivers name.
-extern const char* const driver_places[];
-const char* const driver_places[] = {{
-{}}};
-
-}}  // namespace tessera_generated
-)",
-                                          project.banner(), rows)};
+                      drivers.simulated.size == 0 ? "{}" : "simulated_drivers",
+                      process_members(model) + latency_member(model) +
+                          (resources.empty() ? "" : ",
+    .resources = resources"),
+                      only_durations, resources + chains,
+                      chains.empty() ? "" : ",\n    .chains = chains, .chain_ways = chain_ways")};
 }
 
 File main_source(const Project& project) {

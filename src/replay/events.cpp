@@ -71,7 +71,7 @@ std::string prefix_of(const Event& event) {
     case Event::Kind::call:
       return "calls ";
     case Event::Kind::fault:
-      return fmt::format("fault ({}): ", name_of(static_cast<Fault>(event.version)));
+      return fmt::format("fault ({}): ", name_of(event.fault()));
   }
   return "";
 }

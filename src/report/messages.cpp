@@ -32,6 +32,7 @@ Weight weight_of(const Event& event) {
   if (event.kind() == Event::Kind::safe)
     return event.version == static_cast<std::uint32_t>(SafeEvent::refused) ? Weight::bad : Weight::plain;
   if (event.kind() == Event::Kind::stop) return event.version == 0 ? Weight::plain : Weight::bad;
+  if (event.is_told_fault()) return Weight::warning;
   if (event.kind() == Event::Kind::fault || event.version >= 2) return Weight::bad;
   return event.version == 1 ? Weight::warning : Weight::plain;
 }
@@ -76,7 +77,7 @@ Message message_of(const Recording& recording, const Group& group) {
   const std::string text = shortened(group.first->text, most_bytes, most_lines);
   const std::string prefix = event.kind() == Event::Kind::stop ? "ended: "
                              : event.kind() == Event::Kind::fault
-                                 ? "fault (" + std::string(name_of(static_cast<Fault>(event.version))) + "): "
+                                 ? "fault (" + std::string(name_of(event.fault())) + "): "
                                  : "";
   const bool by_subsystem = event.instance() < recording.instances.size();
   return {.first_ns = event.time_ns,

@@ -90,7 +90,8 @@ void Bounds::enumerate(const Chain& chain, ChainBound& result, ChainRoutes* rout
     if (reading > end) break;
     Moment written{clocked_.latest(write, k), k + before},
         replaced{clocked_.latest(write, k + 1), k + 1 + before};
-    ChainRoutes way{{written.time - reading, {}}, {replaced.time - reading, {}}};
+    ChainRoutes way{{written.time - reading, {}, reading, pattern},
+                    {replaced.time - reading, {}, reading, pattern}};
     for (std::size_t hop = 0; hop < chain.size(); ++hop) {
       if (!pass(chain[hop], next_of(chain, hop), written, replaced)) return;
       if (routes == nullptr) continue;

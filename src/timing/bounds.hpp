@@ -29,6 +29,8 @@ struct Route {
   };
   Time sent = 0;  ///< the first write
   std::vector<Hop> hops;
+  /// When the device is read in that run, and after how long everything repeats. -1 and 0: it was not enumerated.
+  Time reading = -1, pattern = 0;
 };
 struct ChainRoutes {
   Route age;       ///< ends at ChainBound::age

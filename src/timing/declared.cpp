@@ -20,6 +20,7 @@ class Reader {
     declared_.missing.resize(model.instances.size());
     declared_.all_missing.resize(model.instances.size());
     declared_.differ.resize(model.instances.size());
+    declared_.takes_turns.resize(model.instances.size());
     declared_.stale.resize(model.instances.size());
     declared_.system.latency = model.timing.latency.count();
     for (const spec::InstanceId instance : model.instances.ids()) read(instance);
@@ -53,6 +54,8 @@ class Reader {
     if (subsystem.realtime && subsystem.realtime->cpu) {
       mine.processor = static_cast<int>(*subsystem.realtime->cpu);
       mine.priority = static_cast<int>(subsystem.realtime->priority);
+      declared_.takes_turns[instance.value] =
+          subsystem.realtime->policy == spec::RealTime::Policy::round_robin;
     }
     if (subsystem.receive_first)
       miss(instance,

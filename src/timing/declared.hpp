@@ -30,7 +30,9 @@ struct Declared {
   std::vector<std::string> missing;
   std::vector<std::vector<std::string>> all_missing;  ///< per subsystem: all that `missing` could say
   std::vector<bool> differ;  ///< per subsystem: its behaviours do not all have the same times
-  std::vector<Time> stale;   ///< per subsystem: an older input makes it give the safe command; 0: none does
+  std::vector<bool>
+      takes_turns;          ///< per subsystem: with those of equal priority on its processor (`round_robin`)
+  std::vector<Time> stale;  ///< per subsystem: an older input makes it give the safe command; 0: none does
   /// Those that the specification names; else each receptor -> control -> effector of one agent, agent by agent.
   std::vector<DeclaredChain> chains;
 };

@@ -57,6 +57,7 @@ class Api {
   void get_waits(const Request& request, Response& response);
   void get_timing(const Request& request, Response& response);
   void get_changes_of_chain(const Request& request, Response& response);
+  void get_worst_run_of_chain(const Request& request, Response& response);
   void start_run(const Request& request, Response& response);
   void serve_sweeps(HttpServer& server);
   void start_sweep(const Request& request, Response& response);

@@ -52,6 +52,21 @@ std::optional<OtherTimes> other_times(const json& given) {
   return result;
 }
 
+/// nullopt: one of them is not understood, and that was answered.
+std::optional<std::vector<OtherTimes>> other_times(RequestBody& body, httplib::Response& response) {
+  std::vector<OtherTimes> others;
+  for (const json& one : body.objects("what_if")) {
+    const std::optional<OtherTimes> other = other_times(one);
+    if (!other) {
+      answer_error(response, 400,
+                   "an entry of what_if has a path, and times in nanoseconds from 0 to an hour");
+      return std::nullopt;
+    }
+    others.push_back(*other);
+  }
+  return others;
+}
+
 }  // namespace
 
 void Api::serve_spec(HttpServer& server) {
@@ -64,23 +79,18 @@ void Api::serve_spec(HttpServer& server) {
   });
   server.Post("/api/timing", by(&Api::get_timing));
   server.Post("/api/timing/changes", by(&Api::get_changes_of_chain));
+  server.Post("/api/timing/worst", by(&Api::get_worst_run_of_chain));
 }
 
 void Api::get_timing(const Request& request, Response& response) {
   RequestBody body(request, response);
   const std::string text = body.text("text"), explained = body.text_or("chain", "");
-  std::vector<OtherTimes> others;
-  for (const json& one : body.objects("what_if")) {
-    const std::optional<OtherTimes> other = other_times(one);
-    if (!other)
-      return answer_error(response, 400,
-                          "an entry of what_if has a path, and times in nanoseconds from 0 to an hour");
-    others.push_back(*other);
-  }
+  const std::optional<std::vector<OtherTimes>> others = other_times(body, response);
+  if (!others) return;
   if (!body.good()) return;
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
   if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
-  answer_found(response, chain_bounds(*analysis->model, others, explained));
+  answer_found(response, chain_bounds(*analysis->model, *others, explained));
 }
 
 void Api::get_changes_of_chain(const Request& request, Response& response) {
@@ -90,6 +100,17 @@ void Api::get_changes_of_chain(const Request& request, Response& response) {
   const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
   if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
   answer_found(response, chain_changes(*analysis->model, chain));
+}
+
+void Api::get_worst_run_of_chain(const Request& request, Response& response) {
+  RequestBody body(request, response);
+  const std::string text = body.text("text"), chain = body.text("chain"), of = body.text("of");
+  const std::optional<std::vector<OtherTimes>> others = other_times(body, response);
+  if (!others || !body.good()) return;
+  if (of != "age" && of != "reaction") return answer_error(response, 400, "`of` is age or reaction");
+  const std::shared_ptr<const Analysis> analysis = parts_.analyses.of(text);
+  if (!analysis->model) return answer_error(response, 422, "a specification with errors has no times");
+  answer_found(response, chain_worst_run(*analysis->model, *others, chain, of == "age"));
 }
 
 void Api::get_spec(const Request& request, Response& response) {

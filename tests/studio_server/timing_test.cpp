@@ -147,6 +147,36 @@ TEST_F(Timing, AChangeThatHelpsHasTheBoundsOfATextWithIt) {
   EXPECT_EQ(post("/api/timing/changes", {{"text", "agents: ["}, {"chain", chain_}}).status, 422);
 }
 
+TEST_F(Timing, TheWorstRunReachesTheBound) {
+  serve();
+  const auto run = [&](const std::string& of, const json& what_if = json::array()) {
+    const Reply reply =
+        post("/api/timing/worst", {{"text", single_}, {"chain", chain_}, {"of", of}, {"what_if", what_if}});
+    EXPECT_EQ(reply.status, 200) << reply.body;
+    EXPECT_EQ(reply.json().at("why"), "");
+    return reply.json().at("run");
+  };
+  const json reaction = run("reaction");
+  EXPECT_EQ(reaction.at("at_most_ns"), 142'000'000);
+  EXPECT_EQ(reaction.at("reaches"), true);
+  EXPECT_EQ(reaction.at("to_ns").get<long>() - reaction.at("from_ns").get<long>(), 142'000'000);
+  ASSERT_EQ(reaction.at("hops").size(), 2U);
+  EXPECT_EQ(reaction.at("hops")[0].at("channel"), "robot.sensor.line->robot.control.line");
+  EXPECT_EQ(reaction.at("hops")[1].at("to"), "robot.motor");
+  EXPECT_EQ(reaction.at("calls").back().at("subsystem"), "robot.motor");
+  EXPECT_EQ(reaction.at("calls").back().at("end_ns"), reaction.at("to_ns"));
+  EXPECT_EQ(run("age").at("at_most_ns"), 82'000'000);
+  EXPECT_EQ(run("reaction", {{{"path", "robot.motor"}, {"period_ns", 0}}}).at("at_most_ns"), 130'000'000);
+
+  std::string other = single_;
+  other.replace(other.find("{ takes: 2..8 ms }"), 18, "{}");
+  const json none = post("/api/timing/worst", {{"text", other}, {"chain", chain_}, {"of", "age"}}).json();
+  EXPECT_EQ(none.at("run"), nullptr);
+  EXPECT_EQ(none.at("why"), "robot.control.follow does not say what it takes");
+  EXPECT_EQ(post("/api/timing/worst", {{"text", single_}, {"chain", "robot"}, {"of", "age"}}).status, 422);
+  EXPECT_EQ(post("/api/timing/worst", {{"text", single_}, {"chain", chain_}, {"of", "both"}}).status, 400);
+}
+
 TEST_F(Timing, WhatIsAskedHasAnAnswer) {
   serve();
   const std::string asks = single_ +

@@ -24,8 +24,11 @@ enum class Fault : std::uint8_t {
   stall = 7,       ///< a transition function takes longer than its watchdog
   overrun = 8,     ///< the subsystem's own work made it miss instants, and Overrun::fault forbids that
   limit = 9,       ///< a command is beyond the limits of its real effector, and `Limits::fault` is set
-  crash = 10       ///< the process has died, or called exit, in the subsystem
+  crash = 10,      ///< the process has died, or called exit, in the subsystem
+  overtime = 11    ///< a call took longer than `takes`, or a thread went on later than `latency`
 };
+/// The version of a fault event is its class, with this bit if the fault is only told: nothing fails because of it.
+inline constexpr std::uint32_t told_fault = 1U << 8U;
 /// The changes of the safe command of a device.
 enum class SafeEvent : std::uint8_t {
   given = 1,   ///< the device has taken it, for a new reason
@@ -74,7 +77,7 @@ struct Event {
     firing = 1,
     log = 2,      ///< subject: bytes of text, which follow in whole events' worth of space; version: level
     stop = 3,     ///< like log: why the run ended
-    fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault
+    fault = 4,    ///< like log: "PLACE: what, and what was done about it"; version: the Fault, and told_fault
     overrun = 5,  ///< subject: how many instants of its rate the subsystem missed by its own work
     call = 6,     ///< a transition function begins; subject: behaviour; version: iteration
     value = 7,    ///< like log: the present value of a buffer; version: buffer + 2^24 * flags
@@ -111,6 +114,10 @@ struct Event {
   /// The number of events whose space the text takes.
   [[nodiscard]] std::uint64_t pieces() const { return has_text() ? (std::uint64_t{subject} + 23) / 24 : 0; }
   [[nodiscard]] std::uint32_t instance() const { return origin >> 8; }
+  /// Precondition: it is a fault.
+  [[nodiscard]] Fault fault() const { return static_cast<Fault>(version & (told_fault - 1)); }
+  /// Whether it is a fault because of which nothing fails.
+  [[nodiscard]] bool is_told_fault() const { return kind() == Kind::fault && (version & told_fault) != 0; }
 };
 static_assert(sizeof(Event) == 24);
 /// "firing"; empty: this version does not know the kind.

@@ -8,6 +8,7 @@
 
 #include "tessera/net_roles.hpp"
 #include "tessera/overrun.hpp"
+#include "tessera/overtime.hpp"
 #include "tessera/time.hpp"
 
 /// The net of a generated controller: constant tables, read once at start. Generated code includes this
@@ -193,6 +194,7 @@ struct RealTime {
 /// How a subsystem treats time and faults.
 struct Policies {
   Overrun overrun = Overrun::skip;
+  Overtime overtime = Overtime::tell;
   Duration watchdog{0};             ///< a transition function that takes longer is a fault; zero: no watchdog
   bool operator_resets = false;     ///< effector: a fault or a stale input begins an emergency stop
   bool non_finite_allowed = false;  ///< outputs to channels may be infinite or NaN; real ones: Bindings
@@ -289,6 +291,20 @@ struct Process {
   std::string_view interface;  ///< network interface of its machine; empty: none given
 };
 
+/// A chain of subsystems from a receptor to an effector, with what is proved of its times. A row stands for the
+/// chains of all members of a fleet.
+struct Chain {
+  std::string_view name;         ///< "joints to motors"; of a fleet "robot[].eye -> robot[].control -> ..."
+  Duration age{0}, reaction{0};  ///< at most; zero: there is no bound
+};
+
+/// A way of values along a chain: channels, each of which ends where the next one begins.
+struct ChainWay {
+  std::uint32_t chain;                            ///< into System::chains
+  std::initializer_list<std::uint32_t> channels;  ///< into System::channels
+  std::uint32_t member = UINT32_MAX;              ///< of the fleet; UINT32_MAX: there is none
+};
+
 /// Something that behaviours use: "energy", in "J".
 struct Resource {
   std::string_view name, unit;
@@ -315,7 +331,12 @@ struct System {
   std::span<const std::uint32_t> process_of{};   ///< per instance, into processes
   std::uint32_t domain = 0;                      ///< of DDS
   Duration liveliness{0};  ///< a process that is silent for longer is disconnected for the others
+  /// A thread goes on at most so long after it may; zero: the specification does not say it.
+  Duration latency{0};
   std::span<const Resource> resources{};
+  std::span<const Chain> chains{};  ///< their ages are measured; empty: the specification says no times
+  /// Without those over a network, or over a channel with a communication model of its own.
+  std::span<const ChainWay> chain_ways{};
 
   /// Whether the two ends of a channel are in different processes.
   [[nodiscard]] constexpr bool is_networked(const Channel& channel) const {

@@ -47,7 +47,8 @@ void RecordingLane::overrun(Time time, std::uint32_t missed) {
 
 void RecordingLane::text(Event::Kind kind, Time time, std::uint32_t level, std::string_view text) {
   if (tally_ != nullptr) {
-    if (kind == Event::Kind::fault) tally_->note(instance_, static_cast<Fault>(level), time, text);
+    if (kind == Event::Kind::fault)
+      tally_->note(instance_, static_cast<Fault>(level & (told_fault - 1)), time, text);
     return;
   }
   Event head = event(kind, time);

@@ -27,10 +27,10 @@ using Entry = Recording::Entry;
 /// The fault that made the recorded iteration fail; nullptr: it did not fail.
 [[nodiscard]] const Entry* recorded_failure(const RecordedMoment& moment) {
   for (const Entry* entry : moment.rest) {
-    if (entry->event.kind() != Event::Kind::fault) continue;
-    const auto fault = static_cast<Fault>(entry->event.version);
+    if (entry->event.kind() != Event::Kind::fault || entry->event.is_told_fault()) continue;
+    const Fault fault = entry->event.fault();
     if (fault == Fault::exception || fault == Fault::not_finite || fault == Fault::device ||
-        fault == Fault::stall || fault == Fault::overrun || fault == Fault::limit)
+        fault == Fault::stall || fault == Fault::overrun || fault == Fault::limit || fault == Fault::overtime)
       return entry;
   }
   return nullptr;
@@ -38,8 +38,8 @@ using Entry = Recording::Entry;
 
 /// Whether the fault has a cause outside of user code, so that it does not happen again.
 [[nodiscard]] bool comes_from_outside(const Entry& fault) {
-  const auto kind = static_cast<Fault>(fault.event.version);
-  return kind == Fault::device || kind == Fault::stall;
+  const Fault kind = fault.event.fault();
+  return kind == Fault::device || kind == Fault::stall || kind == Fault::overtime;
 }
 
 /// Accepts every command. Refusals come from the recording.
@@ -134,7 +134,7 @@ void RerunSubsystem::call(const RecordedMoment& moment) {
   take_values(moment,
               [](Recording::Direction direction) { return direction == Recording::Direction::real_input; });
   const Entry* const fault = recorded_failure(moment);
-  const bool late = fault != nullptr && static_cast<Fault>(fault->event.version) == Fault::overrun;
+  const bool late = fault != nullptr && fault->event.fault() == Fault::overrun;
   operations_.start_call(behaviour, at_, late ? 1 : 0);
   unfinished_ = &moment;
 }
@@ -148,7 +148,7 @@ void RerunSubsystem::finish_call() {
   const Entry* const fault = recorded_failure(*moment);
   const std::string_view behaviour = parts().instance->net->behaviours[moment->head->event.subject].name;
   if (fault != nullptr && !operations_.has_failed() && comes_from_outside(*fault))
-    operations_.fail_as_recorded(static_cast<Fault>(fault->event.version), "as in the recorded run");
+    operations_.fail_as_recorded(fault->event.fault(), "as in the recorded run");
   if (operations_.has_failed() != (fault != nullptr))
     differ(fmt::format("the transition function of {}", behaviour),
            fault == nullptr ? "succeeded" : fault->text, fault == nullptr ? "failed" : "succeeded");

@@ -78,8 +78,9 @@ void insert_seed(std::vector<SeedRange>& ranges, std::uint64_t seed) {
 const std::vector<std::string>& schedule_event_kinds() {
   static const std::vector<std::string> kinds = [] {
     std::vector<std::string> all;
-    for (const Fault fault : {Fault::assertion, Fault::net, Fault::exception, Fault::not_finite,
-                              Fault::device, Fault::limit, Fault::stale, Fault::stall, Fault::overrun})
+    for (const Fault fault :
+         {Fault::assertion, Fault::net, Fault::exception, Fault::not_finite, Fault::device, Fault::limit,
+          Fault::stale, Fault::stall, Fault::overrun, Fault::overtime})
       all.emplace_back(name_of(fault));
     for (const char* other :
          {"deadlock", "stuck for good", "scenario", "unsafe device", "world", "crash", "no start", "other"})

@@ -15,6 +15,9 @@ struct alignas(64) Gauges {
   std::atomic<std::uint64_t> iterations{0}, firings{0}, overruns{0}, errors{0};
   std::atomic<std::int64_t> called_at_ns{-1};  ///< when the last transition function began; -1: none yet
   std::atomic<std::int64_t> call_ns{0}, longest_call_ns{0};
+  /// Calls that took longer than declared, and how often the thread went on later than the latency allows.
+  std::atomic<std::uint64_t> slow_calls{0}, late_wakeups{0};
+  std::atomic<std::int64_t> latest_wakeup_ns{0};  ///< the most time until the thread went on after it might
   /// When it last came to a rest: nothing could fire. It counts while it still waits.
   std::atomic<std::int64_t> waits_since_ns{-1};
   std::atomic<std::uint16_t> behaviour{0};  ///< the behaviour that was called last, or has begun to receive

@@ -28,6 +28,8 @@ class Reports {
   }
   /// The same from another thread, with the lane of that thread.
   void report(Fault fault, std::string_view place, std::string_view what, RecordingLane* lane) const;
+  /// Reports a fault because of which nothing fails, with the lane of the calling thread.
+  void tell(Fault fault, std::string_view place, std::string_view what, RecordingLane* lane) const;
   /// Stops the run, which has failed because of this subsystem.
   void fail_run(std::string_view what) const;
   /// Records what has happened to the thread of the subsystem. Async-signal-safe.
@@ -37,6 +39,14 @@ class Reports {
   }
 
  private:
+  struct Written {
+    Fault of;
+    bool is_told = false;
+  };
+  /// effect: comes behind `what`.
+  void write(Written fault, std::string_view place, std::string_view what, std::string_view effect,
+             RecordingLane* lane) const;
+
   const SubsystemParts& parts_;
   RunControl& control_;
   const Clock& clock_;

@@ -30,7 +30,7 @@ std::optional<FinishedCall> CallReader::follow(const Recording& header, const Re
     call.behaviour = event.subject;
     call.failed = false;
   } else if (event.kind() == Event::Kind::fault) {
-    call.failed = true;
+    call.failed = call.failed || !event.is_told_fault();
   } else if (event.kind() == Event::Kind::firing && call.since_ns &&
              header.transitions[event.subject].role.step == Step::begin_sending) {
     const std::int64_t since_ns = *std::exchange(call.since_ns, std::nullopt);

@@ -23,7 +23,7 @@ class StepReader {
       failed_ = false;
       steps_.all.push_back({Moved::called, event.time_ns});
     } else if (event.kind() == Event::Kind::fault) {
-      failed_ = failed_ || in_call_;
+      failed_ = failed_ || (in_call_ && !event.is_told_fault());
     } else if (event.kind() == Event::Kind::safe) {
       follow_device(event, entry.text);
     } else if (event.kind() == Event::Kind::firing) {

@@ -21,6 +21,7 @@
 #include "spec/model/types.hpp"
 #include "spec/model/world.hpp"
 #include "tessera/overrun.hpp"
+#include "tessera/overtime.hpp"
 #include "tessera/scalar.hpp"
 
 /// The specification as data, as section "The specification file" of docs/reference/specification.md describes it.
@@ -166,6 +167,7 @@ struct Behaviour {
 enum class SubsystemKind : std::uint8_t { control, receptor, effector };
 
 using tessera::Overrun;
+using tessera::Overtime;
 
 /// How the operating system schedules the thread of a subsystem that runs in real time.
 struct RealTime {
@@ -212,6 +214,7 @@ struct Subsystem {
   /// effector: a fault or a stale input begins an emergency stop, which lasts until an operator ends it
   bool operator_resets = false;
   Overrun overrun = Overrun::skip;
+  Overtime overtime = Overtime::tell;
   std::optional<Duration> watchdog;  ///< a transition function that takes longer is a fault
   bool non_finite_allowed = false;   ///< outputs and real outputs may be infinite or NaN
   std::optional<RealTime> realtime;

@@ -12,6 +12,7 @@
 #include "timing/declared.hpp"
 #include "timing/steps.hpp"
 #include "timing/words.hpp"
+#include "timing/worst/worst_run.hpp"
 
 namespace tessera::server {
 namespace {
@@ -91,7 +92,59 @@ json steps_of(const timing::DeclaredChain& chain, const timing::Bounds& bounds, 
   return {{"age", steps_json(steps.age, model)}, {"reaction", steps_json(steps.reaction, model)}};
 }
 
+/// Empty: it has several, and the run does not say which.
+std::string behaviour_of(const spec::Model& model, std::uint32_t subsystem) {
+  std::string name;
+  for (const spec::Behaviour& behaviour : model.subsystem(InstanceId{subsystem}).behaviours) {
+    if (behaviour.is_group()) continue;
+    if (!name.empty()) return {};
+    name = behaviour.name;
+  }
+  return name;
+}
+
+json run_json(const timing::WorstRun& run, Time bound, const timing::Declared& declared,
+              const spec::Model& model) {
+  json calls = json::array(), hops = json::array();
+  for (const timing::CallOfRun& call : run.calls)
+    if (call.end >= run.from)
+      calls.push_back({{"subsystem", model.instance_path(InstanceId{call.subsystem})},
+                       {"behaviour", behaviour_of(model, call.subsystem)},
+                       {"begin_ns", call.begin},
+                       {"end_ns", call.end}});
+  for (const timing::HopOfRun& hop : run.hops)
+    hops.push_back({{"channel", channel_name(model, hop.channel)},
+                    {"from", model.instance_path(InstanceId{declared.system.channels[hop.channel].from})},
+                    {"to", model.instance_path(InstanceId{declared.system.channels[hop.channel].to})},
+                    {"written_ns", hop.written},
+                    {"read_ns", hop.read}});
+  return {{"from_ns", run.from},    {"to_ns", run.to},           {"at_most_ns", bound},
+          {"reaches", run.reaches}, {"calls", std::move(calls)}, {"hops", std::move(hops)}};
+}
+
 }  // namespace
+
+std::variant<json, std::string> chain_worst_run(const spec::Model& model,
+                                                const std::vector<OtherTimes>& others,
+                                                const std::string& name, bool age) {
+  timing::Declared declared = timing::declared(model);
+  for (const OtherTimes& other : others)
+    if (std::string why = change(declared, model, other); !why.empty()) return why;
+  const auto chain = std::ranges::find(declared.chains, name, &timing::DeclaredChain::name);
+  if (chain == declared.chains.end()) return fmt::format("there is no chain {}", name);
+  const timing::Bounds bounds(declared.system);
+  const timing::ChainVerdict verdict = timing::judge(declared, model, bounds, *chain);
+  if (!verdict.why.empty()) return json{{"run", nullptr}, {"why", verdict.why}};
+  timing::WorstRunSearch search(declared, bounds);
+  for (const timing::Chain& way : chain->ways)
+    if (std::string why = search.obstacle(way, model); !why.empty())
+      return json{{"run", nullptr}, {"why", why}};
+  const timing::WorstRuns runs = search.find(*chain);
+  const std::optional<timing::WorstRun>& run = age ? runs.age : runs.reaction;
+  if (!run) return json{{"run", nullptr}, {"why", "no run was found in which a command is given"}};
+  return json{{"run", run_json(*run, age ? verdict.bound.age : verdict.bound.reaction, declared, model)},
+              {"why", ""}};
+}
 
 std::variant<json, std::string> chain_bounds(const spec::Model& model, const std::vector<OtherTimes>& others,
                                              const std::string& explained) {

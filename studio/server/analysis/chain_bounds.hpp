@@ -33,4 +33,13 @@ struct OtherTimes {
 [[nodiscard]] std::variant<nlohmann::json, std::string> chain_changes(const spec::Model& model,
                                                                       const std::string& name);
 
+/// The run in which the age or the reaction of a chain comes nearest to its bound, for the times of the specification
+/// and `others`.
+///
+/// Returns the answer of POST /api/timing/worst, or why there is none.
+/// Threads: pure.
+[[nodiscard]] std::variant<nlohmann::json, std::string> chain_worst_run(const spec::Model& model,
+                                                                        const std::vector<OtherTimes>& others,
+                                                                        const std::string& name, bool age);
+
 }  // namespace tessera::server

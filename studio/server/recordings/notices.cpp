@@ -33,7 +33,7 @@ const char* level_of(const Event& event) {
     case Event::Kind::log:
       return levels[std::min<std::size_t>(event.version, levels.size() - 1)];
     case Event::Kind::fault:
-      return "error";
+      return event.is_told_fault() ? "warning" : "error";
     case Event::Kind::stop:
       return event.version == 0 ? "info" : "error";
     case Event::Kind::safe:

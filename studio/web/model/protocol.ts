@@ -101,6 +101,25 @@ export interface Requests {
       changes: TimedChange[];
     };
   };
+  /**
+   * The run in which the age or the reaction of a chain comes nearest to its bound. 422: the text has errors, or
+   * there is no such chain or subsystem.
+   */
+  "POST /api/timing/worst": {
+    body: {
+      text: string;
+      /** Its name. */
+      chain: string;
+      of: "age" | "reaction";
+      what_if?: OtherTimes[];
+    };
+    status: 200;
+    answer: {
+      run: WorstRun | null;
+      /** There is no run, because of this. Empty: there is one. */
+      why: string;
+    };
+  };
   /** The subsystems that cannot fire in a marking. */
   "POST /api/waits": { body: { text: string; marking: { place: number }[] }; status: 200; answer: { at_end: SubsystemAtEnd[] } };
   /** The C++ functions of the behaviours. */
@@ -578,6 +597,40 @@ export interface TimedChange {
   /** Null: no bound. */
   age_ns: number | null;
   reaction_ns: number | null;
+}
+/**
+ * A run from the start of the system, in which a command is as old as it can be, or nearly. Times are those of
+ * the run.
+ */
+export interface WorstRun {
+  /** The reading of the device; for a reaction, an event just after it. */
+  from_ns: number;
+  /** The end of the command. */
+  to_ns: number;
+  /** The bound. */
+  at_most_ns: number;
+  /** The run takes as long as the bound, which is then exact. */
+  reaches: boolean;
+  /** The calls between the two times, of all subsystems that matter, by their begin. */
+  calls: {
+    subsystem: string;
+    /** Empty: the subsystem has several. */
+    behaviour: string;
+    begin_ns: number;
+    end_ns: number;
+  }[];
+  /** The way of the value that the command is based on, channel by channel. */
+  hops: {
+    /** FROM->TO */
+    channel: string;
+    /** The subsystem that writes. */
+    from: string;
+    /** The subsystem that reads. */
+    to: string;
+    written_ns: number;
+    /** For the last time before it is used. */
+    read_ns: number;
+  }[];
 }
 export interface FunctionShown {
   /** The path of an agent or a template: "walker.control". */

@@ -343,8 +343,7 @@ const tessera::System& system() {{ return whole; }}
                       drivers.real.size == 0 ? "{}" : "real_drivers",
                       drivers.simulated.size == 0 ? "{}" : "simulated_drivers",
                       process_members(model) + latency_member(model) +
-                          (resources.empty() ? "" : ",
-    .resources = resources"),
+                          (resources.empty() ? "" : ",\n    .resources = resources"),
                       only_durations, resources + chains,
                       chains.empty() ? "" : ",\n    .chains = chains, .chain_ways = chain_ways")};
 }

@@ -41,7 +41,7 @@ Moments moments_of(const nlohmann::json& results, const std::string& name) {
   return {};
 }
 
-/// Of normally distributed estimates, fewer than one of ten thousand is so far off.
+/// Fewer than one of ten thousand normally distributed estimates is so far off.
 constexpr double far = 4;
 
 TEST_F(Missions, HaveTheMeanAndVarianceOfTheirStages) {

@@ -75,7 +75,7 @@ class SampleCounts {
     return parts_.greatest.value;
   }
   [[nodiscard]] double mean() const { return parts_.sum / static_cast<double>(parts_.count); }
-  /// Of one run. Precondition: count > 1.
+  /// The standard deviation of one run. Precondition: count > 1.
   [[nodiscard]] double deviation() const {
     const auto count = static_cast<double>(parts_.count);
     return std::sqrt(std::max(0.0, (parts_.sum_of_squares - parts_.sum * parts_.sum / count) / (count - 1)));

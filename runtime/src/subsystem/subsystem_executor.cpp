@@ -384,7 +384,6 @@ void SubsystemExecutor::wake_receivers() {
 }
 
 // -------------------------------------------------------------------------------------------- ends
-
 void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
   operations_.reports().report(Fault::net, name_of(place), text);
   operations_.reports().fail_run(text);

@@ -19,10 +19,10 @@ std::uint32_t share_of_calls(double share) {
   return static_cast<std::uint32_t>(std::llround(std::clamp(share, 0.0, 1.0) * all_calls));
 }
 
-/// Of the standard normal distribution.
+/// The standard normal distribution.
 double cumulative(double deviations) { return std::erfc(-deviations / std::numbers::sqrt2) / 2; }
 
-/// Of calls that all take the same time, the first and the last point suffice.
+/// The first and the last point suffice for calls that all take the same time.
 void add_point(TimePoints& points, TimePoint point) {
   const std::size_t count = points.size();
   if (count > 0 && points.back() == point) return;

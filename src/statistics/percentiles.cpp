@@ -34,7 +34,8 @@ std::uint64_t least_likely(double probability, std::uint64_t runs, double share)
 }
 
 std::string row(const std::string& label, const std::string& value, const std::string& interval) {
-  return fmt::format("{:<{}} {:>19}   {}\n", label, distribution_label_width, value, interval);
+  return fmt::format("{:<{}} {:>19}{}{}\n", label, distribution_label_width, value,
+                     interval.empty() ? "" : "   ", interval);
 }
 
 std::string shown_number(double value) { return fmt::format("{:.4g}", value); }

@@ -7,6 +7,7 @@
 #include "project/files/assets.hpp"
 #include "project/files/ros2_messages.hpp"
 #include "project/files/world_check.hpp"
+#include "project/verification/measured_times.hpp"
 #include "project/verification/pipeline.hpp"
 #include "spec/model/former_routes.hpp"
 #include "spec/parser.hpp"
@@ -34,6 +35,7 @@ int check_json(const CheckOptions& options) {
     if (std::optional<spec::Model> model = spec::parse(found)) {
       const auto project = std::filesystem::absolute(spec_file(options.spec)).parent_path();
       find_messages(*model, project, found);
+      read_measured_times(*model, project, found);
       if (check_simulation_files(*model, project, found)) check_world(*model, project, "", found);
       if (judge_models(*model, found)) static_cast<void>(build(*model, found));
       note_former_routes(*model, found);

@@ -115,6 +115,11 @@ void write_takes(const diagnostics::Diagnostics& specification, const std::vecto
     set.at = std::move(path);
     set.key = "takes";
     set.text = one.text;
+    // A distribution stays; its bounds change.
+    if (!one.declared.points.empty() || one.declared.measured) {
+      set.at.emplace_back("takes");
+      set.key = "within";
+    }
   }
   if (edits.empty()) return;
   const language::Renaming done = language::edit(document, edits, {});

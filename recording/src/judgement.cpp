@@ -30,6 +30,21 @@ std::string judgement_lines(const std::string& text) {
                    measure["mean"].get<double>(), fmt::arg("space", unit.empty() ? "" : " "),
                    fmt::arg("unit", unit));
   }
+  constexpr std::size_t most_agents = 5;
+  for (const auto& used : json.value("used", nlohmann::json::array())) {
+    const std::string unit = used.value("unit", "");
+    fmt::format_to(out, "  {} used: {:.6g}{}{}", used.value("resource", ""), used.value("amount", 0.0),
+                   unit.empty() ? "" : " ", unit);
+    const nlohmann::json agents = used.value("agents", nlohmann::json::object());
+    std::size_t shown = 0;
+    for (const auto& [agent, amount] : agents.items())
+      if (agents.size() > 1 && shown < most_agents)
+        fmt::format_to(out, "{}{} {:.6g}", shown++ == 0 ? " (" : ", ", agent, amount.get<double>());
+    if (shown > 0)
+      fmt::format_to(out, "{})",
+                     agents.size() > shown ? fmt::format(" and {} more", agents.size() - shown) : "");
+    lines += '\n';
+  }
   return lines;
 }
 

@@ -143,20 +143,55 @@ std::string table(const spec::Subsystem& subsystem, std::string_view head, Rows 
   return out += "};\n";
 }
 
-std::string behaviours_table(const spec::Subsystem& subsystem) {
+std::string table_name(std::string_view of, spec::BehaviourId behaviour) {
+  return fmt::format("{}_{}", of, behaviour.value);
+}
+
+std::string times_table(const spec::Behaviour& behaviour, spec::BehaviourId id) {
+  std::string out =
+      fmt::format("// The distribution of the times of '{}'.\nconstexpr tessera::TimePoint {}[] = {{\n",
+                  behaviour.name, table_name("times", id));
+  std::vector<Row> points;
+  for (const spec::TimePoint& point : behaviour.takes.points)
+    points.push_back({{}, {fmt::format("{}ns, {}U", point.time.count(), point.below)}});
+  return out + packed(points) + "};\n";
+}
+
+std::string uses_table(const Project& project, const spec::Behaviour& behaviour, spec::BehaviourId id) {
+  const std::vector<spec::Resource> resources = spec::resources_of(project.model);
+  std::string rows;
+  for (const spec::ResourceUse& use : behaviour.uses) {
+    const auto number = std::ranges::find(resources, use.resource, &spec::Resource::name) - resources.begin();
+    rows += fmt::format("{}{{{}, {}}}", rows.empty() ? "" : ", ", number, use.per_second);
+  }
+  return fmt::format("constexpr tessera::Use {}[] = {{{}}};\n", table_name("uses", id), rows);
+}
+
+std::string behaviours_table(const Project& project, const spec::Subsystem& subsystem) {
   std::vector<Row> rows;
-  for (const spec::Behaviour& behaviour : subsystem.behaviours) {
-    const auto& [shortest, longest] = behaviour.takes;
-    std::string takes;
+  std::string before;
+  for (const spec::BehaviourId id : subsystem.behaviours.ids()) {
+    const spec::Behaviour& behaviour = subsystem.behaviours[id];
+    const spec::Duration shortest = behaviour.takes.shortest, longest = behaviour.takes.longest;
+    const bool draws = longest > shortest && !behaviour.takes.points.empty();
+    const bool uses = !behaviour.uses.empty();
+    std::string takes, times, used;
     if (longest.count() > 0) takes = duration(shortest);
     if (longest > shortest) takes += ", " + duration(longest);
-    rows.push_back({{}, {string_literal(behaviour.name), takes}});
+    if (takes.empty() && uses) takes = "0ns";
+    if (longest <= shortest && uses) takes += ", 0ns";
+    if (draws) times = table_name("times", id);
+    if (uses && !draws) times = "{}";
+    if (uses) used = table_name("uses", id);
+    if (draws) before += times_table(behaviour, id);
+    if (uses) before += uses_table(project, behaviour, id);
+    rows.push_back({{}, {string_literal(behaviour.name), takes, times, used}});
   }
   const std::string head = "constexpr tessera::Behaviour behaviours[] = {";
   std::string short_form;
   for (const Row& each : rows) short_form += (short_form.empty() ? "" : ", ") + list_of(each);
-  if (head.size() + short_form.size() + 2 <= column_limit) return head + short_form + "};\n";
-  return head + '\n' + group_lines(rows) + "};\n";
+  if (head.size() + short_form.size() + 2 <= column_limit) return before + head + short_form + "};\n";
+  return before + head + '\n' + group_lines(rows) + "};\n";
 }
 
 /// Which agents execute a variant: the first by name, the rest by number.
@@ -177,7 +212,7 @@ std::string variant_suffix(std::size_t variant) {
 }
 
 std::string net_tables(const Project& project, const Unit& unit, const NetVariants& variants) {
-  std::string out = "// clang-format off\n" + behaviours_table(*unit.subsystem);
+  std::string out = "// clang-format off\n" + behaviours_table(project, *unit.subsystem);
   for (std::size_t variant = 0; variant < variants.nets.size(); ++variant) {
     const LocalNet& net = variants.nets[variant];
     const std::string suffix = variant_suffix(variant);

@@ -210,8 +210,9 @@ class Subsystem final : public tessera::SubsystemOf<yours::Inputs, yours::Memory
 
 /// Durations stand in the table of behaviours.
 bool needs_literals(const spec::Subsystem& subsystem) {
-  return std::ranges::any_of(subsystem.behaviours,
-                             [](const auto& behaviour) { return behaviour.takes.is_declared(); });
+  return std::ranges::any_of(subsystem.behaviours, [](const auto& behaviour) {
+    return behaviour.takes.is_declared() || !behaviour.uses.empty();
+  });
 }
 
 }  // namespace

@@ -132,6 +132,14 @@ std::string process_members(const spec::Model& model) {
       model.deployment->domain, duration(model.deployment->liveliness));
 }
 
+/// The resources that behaviours use; empty: there are none.
+std::string resource_table(const spec::Model& model) {
+  std::string rows;
+  for (const spec::Resource& resource : spec::resources_of(model))
+    rows += fmt::format("    {{{}, {}}},\n", string_literal(resource.name), string_literal(resource.unit));
+  return rows.empty() ? rows : table("Resource", "resources", rows);
+}
+
 std::string latency_member(const spec::Model& model) {
   if (model.timing.latency == spec::Duration{0}) return {};
   return ",\n    .latency = " + duration(model.timing.latency);
@@ -287,6 +295,7 @@ File system_source(const Project& project, const Numbered<spec::ChannelId, Chann
   const spec::Model& model = project.model;
   const verify::Report& report = project.net.report();
   const SharedTables shared = shared_tables(project.net.net());
+  const std::string resources = resource_table(model);
   const std::string chains = chain_tables(followed_chains(model, ports));
   const std::string externs =
       declaration_of("real_drivers", drivers.real) + declaration_of("simulated_drivers", drivers.simulated);
@@ -333,7 +342,9 @@ const tessera::System& system() {{ return whole; }}
                       model.system, report.net_hash, report.verification_hash,
                       drivers.real.size == 0 ? "{}" : "real_drivers",
                       drivers.simulated.size == 0 ? "{}" : "simulated_drivers",
-                      process_members(model) + latency_member(model), only_durations, chains,
+                      process_members(model) + latency_member(model) +
+                          (resources.empty() ? "" : ",\n    .resources = resources"),
+                      only_durations, resources + chains,
                       chains.empty() ? "" : ",\n    .chains = chains, .chain_ways = chain_ways")};
 }
 

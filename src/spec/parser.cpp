@@ -21,6 +21,7 @@
 #include "spec/document/text_checks.hpp"
 #include "spec/properties/properties.hpp"
 #include "spec/timing/timing.hpp"
+#include "spec/values/takes.hpp"
 #include "spec/values/types.hpp"
 
 namespace tessera::spec {
@@ -73,6 +74,7 @@ Model read_model(const Node& root, Diagnostics& out) {
   models.complain_about_unused(model, out);
   check_wiring(model, excuses, out);
   check_waits(model, out);
+  check_uses(model, out);
   check_complete_lists(model, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);

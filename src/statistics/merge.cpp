@@ -63,6 +63,15 @@ void add(std::vector<Injected>& all, const Injected& more) {
   found->missed += more.missed;
 }
 
+void add(std::vector<Distribution>& all, const Distribution& more) {
+  const auto found = std::ranges::find_if(
+      all, [&](const Distribution& one) { return one.name == more.name && one.unit == more.unit; });
+  if (found == all.end())
+    all.push_back(more);
+  else
+    found->samples.add(more.samples.parts());
+}
+
 void add(Results& sum, const Results& more) {
   sum.whole = {std::min(sum.whole.begin, more.whole.begin), std::max(sum.whole.end, more.whole.end)};
   sum.ran.insert(sum.ran.end(), more.ran.begin(), more.ran.end());
@@ -77,6 +86,11 @@ void add(Results& sum, const Results& more) {
   for (const Outcome& kind : more.kinds) add(sum.kinds, kind);
   for (const Outcome& outcome : more.outcomes) add(sum.outcomes, outcome);
   for (const Injected& one : more.injected) add(sum.injected, one);
+  if (sum.ended_by_themselves && more.ended_by_themselves)
+    *sum.ended_by_themselves += *more.ended_by_themselves;
+  else
+    sum.ended_by_themselves.reset();  // then it is not known of all runs
+  for (const Distribution& one : more.distributions) add(sum.distributions, one);
   if (more.failure && (!sum.failure || more.failure->seed < sum.failure->seed)) sum.failure = more.failure;
   for (const auto& [name, firings] : more.transitions) sum.transitions[name] += firings;
 }

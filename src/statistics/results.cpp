@@ -35,6 +35,24 @@ ordered_json to_json(const Outcome& outcome, const Results& results) {
   return written;
 }
 
+ordered_json to_json(const Distribution& distribution) {
+  const SampleCounts::Parts& parts = distribution.samples.parts();
+  const auto extreme = [](const SampleCounts::Extreme& one) {
+    return ordered_json{{"value", one.value}, {"seed", one.seed}};
+  };
+  ordered_json written{{"name", distribution.name},
+                       {"unit", distribution.unit},
+                       {"runs", parts.count},
+                       {"sum", parts.sum},
+                       {"sum_of_squares", parts.sum_of_squares},
+                       {"least", extreme(parts.least)},
+                       {"greatest", extreme(parts.greatest)},
+                       {"classes", ordered_json::array()}};
+  for (const auto& [one, count] : parts.classes)
+    written["classes"].push_back(ordered_json::array({one, count}));
+  return written;
+}
+
 // ---------------------------------------------------------------------------------------------- reading
 
 /// Thrown for numbers that contradict each other.
@@ -93,6 +111,30 @@ Injected injected_in(const json& value, const Results& results) {
   return one;
 }
 
+SampleCounts::Extreme extreme_in(const json& value) {
+  return {amount_in(value.at("value")), count_in(value.at("seed"))};
+}
+
+Distribution distribution_in(const json& value, const Results& results) {
+  SampleCounts::Parts parts{.count = count_in(value.at("runs")),
+                            .sum = amount_in(value.at("sum")),
+                            .sum_of_squares = amount_in(value.at("sum_of_squares")),
+                            .least = extreme_in(value.at("least")),
+                            .greatest = extreme_in(value.at("greatest")),
+                            .classes = {}};
+  std::uint64_t count = 0;
+  for (const json& one : value.at("classes")) {
+    demand(one.is_array() && one.size() == 2 && one[0].is_number_integer(), "a class of numbers is no pair");
+    parts.classes[one[0].get<std::int64_t>()] += count_in(one[1]);
+    count += count_in(one[1]);
+  }
+  demand(count == parts.count && count > 0 && count <= results.tried,
+         "the numbers of a distribution are not those of the runs");
+  Distribution distribution{value.at("name"), value.at("unit"), {}};
+  distribution.samples.add(parts);
+  return distribution;
+}
+
 void read_counts(const json& from, Results& results) {
   for (const json& range : from.at("ran")) results.ran.push_back(seeds_in(range));
   demand(!overlap_of(results.ran), "a seed was run twice");
@@ -115,6 +157,12 @@ void read_counts(const json& from, Results& results) {
   demand(results.failure.has_value() == (results.failed > 0), "the first failure is not told");
   if (from.contains("injected"))
     for (const json& one : from.at("injected")) results.injected.push_back(injected_in(one, results));
+  if (from.contains("ended_by_themselves")) {
+    results.ended_by_themselves = count_in(from.at("ended_by_themselves"));
+    demand(*results.ended_by_themselves <= results.tried - results.failed, "more runs ended than there were");
+    for (const json& one : from.at("distributions"))
+      results.distributions.push_back(distribution_in(one, results));
+  }
   if (from.contains("transitions"))
     for (const auto& [name, firings] : from.at("transitions").items())
       results.transitions[name] = count_in(firings);
@@ -170,6 +218,11 @@ std::string to_json(const Results& results) {
   }
   for (const Injected& one : results.injected)
     written["injected"].push_back({{"fault", one.fault}, {"runs", one.runs}, {"missed", one.missed}});
+  if (results.ended_by_themselves) {
+    written["ended_by_themselves"] = *results.ended_by_themselves;
+    written["distributions"] = ordered_json::array();
+    for (const Distribution& one : results.distributions) written["distributions"].push_back(to_json(one));
+  }
   if (!results.transitions.empty()) written["transitions"] = results.transitions;
   return written.dump(2, ' ', false, ordered_json::error_handler_t::replace) + '\n';
 }

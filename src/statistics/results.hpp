@@ -9,6 +9,7 @@
 
 #include "statistics/seeds.hpp"
 #include "tessera/result.hpp"
+#include "tessera/sample_counts.hpp"
 
 /// The results of many runs with different seeds, of one controller.
 namespace tessera::statistics {
@@ -29,6 +30,13 @@ struct Injected {
   std::string fault;
   std::uint64_t runs = 0;    ///< in which it happened
   std::uint64_t missed = 0;  ///< that ended without it
+};
+
+/// A number of each run that has not failed: the time of those that have ended by themselves, or an amount that a run
+/// has used.
+struct Distribution {
+  std::string name, unit;  ///< "time", "s"; "energy", "J"
+  SampleCounts samples{};
 };
 
 /// The identity of the runs. Only results with the same identity can be counted together.
@@ -57,6 +65,9 @@ struct Results {
   };
   std::optional<Failure> failure;    ///< the run of the lowest seed that failed
   std::vector<Injected> injected{};  ///< each fault of `--inject` once
+  /// Runs that have neither failed nor used up their duration. nullopt: results of an earlier version do not say it.
+  std::optional<std::uint64_t> ended_by_themselves{};
+  std::vector<Distribution> distributions{};
   /// First seeds whose runs had another result when they were made again, alone in a process.
   std::vector<std::uint64_t> not_repeated;
   std::string again;  ///< command that makes a run again, when the seed is put behind it
@@ -67,7 +78,9 @@ struct Results {
 /// {"tessera": "schedules", "version": 1, "system", "specification", "net", "controller", "settings", "seeds":
 /// [begin, end], "parts", "ran": [[begin, end]...], "tried", "failed", "interval": [low, high], "simulated_s",
 /// "wall_s", "firings", "interrupted", "kinds", "outcomes", "failure": null or {"seed", "at_s", "ended"},
-/// "not_repeated": [seed...], "again", "injected" (if there are faults): [{"fault", "runs", "missed"}...], "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
+/// "not_repeated": [seed...], "again", "injected" (if there are faults): [{"fault", "runs", "missed"}...], "ended_by_themselves",
+/// "distributions": [{"name", "unit", "runs", "sum", "sum_of_squares", "least": {"value", "seed"}, "greatest", "classes":
+/// [[class, runs]...]}...], "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
 /// "runs", "failed", "interval", and if there are runs "first_seed", "at_s", "text", "reproduce"}...].
 [[nodiscard]] std::string to_json(const Results& results);
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "statistics/clopper_pearson.hpp"
+#include "statistics/percentiles.hpp"
 
 namespace tessera::statistics {
 namespace {
@@ -142,6 +143,7 @@ std::string to_table(const Results& results) {
   text += injected(results);
   text += fmt::format("A run fails with a probability of {} ({:.0f} % confidence).\n",
                       interval_text(results.failed, results.tried), usual_confidence * 100);
+  text += distribution_rows(results);
   const bool has_any =
       std::ranges::any_of(results.kinds, [&](const Outcome& kind) { return has_rows(kind, results); });
   if (has_any)

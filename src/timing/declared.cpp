@@ -72,7 +72,9 @@ class Reader {
       if (!behaviour.skippable.empty()) miss(instance, name + " may skip a send");
       mine.shortest = std::min<Time>(mine.shortest, behaviour.takes.shortest.count());
       mine.longest = std::max<Time>(mine.longest, behaviour.takes.longest.count());
-      if (first != nullptr && behaviour.takes != first->takes) declared_.differ[instance.value] = true;
+      if (first != nullptr && (behaviour.takes.shortest != first->takes.shortest ||
+                               behaviour.takes.longest != first->takes.longest))
+        declared_.differ[instance.value] = true;
       if (first == nullptr) {
         first = &behaviour;
         mine.parallel = behaviour.transfer == spec::Transfer::parallel;

@@ -187,4 +187,42 @@ TEST(Overtime, OfASummaryIsToldPerBehaviourAndOnceForAllThreads) {
   EXPECT_EQ(cli::overtime_text(simulated, cli::slow_calls_of(simulated)), "");
 }
 
+TEST_F(TakesOfRuns, AreDrawnAsTheyWereMeasured) {
+  const fs::path project = built_example("01_line_follower");
+  ASSERT_EQ(
+      tessera("simulate 01_line_follower --for 10s --inject robot.control:stall=30ms@1s --record run.tsr")
+          .code,
+      0);
+  const std::string text = content_of(project / "spec.yaml");
+  const auto check_with = [&](const std::string& takes) {
+    std::string changed = text;
+    changed.replace(changed.find("follow: {}"), 10, "follow: { takes: " + takes + " }");
+    write(project / "spec.yaml", changed);
+    return tessera("check 01_line_follower");
+  };
+  const auto says = [](const project::Exit& done, const std::string& what) {
+    EXPECT_NE(done.text.find(what), std::string::npos) << done.text;
+  };
+  says(check_with("{ measured: ../none.tsr, within: 0..40 ms }"),
+       "error E385: no times can be read from '../none.tsr'");
+  const project::Exit simulated = check_with("{ measured: ../run.tsr, within: 0..40 ms }");
+  EXPECT_EQ(simulated.code, 1);
+  says(simulated, "it is of a simulated run");
+  make_real(folder_ / "run.tsr");
+  const project::Exit good = check_with("{ measured: ../run.tsr, within: 0..40 ms }");
+  EXPECT_EQ(good.code, 0) << good.text;
+  const project::Exit narrow = check_with("{ measured: ../run.tsr, within: 0..20 ms }");
+  EXPECT_EQ(narrow.code, 1);
+  says(narrow, " calls in '../run.tsr' are not within 0..20 ms: they took 0..30 ms");
+  says(narrow, "hint: for example within: 0..36 ms, which is 20 % wider");
+  says(check_with("{ measured: ../run.tsr }"), "'takes' lacks 'within', the bounds of all calls; the ");
+  // Its bounds change, the distribution stays.
+  std::string bounds = text;
+  bounds.replace(bounds.find("follow: {}"), 10,
+                 "follow: { takes: { normal: [5 ms, 1 ms], within: 4..6 ms } }");
+  write(project / "spec.yaml", bounds);
+  EXPECT_EQ(tessera("replay run.tsr --takes --spec 01_line_follower --write").code, 0);
+  says({0, content_of(project / "spec.yaml")}, "takes: { normal: [5 ms, 1 ms], within: 0..36 ms }");
+}
+
 }  // namespace tessera::cli_test

@@ -159,7 +159,14 @@ struct RunSummary {
   };
   std::vector<PlantedFault> injected;  ///< the faults planted in this process
   std::string judgement;               ///< checks and measures as World::results; empty: none
-  std::uint64_t lost_events = 0;       ///< events missing in the recording
+  /// The amount of a resource that the behaviours have used, as far as this process ran them.
+  struct Used {
+    std::string resource, unit;
+    double amount = 0;
+    std::vector<std::pair<std::string, double>> agents;  ///< those that use it, in the order of the system
+  };
+  std::vector<Used> used;
+  std::uint64_t lost_events = 0;  ///< events missing in the recording
   /// The time at which the recording begins, if its limit has dropped the part before. nullopt: it has its
   /// beginning.
   std::optional<Duration> recorded_from;

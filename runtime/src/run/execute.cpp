@@ -21,6 +21,7 @@
 #include "run/process_lives.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
+#include "run/summary_text.hpp"
 #include "run/world_checks.hpp"
 #include "safety/companions.hpp"
 #include "safety/device_claims.hpp"
@@ -195,6 +196,7 @@ template <class Run>
   summary.signal = ending.signal;
   summary.world_time = ending.world_time;
   summary.judgement = std::exchange(assembly.judgement, {});
+  summary.used = used_resources(assembly, ending.at);
   summary.firings = upper.firings() + ProcessLives::past_firings(assembly);
   for (const auto& executor : assembly.executors) {
     const Operations& operations = executor->operations();

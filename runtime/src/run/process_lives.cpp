@@ -54,6 +54,8 @@ ProcessLives::Change ProcessLives::die(Assembly& assembly, UpperLayers& upper, c
   assembly.restarts->kill(outage.process);
   for (const std::uint32_t instance : change.instances) assembly.control.mark_ended(instance);
   tell(assembly, outage.process, /*begins=*/false, now);
+  for (const std::uint32_t instance : change.instances)
+    assembly.executors[instance]->operations().present().end(now);
   for (const std::uint32_t instance : change.instances) assembly.executors[instance]->leave();
   for (const std::uint32_t instance : change.instances) assembly.executors[instance]->insist();
   if (outage.until != Time::max()) starts_.push_back({outage.process, outage.until});

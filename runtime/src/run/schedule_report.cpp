@@ -56,6 +56,23 @@ void insert_seed(std::vector<SeedRange>& ranges, std::uint64_t seed) {
   return json;
 }
 
+[[nodiscard]] ordered_json distribution_json(const ScheduleReport::Distribution& one) {
+  const SampleCounts::Parts& parts = one.samples.parts();
+  const auto extreme = [](const SampleCounts::Extreme& of) {
+    return ordered_json{{"value", of.value}, {"seed", of.seed}};
+  };
+  ordered_json json{{"name", one.name},
+                    {"unit", one.unit},
+                    {"runs", parts.count},
+                    {"sum", parts.sum},
+                    {"sum_of_squares", parts.sum_of_squares},
+                    {"least", extreme(parts.least)},
+                    {"greatest", extreme(parts.greatest)},
+                    {"classes", ordered_json::array()}};
+  for (const auto& [at, count] : parts.classes) json["classes"].push_back(ordered_json::array({at, count}));
+  return json;
+}
+
 }  // namespace
 
 const std::vector<std::string>& schedule_event_kinds() {
@@ -91,11 +108,27 @@ void ScheduleReport::add(const ScheduleResult& result) {
     if (earliest == nullptr || event.at_s < earliest->at_s) earliest = &event;
   }
   for (const auto& [kind, event] : first) count_event(kinds[std::string(kind)], result, *event);
-  if (!result.failed) return;
+  if (!result.failed) {
+    if (result.ended_by_itself) {
+      ++ended_by_themselves;
+      count("time", "s", seconds(result.simulated), result.seed);
+    }
+    for (const ScheduleResult::Used& used : result.used)
+      count(used.resource, used.unit, used.amount, result.seed);
+    return;
+  }
   ++failed;
   const bool is_known_when = result.events.empty() || !std::isnan(result.events.front().at_s);
   if (!first_failure || result.seed < first_failure->seed)
     first_failure = {result.seed, is_known_when ? seconds(result.simulated) : unknown_time, result.ended};
+}
+
+void ScheduleReport::count(const std::string& name, const std::string& unit, double value,
+                           std::uint64_t seed) {
+  auto found = std::ranges::find_if(
+      distributions, [&](const Distribution& one) { return one.name == name && one.unit == unit; });
+  if (found == distributions.end()) found = distributions.insert(found, {name, unit, {}});
+  found->samples.add(value, seed);
 }
 
 void ScheduleReport::add_checks(const std::string& checks) {
@@ -115,6 +148,13 @@ std::string schedules_text(const ScheduleReport& report) {
                   report.failed == 0 ? std::string("none fails") : fmt::format("{} fail", report.failed),
                   seconds(report.simulated), report.wall_s, report.firings,
                   report.interrupted == 0 ? "" : "; interrupted");
+  if (report.ended_by_themselves > 0)
+    text += fmt::format("  {} of {} runs ended by themselves\n", report.ended_by_themselves, report.tried);
+  for (const ScheduleReport::Distribution& one : report.distributions)
+    text += fmt::format(
+        "  {}: mean {:.6g} {unit}, least {:.6g} {unit} (seed {}), greatest {:.6g} {unit} (seed {})\n",
+        one.name, one.samples.mean(), one.samples.parts().least.value, one.samples.parts().least.seed,
+        one.samples.parts().greatest.value, one.samples.parts().greatest.seed, fmt::arg("unit", one.unit));
   for (const auto& [fault, count] : report.injected)
     text += fmt::format("  injected {}: in {} of {} runs\n", fault, count.runs, report.tried);
   for (const auto& [key, outcome] : report.outcomes) {
@@ -158,6 +198,10 @@ std::string schedules_json(const ScheduleReport& report) {
                        {"ended", report.first_failure->ended}};
   for (const auto& [fault, count] : report.injected)
     json["injected"].push_back({{"fault", fault}, {"runs", count.runs}, {"missed", count.missed}});
+  json["ended_by_themselves"] = report.ended_by_themselves;
+  json["distributions"] = ordered_json::array();
+  for (const ScheduleReport::Distribution& one : report.distributions)
+    json["distributions"].push_back(distribution_json(one));
   if (!report.transitions.empty()) {
     json["transitions"] = ordered_json::object();
     for (const auto& [name, firings] : report.transitions) json["transitions"][name] = firings;
@@ -172,8 +216,12 @@ std::string to_line(const ScheduleResult& result) {
   ordered_json injected = ordered_json::array();
   for (const auto& [text, happened] : result.injected)
     injected.push_back(ordered_json::array({text, happened}));
-  const ordered_json line{result.seed,    result.failed, result.interrupted, result.simulated.count(),
-                          result.firings, result.ended,  std::move(events),  std::move(injected)};
+  ordered_json used = ordered_json::array();
+  for (const ScheduleResult::Used& one : result.used)
+    used.push_back(ordered_json::array({one.resource, one.unit, one.amount}));
+  const ordered_json line{
+      result.seed,  result.failed,     result.interrupted,  result.simulated.count(), result.firings,
+      result.ended, std::move(events), std::move(injected), result.ended_by_itself,   std::move(used)};
   return line.dump(-1, ' ', false, invalid_text_replaced);
 }
 
@@ -190,6 +238,8 @@ std::optional<ScheduleResult> from_line(std::string_view line) try {
     result.events.push_back(
         {.kind = event.at(0), .name = event.at(1), .at_s = event.at(2), .text = event.at(3)});
   for (const auto& fault : json.at(7)) result.injected.push_back({fault.at(0), fault.at(1)});
+  result.ended_by_itself = json.at(8);
+  for (const auto& one : json.at(9)) result.used.push_back({one.at(0), one.at(1), one.at(2)});
   return result;
 } catch (const nlohmann::json::exception&) {
   return std::nullopt;

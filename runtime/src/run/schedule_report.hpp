@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tessera/controller.hpp"
+#include "tessera/sample_counts.hpp"
 
 namespace tessera {
 
@@ -37,6 +38,12 @@ struct ScheduleResult {
   std::vector<ScheduleEvent> events;  ///< each kind and name once; a run that failed has at least one
   /// The planted faults. Empty: there are none, or the run died and nobody knows.
   std::vector<RunSummary::PlantedFault> injected{};
+  bool ended_by_itself = false;  ///< the net has ended, or user code has stopped the run
+  struct Used {
+    std::string resource, unit;
+    double amount = 0;
+  };
+  std::vector<Used> used{};  ///< by all agents together
 };
 
 /// The frequency of one kind of fault or failure.
@@ -82,11 +89,19 @@ struct ScheduleReport {
   /// Seeds reported as first whose run had another result when it was repeated alone in a process: user code
   /// keeps some state from run to run.
   std::vector<std::uint64_t> not_repeated;
+  std::uint64_t ended_by_themselves = 0;  ///< runs that have not failed, and have not used up their duration
+  /// A number of each run that has not failed. The time is that of runs that have ended by themselves.
+  struct Distribution {
+    std::string name, unit;  ///< "time", "s"; "energy", "J"
+    SampleCounts samples{};
+  };
+  std::vector<Distribution> distributions;
   /// Firings of each transition over all runs; empty: not counted.
   std::vector<std::pair<std::string, std::uint64_t>> transitions;
 
   ScheduleReport();
   void add(const ScheduleResult& result);
+  void count(const std::string& name, const std::string& unit, double value, std::uint64_t seed);
   /// Checks that have not failed in any run get an outcome, too. checks: WorldOptions::checks.
   void add_checks(const std::string& checks);
 };

@@ -31,6 +31,8 @@ namespace {
 constexpr int exit_done = 0, exit_unheard = 3;
 /// The first character of a line that is not a result.
 constexpr char error_mark = '!';
+/// RunSummary::ended of a run that neither its net nor the user's code has ended.
+constexpr std::string_view out_of_time = "duration";
 
 [[nodiscard]] std::string_view name_of(RunSummary::Failure failure) {
   switch (failure) {
@@ -51,14 +53,19 @@ constexpr char error_mark = '!';
 }
 
 [[nodiscard]] ScheduleResult result_of(std::uint64_t seed, const RunSummary& summary, const RunTally& tally) {
-  ScheduleResult result{.seed = seed,
-                        .failed = summary.failed,
-                        .interrupted = false,
-                        .simulated = summary.simulated,
-                        .firings = summary.firings,
-                        .ended = summary.ended,
-                        .events = {},
-                        .injected = summary.injected};
+  ScheduleResult result{
+      .seed = seed,
+      .failed = summary.failed,
+      .interrupted = false,
+      .simulated = summary.simulated,
+      .firings = summary.firings,
+      .ended = summary.ended,
+      .events = {},
+      .injected = summary.injected,
+      .ended_by_itself = !summary.failed && summary.signal == 0 && summary.ended != out_of_time,
+      .used = {}};
+  for (const RunSummary::Used& used : summary.used)
+    result.used.push_back({used.resource, used.unit, used.amount});
   for (const RunTally::SeenFault& fault : tally.faults())
     result.events.push_back(
         {.kind = std::string(tessera::name_of(fault.fault)),

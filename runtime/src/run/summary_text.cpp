@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -9,6 +10,47 @@
 #include "tessera/judgement.hpp"
 
 namespace tessera {
+namespace {
+
+nlohmann::ordered_json used_json(const std::vector<RunSummary::Used>& all) {
+  nlohmann::ordered_json json = nlohmann::ordered_json::array();
+  for (const RunSummary::Used& one : all) {
+    nlohmann::ordered_json& row = json.emplace_back(
+        nlohmann::ordered_json{{"resource", one.resource}, {"unit", one.unit}, {"amount", one.amount}});
+    for (const auto& [agent, amount] : one.agents) row["agents"][agent] = amount;
+  }
+  return json;
+}
+
+void add_used(const SubsystemExecutor& executor, const std::string& agent, Time now,
+              std::vector<RunSummary::Used>& all) {
+  const Operations& operations = executor.operations();
+  const std::vector<Duration> times = operations.present().until(now);
+  for (std::size_t behaviour = 0; behaviour < times.size(); ++behaviour)
+    for (const Use& use : operations.parts().instance->net->behaviours[behaviour].uses) {
+      RunSummary::Used& sum = all[use.resource];
+      const double amount = use.per_second * seconds(times[behaviour]);
+      sum.amount += amount;
+      const auto of = std::ranges::find(sum.agents, agent, &std::pair<std::string, double>::first);
+      if (of == sum.agents.end())
+        sum.agents.emplace_back(agent, amount);
+      else
+        of->second += amount;
+    }
+}
+
+}  // namespace
+
+std::vector<RunSummary::Used> used_resources(const Assembly& assembly, Time now) {
+  std::vector<RunSummary::Used> all;
+  for (const Resource& resource : assembly.system.resources)
+    all.push_back({std::string(resource.name), std::string(resource.unit), 0, {}});
+  if (all.empty()) return all;
+  for (const auto* executors : {&assembly.dead, &assembly.executors})
+    for (const auto& executor : *executors)
+      add_used(*executor, std::string(executor->operations().parts().instance->agent), now, all);
+  return all;
+}
 
 namespace {
 
@@ -62,6 +104,7 @@ std::string summary_json(const RunSummary& summary, const RunOptions& options) {
   if (judgement.is_object()) json.update(judgement);
   for (const RunSummary::PlantedFault& fault : summary.injected)
     json["injected"].push_back({{"fault", fault.text}, {"happened", fault.happened}});
+  if (!summary.used.empty()) json["used"] = used_json(summary.used);
   json["subsystems"] = nlohmann::ordered_json::array();
   for (const RunSummary::PerSubsystem& subsystem : summary.subsystems)
     json["subsystems"].push_back({{"path", subsystem.path},
@@ -89,7 +132,8 @@ std::string summary_lines(const RunSummary& summary) {
     fmt::format_to(std::back_inserter(text), "  {}: {} iterations, {} overruns, {} errors\n", subsystem.path,
                    subsystem.iterations, subsystem.overruns, subsystem.errors);
   for (const ChainTimes& chain : summary.chains) text += chain_line(chain);
-  return text + judgement_lines(summary.judgement);
+  return text + judgement_lines(summary.judgement) +
+         judgement_lines(nlohmann::ordered_json{{"used", used_json(summary.used)}}.dump());
 }
 
 }  // namespace tessera

@@ -1,4 +1,4 @@
-// How long transition functions take in simulated time.
+// How long transition functions take in simulated time, and how long behaviours last.
 #pragma once
 
 #include <algorithm>
@@ -7,6 +7,7 @@
 #include <iterator>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "tessera/tables.hpp"
 
@@ -50,6 +51,40 @@ class CallTimes {
   }
 
   std::uint64_t state_ = 0;
+};
+
+/// How long each behaviour has been the present one: from its first call until the first call of another one, or the
+/// end of the subsystem.
+class PresentTimes {
+ public:
+  /// Measures only subsystems of which a behaviour uses something. Allocates here alone.
+  explicit PresentTimes(std::span<const Behaviour> behaviours) {
+    if (std::ranges::any_of(behaviours, [](const Behaviour& one) { return !one.uses.empty(); }))
+      times_.resize(behaviours.size());
+  }
+
+  void begin(std::uint16_t behaviour, Time now) {
+    if (times_.empty() || behaviour == present_) return;
+    end(now);
+    present_ = behaviour;
+    since_ = now;
+  }
+  void end(Time now) {
+    if (present_ == nobody) return;
+    times_[present_] += now - since_;
+    present_ = nobody;
+  }
+  /// Until now. Empty: nothing is used.
+  [[nodiscard]] std::vector<Duration> until(Time now) const {
+    std::vector<Duration> times = times_;
+    if (present_ != nobody) times[present_] += now - since_;
+    return times;
+  }
+
+ private:
+  std::vector<Duration> times_;  // per behaviour
+  std::uint16_t present_ = nobody;
+  Time since_{};
 };
 
 }  // namespace tessera

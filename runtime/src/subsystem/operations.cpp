@@ -41,7 +41,8 @@ Operations::Operations(SubsystemParts parts, RunControl& control, const Clock& c
       devices_(parts_, channels_, reports_, control, clock, lane),
       written_(parts_),
       goals_(parts_, reports_),
-      overtimes_(*parts_.instance, parts_.latency, parts_.processor) {
+      overtimes_(*parts_.instance, parts_.latency, parts_.processor),
+      present_(parts_.instance->net->behaviours) {
   if (!parts_.instance->policies.non_finite_allowed)
     for (const Bindings::Outgoing& output : parts_.bindings.outputs)
       if (output.finite != nullptr) checked_.push_back(&output);
@@ -127,6 +128,7 @@ void Operations::begin_iteration(std::uint16_t behaviour) {
 
 void Operations::start_call(std::uint16_t behaviour, Time now, std::uint64_t missed) {
   take_changes(now);
+  present_.begin(behaviour, now);
   behaviour_ = behaviour;
   called_at_ = now;
   overtimes_.begin_call(now);

@@ -101,6 +101,8 @@ class Operations final : public ContextServices {
     const Duration declared = parts_.times.draw(parts_.instance->net->behaviours[behaviour]);
     return parts_.faulty == nullptr ? declared : declared + parts_.faulty->take_delay();
   }
+  [[nodiscard]] PresentTimes& present() { return present_; }
+  [[nodiscard]] const PresentTimes& present() const { return present_; }
   [[nodiscard]] bool has_inputs() const {
     return channels_.has_inputs() || !parts_.bindings.real_inputs.empty();
   }
@@ -139,6 +141,7 @@ class Operations final : public ContextServices {
   WrittenOutputs written_;
   Goals goals_;
   Overtimes overtimes_;
+  PresentTimes present_;
   struct KeptCell {
     const Bindings::KeptCell* cell = nullptr;  // nullptr: the fact is no memory
     std::uint16_t value = 0;

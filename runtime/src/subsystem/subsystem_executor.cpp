@@ -384,13 +384,13 @@ void SubsystemExecutor::wake_receivers() {
 }
 
 // -------------------------------------------------------------------------------------------- ends
-
 void SubsystemExecutor::fault(std::uint32_t place, std::string_view text) {
   operations_.reports().report(Fault::net, name_of(place), text);
   operations_.reports().fail_run(text);
 }
 
 void SubsystemExecutor::end() {
+  operations_.present().end(now());
   static_cast<void>(register_waits());  // withdraws: no other subsystem must yield to one that has ended
   leave();
   control_.mark_ended(index_);

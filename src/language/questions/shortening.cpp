@@ -57,7 +57,7 @@ bool is_same(const spec::Behaviour& a, const spec::Behaviour& b) {
                               return one.output == other.output && one.by_function == other.by_function &&
                                      is_same(one.when, other.when);
                             }) &&
-         a.receive == b.receive && a.transfer == b.transfer && a.takes == b.takes &&
+         a.receive == b.receive && a.transfer == b.transfer && a.takes == b.takes && a.uses == b.uses &&
          std::ranges::equal(a.next, b.next,
                             [](const auto& one, const auto& other) { return is_same(one, other); });
 }

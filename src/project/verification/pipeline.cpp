@@ -14,6 +14,7 @@
 #include "project/files/ros2_messages.hpp"
 #include "project/files/world_check.hpp"
 #include "project/process/listener.hpp"
+#include "project/verification/measured_times.hpp"
 #include "project/verification/verdicts.hpp"
 #include "project/verification/violation.hpp"
 #include "spec/model/former_routes.hpp"
@@ -45,7 +46,8 @@ std::optional<Specification> read(diagnostics::Diagnostics diagnostics, const fs
   std::optional<spec::Model> model;
   if (!diagnostics.has_errors()) model = spec::parse(diagnostics);
   const fs::path absolute = located(file);
-  const bool found = model && find_messages(*model, absolute.parent_path(), diagnostics);
+  bool found = model && find_messages(*model, absolute.parent_path(), diagnostics);
+  found = model && read_measured_times(*model, absolute.parent_path(), diagnostics) && found;
   listener.say(diagnostics);
   if (!found) return std::nullopt;
   return Specification{absolute, absolute.parent_path(), std::move(diagnostics), std::move(*model)};
@@ -82,7 +84,10 @@ Draft draft_of(diagnostics::Diagnostics& text, const fs::path& project) {
   note_former_routes(*draft.model, text);
   timing::note_missing(*draft.model, text);
   // A mistake in a driver does not change the net.
-  if (!project.empty()) find_messages(*draft.model, project, text);
+  if (!project.empty()) {
+    find_messages(*draft.model, project, text);
+    read_measured_times(*draft.model, project, text);
+  }
   judge_models(*draft.model, text);
   draft.nets = build_what_is_possible(*draft.model, text);
   return draft;

@@ -65,7 +65,7 @@ struct Draft {
 };
 /// text: loaded, not read. project: the folder of the specification, in which messages of ROS 2 are looked
 /// up; empty: they are not.
-/// Errors: those of spec::parse, find_messages, judge_models and build_what_is_possible.
+/// Errors: those of spec::parse, find_messages, read_measured_times, judge_models and build_what_is_possible.
 ///
 /// Threads: any; it reads definitions of messages.
 [[nodiscard]] Draft draft_of(diagnostics::Diagnostics& text, const std::filesystem::path& project = {});

@@ -13,7 +13,7 @@
 #include "spec/document/section.hpp"
 #include "spec/memory/few_values.hpp"
 #include "spec/memory/goals.hpp"
-#include "spec/values/quantities.hpp"
+#include "spec/values/takes.hpp"
 #include "tessera/nearest.hpp"
 
 namespace tessera::spec {
@@ -176,6 +176,7 @@ class BehaviourReader {
     if (const Entry* takes = section.find("takes"))
       behaviour.takes =
           read_takes(*takes->value, takes->span, *out_).value_or(Takes{Duration{1}, Duration{1}});
+    behaviour.uses = read_uses(section.find("uses"), *out_);
   }
 
   void read_group(const Section& section, const ConditionScope& scope, const Written& written,

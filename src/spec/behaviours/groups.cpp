@@ -17,12 +17,13 @@ namespace {
 using diagnostics::in_quotes;
 
 using Keys = std::initializer_list<std::string_view>;
-const Keys keys_of_behaviour = {"terminal", "error", "next",   "send",   "receive", "transfer",
-                                "takes",    "sets",  "orders", "cancel", "for"};
+const Keys keys_of_behaviour = {"terminal", "error", "next", "send",   "receive", "transfer",
+                                "takes",    "uses",  "sets", "orders", "cancel",  "for"};
 const Keys keys_of_group = {"behaviours", "start", "next", "on_error", "until", "sets"};
 /// If there is an error about keys already.
-const Keys all_keys = {"terminal", "error",      "next",  "send",     "receive", "transfer", "takes", "sets",
-                       "for",      "behaviours", "start", "on_error", "until",   "orders",   "cancel"};
+const Keys all_keys = {"terminal", "error", "next",   "send",  "receive",    "transfer",
+                       "takes",    "uses",  "sets",   "for",   "behaviours", "start",
+                       "on_error", "until", "orders", "cancel"};
 
 /// A key that only behaviours or only groups have.
 struct OwnKey {
@@ -42,6 +43,7 @@ constexpr std::array own_keys = {
     OwnKey{"receive", false, "only the behaviours in it communicate; write 'receive' there"},
     OwnKey{"transfer", false, "only the behaviours in it communicate; write 'transfer' there"},
     OwnKey{"takes", false, "only the behaviours in it take time; write 'takes' there"},
+    OwnKey{"uses", false, "only the behaviours in it use something; write 'uses' there"},
     OwnKey{"orders", false, "write 'orders' in the behaviour that sends the goal"},
     OwnKey{"cancel", false, "write 'cancel' beside 'orders' in a behaviour; leaving the group leaves it"}};
 

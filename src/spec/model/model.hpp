@@ -16,6 +16,7 @@
 #include "spec/model/ids.hpp"
 #include "spec/model/panel.hpp"
 #include "spec/model/property.hpp"
+#include "spec/model/takes.hpp"
 #include "spec/model/timing.hpp"
 #include "spec/model/types.hpp"
 #include "spec/model/world.hpp"
@@ -114,14 +115,6 @@ struct Next {
 
 enum class Transfer : std::uint8_t { sequential, parallel };
 
-/// How long a transition function takes, its devices included. Both 0: the specification does not say it.
-struct Takes {
-  Duration shortest{0}, longest{0};
-
-  [[nodiscard]] bool is_declared() const { return longest > Duration{0}; }
-  bool operator==(const Takes&) const = default;
-};
-
 /// The parts of a group of behaviours, which has them instead of a transition function and communication.
 struct Group {
   BehaviourId start{};              ///< a behaviour or group in it
@@ -153,10 +146,11 @@ struct Behaviour {
   /// Input buffers in the order listed; nullopt: all, in the order of the channels.
   std::optional<std::vector<BufferId>> receive;
   Transfer transfer = Transfer::sequential;
-  Takes takes{};                   ///< in simulated time
-  std::vector<Change> sets{};      ///< to memory when it begins; of a group, with those of its start
-  std::optional<Order> orders{};   ///< the goal that it orders when it begins; `sets` contains its change
-  std::optional<Member> member{};  ///< of a behaviour `for: each robot`
+  Takes takes{};                    ///< in simulated time
+  std::vector<ResourceUse> uses{};  ///< each resource once
+  std::vector<Change> sets{};       ///< to memory when it begins; of a group, with those of its start
+  std::optional<Order> orders{};    ///< the goal that it orders when it begins; `sets` contains its change
+  std::optional<Member> member{};   ///< of a behaviour `for: each robot`
   Span span;
 
   [[nodiscard]] bool is_group() const { return group.has_value(); }

@@ -83,7 +83,7 @@ std::optional<Duration> read_duration(const Node& node, Span at, std::string_vie
   return value ? std::optional(nanoseconds(*value)) : std::nullopt;
 }
 
-std::optional<Takes> read_takes(const Node& node, Span at, Diagnostics& out) {
+std::optional<Takes> read_time_range(const Node& node, Span at, Diagnostics& out) {
   constexpr std::string_view what = "takes", between = "..";
   const std::size_t dots = node.is_scalar() ? node.text.find(between) : std::string::npos;
   if (dots == std::string::npos) {

@@ -20,7 +20,7 @@ namespace tessera::spec {
                                                   Diagnostics& out);
 /// "2 ms", or from the shortest to the longest time: "1..3 ms", "500 us..3 ms", "0..3 ms".
 /// Errors: as read_duration; E206 the first time is longer than the second one.
-[[nodiscard]] std::optional<Takes> read_takes(const Node& node, Span at, Diagnostics& out);
+[[nodiscard]] std::optional<Takes> read_time_range(const Node& node, Span at, Diagnostics& out);
 /// The period of a rate in Hz or kHz.
 [[nodiscard]] std::optional<Duration> read_rate(const Node& node, Span at, Diagnostics& out);
 /// Metres; a number without a unit counts as metres.

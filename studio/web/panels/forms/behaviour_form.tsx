@@ -287,7 +287,22 @@ function OneForm(shown: Shown) {
         onChange={(value) => set("transfer")(value === "parallel" ? value : "")}
       />
       <CodeInForm behaviour={behaviour} subsystem={subsystem} />
-      <Field label="Takes" value={field("takes")} placeholder="no simulated time" onChange={set("takes")} />
+      <Field
+        label="Takes"
+        value={field("takes")}
+        placeholder="no simulated time"
+        problem={problem([...behaviour.yaml, "takes"])}
+        hint="1..3 ms, { normal: [2 ms, 0.3 ms], within: 1..3 ms } or { measured: run.tsr, within: 1..3 ms }"
+        onChange={set("takes")}
+      />
+      <Field
+        label="Uses"
+        value={field("uses")}
+        placeholder="nothing that is counted"
+        problem={problem([...behaviour.yaml, "uses"])}
+        hint="Amounts per time: { energy: 12 W, bandwidth: 3 MB/s }"
+        onChange={set("uses")}
+      />
       <Remove what="behaviour" at={behaviour.yaml} select={behaviour.group || subsystem.path} />
     </>
   );

@@ -12,7 +12,8 @@ namespace tessera {
 namespace {
 
 // The supervisor wakes at least and at most so often for calls that are longer than declared.
-constexpr Duration shortest_look = std::chrono::milliseconds(10), longest_look = std::chrono::seconds(1);
+constexpr Duration soonest_judgement = std::chrono::milliseconds(10),
+                   latest_judgement = std::chrono::seconds(1);
 
 }  // namespace
 
@@ -27,8 +28,9 @@ Watchdogs::Watchdogs(const std::vector<std::unique_ptr<SubsystemExecutor>>& exec
     const SubsystemParts& parts = executor->operations().parts();
     if (!executor->operations().overtimes().judge_calls() || parts.processor.clocks != nullptr) continue;
     const Duration period = parts.instance->period;
-    const Duration every =
-        period > Duration::zero() ? std::clamp(period / 2, shortest_look, longest_look) : longest_look;
+    const Duration every = period > Duration::zero()
+                               ? std::clamp(period / 2, soonest_judgement, latest_judgement)
+                               : latest_judgement;
     declared_.push_back({executor.get(), every});
     between_looks_ = declared_.size() == 1 ? every : std::min(between_looks_, every);
   }

@@ -61,7 +61,7 @@ std::optional<Drift> drift_of(const Bounds& bounds, const Chain& chain) {
     if (system.subsystems[i].period > 0) periods.push_back(system.subsystems[i].period);
   if (together(periods) < unbounded || bounds.chain(chain).enumerated) return std::nullopt;
   // Best a rate that is no whole number of nanoseconds: 30 Hz.
-  std::ranges::stable_partition(path, [&](std::uint32_t i) {
+  std::stable_partition(path.begin(), path.end(), [&](std::uint32_t i) {
     const Time period = system.subsystems[i].period;
     return period > 0 && second % period != 0 && period % microsecond != 0;
   });

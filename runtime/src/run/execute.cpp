@@ -14,6 +14,7 @@
 #include "assembly/open_devices.hpp"
 #include "assembly/planted_faults.hpp"
 #include "assembly/ros2_arguments.hpp"
+#include "assembly/run_accounts.hpp"
 #include "assembly/upper_layers.hpp"
 #include "drivers/devices.hpp"
 #include "drivers/driver_watch.hpp"
@@ -21,7 +22,6 @@
 #include "run/process_lives.hpp"
 #include "run/simulated_run.hpp"
 #include "run/steady_run.hpp"
-#include "run/summary_text.hpp"
 #include "run/world_checks.hpp"
 #include "safety/companions.hpp"
 #include "safety/device_claims.hpp"
@@ -188,6 +188,7 @@ template <class Run>
     ending.failed = true;
     ending.failure = RunSummary::Failure::stuck;
   }
+
   RunSummary summary;
   summary.simulated = ending.at.time_since_epoch();
   summary.wall_s = static_cast<double>(monotonic_ns() - start_ns) * 1e-9;
@@ -205,12 +206,8 @@ template <class Run>
     summary.subsystems.push_back({executor->path(), operations.iterations(), executor->overruns(),
                                   operations.errors(), times.slow_calls(), times.late_wakeups(),
                                   times.latest_wakeup()});
-    const std::span<const Behaviour> behaviours = operations.parts().instance->net->behaviours;
-    for (std::size_t at = 0; at < behaviours.size(); ++at)
-      if (const Overtimes::OfBehaviour& one = times.behaviours()[at]; one.slow > 0)
-        summary.overtime.push_back({fmt::format("{}.{}", executor->path(), behaviours[at].name), one.calls,
-                                    one.slow, one.declared, one.longest, one.longest_at});
   }
+  summary.overtime = slow_calls(assembly);
   summary.chains = assembly.chains.times();
   for (const std::string& device : unsafe)
     if (lane != nullptr)

@@ -2,7 +2,6 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <iterator>
 #include <nlohmann/json.hpp>
 #include <optional>
@@ -21,38 +20,6 @@ nlohmann::ordered_json used_json(const std::vector<RunSummary::Used>& all) {
   }
   return json;
 }
-
-void add_used(const SubsystemExecutor& executor, const std::string& agent, Time now,
-              std::vector<RunSummary::Used>& all) {
-  const Operations& operations = executor.operations();
-  const std::vector<Duration> times = operations.present().until(now);
-  for (std::size_t behaviour = 0; behaviour < times.size(); ++behaviour)
-    for (const Use& use : operations.parts().instance->net->behaviours[behaviour].uses) {
-      RunSummary::Used& sum = all[use.resource];
-      const double amount = use.per_second * seconds(times[behaviour]);
-      sum.amount += amount;
-      const auto of = std::ranges::find(sum.agents, agent, &std::pair<std::string, double>::first);
-      if (of == sum.agents.end())
-        sum.agents.emplace_back(agent, amount);
-      else
-        of->second += amount;
-    }
-}
-
-}  // namespace
-
-std::vector<RunSummary::Used> used_resources(const Assembly& assembly, Time now) {
-  std::vector<RunSummary::Used> all;
-  for (const Resource& resource : assembly.system.resources)
-    all.push_back({std::string(resource.name), std::string(resource.unit), 0, {}});
-  if (all.empty()) return all;
-  for (const auto* executors : {&assembly.dead, &assembly.executors})
-    for (const auto& executor : *executors)
-      add_used(*executor, std::string(executor->operations().parts().instance->agent), now, all);
-  return all;
-}
-
-namespace {
 
 /// Members without a value are left out.
 nlohmann::ordered_json chain_json(const ChainTimes& chain) {

@@ -1,15 +1,10 @@
 #pragma once
 
 #include <string>
-#include <vector>
 
-#include "assembly/assembly.hpp"
 #include "tessera/controller.hpp"
 
 namespace tessera {
-
-/// The amounts that all behaviours have used until now.
-[[nodiscard]] std::vector<RunSummary::Used> used_resources(const Assembly& assembly, Time now);
 
 /// The result of a run as JSON.
 [[nodiscard]] std::string summary_json(const RunSummary& summary, const RunOptions& options);

@@ -48,7 +48,7 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
     for (const { subsystem } of changed) studio.timing.try(subsystem.path, { period_ns: undefined, longest_ns: undefined });
   };
   const [details, isTried] = [useRef<HTMLElement>(null), changed.length > 0];
-  // What is tried stands over the end of the panel: the slider that was moved must not be below it.
+  // The row of what is tried stands over the end of the panel: the slider that was moved must not be below it.
   useEffect(() => {
     const active = document.activeElement;
     if (isTried && then && details.current?.contains(active)) active?.scrollIntoView({ block: "nearest" });

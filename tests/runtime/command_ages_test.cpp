@@ -15,7 +15,8 @@ namespace {
 
 constexpr std::initializer_list<std::uint32_t> first_channel{0}, second_channel{1};
 
-/// A sensor and a motor with the same rate. The motor uses in an iteration what it has received in the one before.
+/// A sensor and a motor with the same rate. The motor uses in an iteration what it has received in the one before, and
+/// at an instant it may receive before or after the sensor sends.
 struct SensorAndMotor {
   explicit SensorAndMotor(Chain chain, Script motor = {}) {
     motor.acts = true;
@@ -40,7 +41,7 @@ std::vector<std::string> told_in(const std::string& file) {
 }
 
 TEST(CommandAges, AreMeasuredBesideWhatIsProved) {
-  SensorAndMotor robot({"line to wheels", 10ms, 20ms});
+  SensorAndMotor robot({"line to wheels", 20ms, 30ms});
   RunOptions options = simulated(995ms);
   options.recording = scratch_file("run");
   const RunSummary summary = run(robot.system, options);
@@ -48,9 +49,9 @@ TEST(CommandAges, AreMeasuredBesideWhatIsProved) {
   const ChainTimes& chain = summary.chains.front();
   EXPECT_EQ(chain.name, "line to wheels");
   EXPECT_EQ(chain.members, 1U);
-  EXPECT_EQ(chain.longest_age, 10ms);
-  EXPECT_EQ(chain.longest_reaction, 20ms);
-  EXPECT_EQ(chain.proved_age, 10ms);
+  EXPECT_EQ(chain.longest_age, 20ms);
+  EXPECT_EQ(chain.longest_reaction, 30ms);
+  EXPECT_EQ(chain.proved_age, 20ms);
   EXPECT_EQ(chain.over, 0U);
   EXPECT_GT(chain.commands, 90U);
   EXPECT_EQ(told_in(options.recording), std::vector<std::string>{});
@@ -78,7 +79,7 @@ TEST(CommandAges, ACallThatFailsGivesNoCommand) {
     if (state.context.iteration % 2 == 1) throw std::runtime_error("every second one");
   };
   motor.decide = [](const ScriptState&) { return Outcome::go_on; };
-  SensorAndMotor robot({"line to wheels", 10ms, 20ms}, motor);
+  SensorAndMotor robot({"line to wheels", 20ms, 30ms}, motor);
   const RunSummary summary = run(robot.system, simulated(100ms));
   for (const ChainTimes& chain : summary.chains) EXPECT_LT(chain.commands, 6U);
 }
@@ -101,17 +102,17 @@ TEST(CommandAges, TheMembersOfAFleetShareARow) {
                                agent[5] == '0' ? 10ms : 20ms, 0ms, Kind::effector);
     system.connect(from, "x", to, "x", asynchronous);
   }
-  system.chains = {{"cart[].eye -> cart[].wheel", 15ms, 0ms}};
+  system.chains = {{"cart[].eye -> cart[].wheel", 25ms, 0ms}};
   system.chain_ways = {{0, first_channel, 0}, {0, second_channel, 1}};
   RunOptions options = simulated(100ms);
   options.recording = scratch_file("run");
   const RunSummary summary = run(system, options);
   ASSERT_EQ(summary.chains.size(), 1U);
   EXPECT_EQ(summary.chains.front().members, 2U);
-  EXPECT_EQ(summary.chains.front().longest_age, 20ms);
+  EXPECT_EQ(summary.chains.front().longest_age, 30ms);
   const std::vector<std::string> told = told_in(options.recording);
   ASSERT_FALSE(told.empty());
-  EXPECT_NE(told.front().find("cart[1].eye -> cart[1].wheel: a command was 20 ms old"), std::string::npos)
+  EXPECT_NE(told.front().find("cart[1].eye -> cart[1].wheel: a command was 30 ms old"), std::string::npos)
       << told.front();
 }
 

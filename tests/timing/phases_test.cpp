@@ -24,13 +24,14 @@ class Row {
  public:
   explicit Row(std::uint64_t seed) : random_(seed) {
     const std::size_t count = 2 + below(4), processes = 1 + below(3);
+    for (std::size_t process = 0; process < processes; ++process)
+      phases_.push_back(static_cast<Time>(below(100)));
     for (std::uint32_t i = 0; i < count; ++i) {
       Subsystem& one = system.subsystems.emplace_back();
       one.process = static_cast<std::uint32_t>(below(processes));
       one.period = std::array{10, 20, 40, 50, 100}[below(5)];
       one.shortest = 1 + static_cast<Time>(below(4));
       one.longest = one.shortest + static_cast<Time>(below(6));
-      phases_.push_back(static_cast<Time>(below(100)));
       if (i > 0) join(i, static_cast<Time>(std::array{1, 7, 25, 60}[seed % 4]));
     }
   }
@@ -142,7 +143,7 @@ class Row {
   }
 
   std::mt19937_64 random_;
-  std::vector<Time> phases_;
+  std::vector<Time> phases_;            ///< per process
   std::vector<std::uint32_t> answers_;  ///< those that read what a foreign node answers
 };
 

@@ -178,7 +178,8 @@ std::optional<ProgressType::Parts> ProgressType::split(std::span<const std::byte
   auto reader = CdrReader::open(progress);
   if (!reader) return std::nullopt;
   Parts parts;
-  parts.feedback = cdr_message([&](CdrWriter& writer) { copy_message(part(feedback_part), *reader, writer); });
+  parts.feedback =
+      cdr_message([&](CdrWriter& writer) { copy_message(part(feedback_part), *reader, writer); });
   parts.result = cdr_message([&](CdrWriter& writer) {
     write(status, writer);
     copy_message(part(result_part), *reader, writer);

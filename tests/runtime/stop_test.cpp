@@ -5,6 +5,7 @@
 #include <array>
 #include <atomic>
 #include <cstdlib>
+#include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <random>
@@ -269,6 +270,7 @@ TEST(Stop, AtARandomMomentNeverHangs) {
 TEST(Recording, OfASlowWriterLosesEventsAndDoesNotHoldUpTheRun) {
   TestSystem system;
   const std::string file = scratch_file("fifo");
+  std::filesystem::remove(file);
   ASSERT_EQ(mkfifo(file.c_str(), 0600), 0);
   std::atomic<bool> far{false};
   // Opens it, and reads no byte before the run has gone far.

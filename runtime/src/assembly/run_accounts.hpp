@@ -1,4 +1,4 @@
-// What the subsystems of a run have used, and which of their calls took longer than declared.
+// The resources that the subsystems of a run have used, and the calls that took longer than declared.
 #pragma once
 
 #include <vector>

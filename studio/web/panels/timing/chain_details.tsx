@@ -49,9 +49,18 @@ export function ChainDetails({ structure, found, chain, fresh }: DetailsProps) {
   };
   const [details, isTried] = [useRef<HTMLElement>(null), changed.length > 0];
   // The row of what is tried stands over the end of the panel: the slider that was moved must not be below it.
+  // Parts above it come and grow when their times arrive.
   useEffect(() => {
-    const active = document.activeElement;
-    if (isTried && then && details.current?.contains(active)) active?.scrollIntoView({ block: "nearest" });
+    const section = details.current;
+    if (!section || !isTried || !then) return;
+    const keepInSight = () => {
+      const active = document.activeElement;
+      if (section.contains(active)) active?.scrollIntoView({ block: "nearest" });
+    };
+    keepInSight();
+    const grown = new ResizeObserver(keepInSight);
+    grown.observe(section);
+    return () => grown.disconnect();
   }, [isTried, then]);
   const tries = nameOfTried([...tried.values()]);
   return (

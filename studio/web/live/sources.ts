@@ -97,6 +97,10 @@ export class Sources {
       const functions = await this.api.functions(this.draft.store.get().text);
       if (asked !== this.asked) return;
       this.store.set({ functions, problem: "" });
+      // A function that is not at its line: another program has changed the file since it was read.
+      const { files } = this.store.get();
+      const moved = functions.filter((one) => one.line && files.has(one.file) && !functionIn(files.get(one.file)!.text, one));
+      await Promise.all([...new Set(moved.map(({ file }) => file))].map((file) => this.open(file)));
     } catch (error) {
       // A text with errors has no functions: those of the text before stay.
       if (asked === this.asked && !(error instanceof ApiError && error.status === 422))

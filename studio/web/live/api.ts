@@ -53,7 +53,7 @@ export function takeToken(): string {
 }
 
 /** Whether an address was opened that has a key. */
-export const hasToken = () => location.hash.includes("token=");
+export const hasToken = (hash: string) => hash.includes("token=");
 
 /** If another tab is opened with the key of a restarted server, this tab uses the key, too. */
 export function shareToken(token: string, taken: (token: string) => void): void {

@@ -156,7 +156,14 @@ export class Studio {
       if (this.unsaved && !this.reloading) event.preventDefault();
     });
     // An address that is opened in this tab changes only the part after the #.
-    addEventListener("hashchange", () => (hasToken() ? this.reload() : this.follow(readLink(location.hash))));
+    // The page may have written its own address again before it is told of that one.
+    addEventListener("hashchange", ({ newURL }) => {
+      const { hash } = new URL(newURL);
+      if (hasToken(hash)) {
+        history.replaceState(null, "", newURL);
+        this.reload();
+      } else this.follow(readLink(hash));
+    });
     this.draft.store.subscribe(() => {
       const { net } = this.draft.store.get();
       if (net && this.desk.mode === "edit" && !this.desk.is(net)) this.desk.reset(net, "edit");

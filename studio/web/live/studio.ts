@@ -159,10 +159,7 @@ export class Studio {
     // The page may have written its own address again before it is told of that one.
     addEventListener("hashchange", ({ newURL }) => {
       const { hash } = new URL(newURL);
-      if (hasToken(hash)) {
-        history.replaceState(null, "", newURL);
-        this.reload();
-      } else this.follow(readLink(hash));
+      return hasToken(hash) ? this.reload(newURL) : this.follow(readLink(hash));
     });
     this.draft.store.subscribe(() => {
       const { net } = this.draft.store.get();
@@ -242,8 +239,9 @@ export class Studio {
   }
 
   /** Unsaved text stays in this tab. */
-  private reload(): void {
+  private reload(address = location.href): void {
     this.reloading = true;
+    history.replaceState(null, "", address);
     location.reload();
   }
 

@@ -7,6 +7,7 @@
 #include <thread>
 
 #include "nets.hpp"
+#include "system/stop_signals.hpp"
 #include "tessera/recording.hpp"
 #include "test_system.hpp"
 
@@ -31,7 +32,8 @@ namespace {
   system.add("robot.a", nets::alone, script, 10ms);
   std::thread([] {
     while (!entered) std::this_thread::sleep_for(1ms);
-    kill(getpid(), SIGTERM);
+    // ThreadSanitizer loses a signal that the kernel gives to a thread which has only just been created.
+    for (; StopSignals::pending() == 0; std::this_thread::sleep_for(10ms)) kill(getpid(), SIGTERM);
   }).detach();
   RunOptions options = simulated(1h);
   options.recording = recording;

@@ -9,7 +9,9 @@
 #include <unistd.h>
 
 #include <array>
+#include <barrier>
 #include <fstream>
+#include <thread>
 
 #include "child_run.hpp"
 #include "nets.hpp"
@@ -105,6 +107,31 @@ TEST(Signals, AHandlerThatIsLateWritesIntoNoFileOfSomebodyElse) {
   const StopSignals next;
   pollfd news{.fd = StopSignals::descriptor(), .events = POLLIN, .revents = 0};
   EXPECT_EQ(poll(&news, 1, 0), 0) << "a signal of the run before";
+}
+
+/// Both threads handle a signal at the same time, many times over.
+[[noreturn]] void get_two_signals_at_once() {
+  constexpr int rounds = 5000;
+  std::barrier at_once(2);
+  const auto signal_oneself = [&at_once] {
+    at_once.arrive_and_wait();
+    raise(SIGTERM);
+    at_once.arrive_and_wait();
+  };
+  std::thread other([&] {
+    for (int round = 0; round < rounds; ++round) signal_oneself();
+  });
+  for (int round = 0; round < rounds; ++round) {
+    const StopSignals signals;
+    signal_oneself();
+    if (StopSignals::pending() != SIGTERM) _exit(1);
+  }
+  other.join();
+  _exit(0);
+}
+
+TEST(Signals, TwoThatComeAtOnceAreOneRequestToStop) {
+  EXPECT_EXIT(get_two_signals_at_once(), ::testing::ExitedWithCode(0), "");
 }
 
 TEST(Signals, SuspensionMakesSafeFirstAndTheRunGoesOnWithNewValues) {

@@ -13,7 +13,7 @@ namespace tessera {
 namespace {
 
 std::atomic<int> caught{0};
-std::atomic<std::int64_t> caught_at_ns{0};
+std::atomic<std::int64_t> caught_at_ns{0};  // 0: none
 std::atomic<bool> suspension{false};
 // Never closed: a handler in another thread may be about to write when the object that installed it ends, and its
 // number may belong to a device by then.
@@ -46,9 +46,10 @@ void open_wake_descriptor() {
 void note_stop(int signal) {
   const int kept_errno = errno;
   const std::int64_t now_ns = monotonic_ns();  // clock_gettime is allowed in a handler
-  int none = 0;
-  if (caught.compare_exchange_strong(none, signal)) {
-    caught_at_ns = now_ns;
+  // The time first: a thread that handles the second signal meanwhile must not take the first for an old one.
+  std::int64_t none = 0;
+  if (caught_at_ns.compare_exchange_strong(none, now_ns)) {
+    caught = signal;
   } else if (is_deliberate(signal) && now_ns - caught_at_ns > second_signal_after_ns) {
     std::signal(signal, SIG_DFL);
     raise(signal);
@@ -75,6 +76,7 @@ StopSignals::StopSignals(Suspension wanted) {
   if (depth++ > 0) return;
   outermost_ = true;
   caught = 0;
+  caught_at_ns = 0;
   suspension = false;
   open_wake_descriptor();
   for_handled_signals([&](int signal, SignalUse use) {

@@ -101,7 +101,10 @@ void add_world(Command& command, const Specification& specification, const Launc
   const std::string& file = options.world.empty() ? simulation.world : options.world;
   if (!file.empty()) append(command, {"--world", asset(file, specification.project, "worlds").string()});
   const auto world = world_of(simulation, specification.project, options.world);
-  if (!world) return;  // the drivers are C++ classes
+  if (!world) {  // the drivers are C++ classes
+    if (!simulation.use_checks.empty()) add_devices(command, specification, options);
+    return;
+  }
   append(command, {"--world-library", world->library.string()});
   if (const std::optional<Floor> floor = floor_of(specification, options))
     add_floor(command, simulation, *floor, options);

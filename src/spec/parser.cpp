@@ -74,11 +74,11 @@ Model read_model(const Node& root, Diagnostics& out) {
   models.complain_about_unused(model, out);
   check_wiring(model, excuses, out);
   check_waits(model, out);
-  check_uses(model, out);
   check_complete_lists(model, out);
   model.drivers = read_drivers(file.find("drivers"), Devices::real, model, groups, out);
   model.properties = read_properties(file.find("properties"), model, groups, out);
   model.simulation = read_simulation(file.find("simulation"), model, groups, out);
+  check_uses(model, out);
   read_deployment(file.find("deploy"), groups, model, out);
   model.timing = read_timing(file.find("timing"), model, groups, out);
   check_writers(model, out);

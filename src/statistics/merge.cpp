@@ -90,6 +90,7 @@ void add(Results& sum, const Results& more) {
     *sum.ended_by_themselves += *more.ended_by_themselves;
   else
     sum.ended_by_themselves.reset();  // then it is not known of all runs
+  sum.ended_with_failed_check += more.ended_with_failed_check;
   for (const Distribution& one : more.distributions) add(sum.distributions, one);
   if (more.failure && (!sum.failure || more.failure->seed < sum.failure->seed)) sum.failure = more.failure;
   for (const auto& [name, firings] : more.transitions) sum.transitions[name] += firings;

@@ -96,7 +96,7 @@ std::string distribution_rows(const Results& results) {
         "{} of {} runs ended by themselves{}; the others: {} ({} to {}), of which {} failed\n", ended,
         results.tried, limit == results.identity.settings.end() ? "" : " within " + limit->second,
         percent(static_cast<double>(others) / static_cast<double>(results.tried)), percent(late.low),
-        percent(late.high), results.failed);
+        percent(late.high), results.failed - results.ended_with_failed_check);
   }
   for (const Distribution& one : results.distributions) text += rows_of(one);
   return text.empty() ? text : text + "\n";

@@ -159,7 +159,11 @@ void read_counts(const json& from, Results& results) {
     for (const json& one : from.at("injected")) results.injected.push_back(injected_in(one, results));
   if (from.contains("ended_by_themselves")) {
     results.ended_by_themselves = count_in(from.at("ended_by_themselves"));
-    demand(*results.ended_by_themselves <= results.tried - results.failed, "more runs ended than there were");
+    results.ended_with_failed_check = count_in(from.value("ended_with_failed_check", json(0)));
+    demand(
+        results.ended_with_failed_check <= std::min(results.failed, *results.ended_by_themselves) &&
+            *results.ended_by_themselves - results.ended_with_failed_check <= results.tried - results.failed,
+        "more runs ended than there were");
     for (const json& one : from.at("distributions"))
       results.distributions.push_back(distribution_in(one, results));
   }
@@ -220,6 +224,7 @@ std::string to_json(const Results& results) {
     written["injected"].push_back({{"fault", one.fault}, {"runs", one.runs}, {"missed", one.missed}});
   if (results.ended_by_themselves) {
     written["ended_by_themselves"] = *results.ended_by_themselves;
+    written["ended_with_failed_check"] = results.ended_with_failed_check;
     written["distributions"] = ordered_json::array();
     for (const Distribution& one : results.distributions) written["distributions"].push_back(to_json(one));
   }

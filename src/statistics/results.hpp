@@ -65,8 +65,10 @@ struct Results {
   };
   std::optional<Failure> failure;    ///< the run of the lowest seed that failed
   std::vector<Injected> injected{};  ///< each fault of `--inject` once
-  /// Runs that have neither failed nor used up their duration. nullopt: results of an earlier version do not say it.
+  /// Runs that have ended before their duration was over, without a failure other than of a check. nullopt: results
+  /// of an earlier version do not say it.
   std::optional<std::uint64_t> ended_by_themselves{};
+  std::uint64_t ended_with_failed_check = 0;  ///< runs among them of which a check failed
   std::vector<Distribution> distributions{};
   /// First seeds whose runs had another result when they were made again, alone in a process.
   std::vector<std::uint64_t> not_repeated;
@@ -79,7 +81,7 @@ struct Results {
 /// [begin, end], "parts", "ran": [[begin, end]...], "tried", "failed", "interval": [low, high], "simulated_s",
 /// "wall_s", "firings", "interrupted", "kinds", "outcomes", "failure": null or {"seed", "at_s", "ended"},
 /// "not_repeated": [seed...], "again", "injected" (if there are faults): [{"fault", "runs", "missed"}...], "ended_by_themselves",
-/// "distributions": [{"name", "unit", "runs", "sum", "sum_of_squares", "least": {"value", "seed"}, "greatest", "classes":
+/// "ended_with_failed_check", "distributions": [{"name", "unit", "runs", "sum", "sum_of_squares", "least": {"value", "seed"}, "greatest", "classes":
 /// [[class, runs]...]}...], "reproduce" (if a run failed), "transitions" (if counted)}. kinds and outcomes: [{"kind", "name",
 /// "runs", "failed", "interval", and if there are runs "first_seed", "at_s", "text", "reproduce"}...].
 [[nodiscard]] std::string to_json(const Results& results);

@@ -91,10 +91,10 @@ class Command : public testing::Test {
   project::Exit shell(const std::string& line) const {
     return project::capture({"sh", "-c", "cd \"$0\" && " + line, folder_.string()});
   }
-  /// Runs it with `--json FILE`, expects success and gives the JSON.
-  nlohmann::json json(const std::string& arguments) const {
+  /// Runs it with `--json FILE`, expects this exit code and gives the JSON.
+  nlohmann::json json(const std::string& arguments, int code = 0) const {
     const project::Exit done = tessera(arguments + " --json out.json");
-    EXPECT_EQ(done.code, 0) << arguments << "\n" << done.text;
+    EXPECT_EQ(done.code, code) << arguments << "\n" << done.text;
     return nlohmann::json::parse(content_of(folder_ / "out.json"), nullptr, false);
   }
   /// A copy of an example, since building in the source tree would disturb it.

@@ -84,4 +84,44 @@ TEST_F(Missions, HaveTheMeanAndVarianceOfTheirStages) {
   EXPECT_EQ(json("simulate mission --for 60s --seed 7").at("used"), one.at("used"));
 }
 
+TEST_F(Missions, ChecksBoundWhatTheyUse) {
+  const std::string check = "simulation: { checks: [{ name: battery, at_most: { energy: 0.81 kJ } }] }\n";
+  write(folder_ / "mission/spec.yaml", two_stages + check);
+  write(folder_ / "mission/src/robot.cpp", functions);
+  // Half of them use more than the mean, since both stages are symmetric. Yet all of them count in the distribution.
+  const nlohmann::json all = json("schedules 1000 mission --for 60s", 1);
+  const auto failed = all.at("failed").get<std::uint64_t>();
+  EXPECT_NEAR(static_cast<double>(failed), 500, far * std::sqrt(1000 * 0.25));
+  EXPECT_EQ(all.at("ended_by_themselves"), 1000);
+  EXPECT_EQ(all.at("ended_with_failed_check"), failed);
+  EXPECT_EQ(moments_of(all, "energy").runs, 1000U);
+  EXPECT_EQ(moments_of(all, "time").runs, 1000U);
+  for (const nlohmann::json& outcome : all.at("outcomes"))
+    if (outcome.at("name") == "battery") EXPECT_EQ(outcome.at("runs"), failed);
+  const project::Exit table = tessera("schedules 300 mission --for 60s");
+  EXPECT_NE(table.text.find("300 of 300 runs ended by themselves within 60s; the others: 0 %"),
+            std::string::npos)
+      << table.text;
+  EXPECT_NE(table.text.find("of which 0 failed"), std::string::npos) << table.text;
+
+  // Runs that use up their duration have not ended by themselves, also where the check fails.
+  const nlohmann::json late = json("schedules 300 mission --for 12s", 1);
+  EXPECT_EQ(moments_of(late, "energy").runs, 300U);
+  EXPECT_LT(late.at("ended_by_themselves").get<int>(), 200);
+
+  const std::uint64_t seed = all.at("failure").at("seed");
+  const nlohmann::json one = json("simulate mission --for 60s --seed " + std::to_string(seed), 1);
+  const nlohmann::json& judged = one.at("checks").at(0);
+  EXPECT_EQ(judged.at("name"), "battery");
+  EXPECT_EQ(judged.at("text"), "at_most: energy 810 J");
+  EXPECT_EQ(judged.at("verdict"), "failed");
+  EXPECT_NE(one.at("ended").get<std::string>().find("; a check failed: battery"), std::string::npos) << one;
+
+  write(folder_ / "mission/spec.yaml",
+        two_stages + std::string("simulation: { checks: [{ at_most: { energy: 5 kJ } }] }\n"));
+  const project::Exit kept = tessera("simulate mission --for 60s");
+  EXPECT_EQ(kept.code, 0) << kept.text;
+  EXPECT_NE(kept.text.find("check at_most energy: held"), std::string::npos) << kept.text;
+}
+
 }  // namespace tessera::cli_test

@@ -163,11 +163,13 @@ TEST(SimulationFile, GivesTargetsOptionsAndModels) {
     { "path": "robot[0].base.speed", "kind": "actuator", "targets": ["a", "b"],
       "options": { "outside": "clamp" } } ],
     "models": [ { "instance": "robot[0]" } ],
-    "checks": [ { "name": "apart", "when": "never", "formula": "contact(a, b)" } ], "measures": {} })json";
-  std::vector<DriverRequest> drivers;
+    "checks": [ { "name": "apart", "when": "never", "formula": "contact(a, b)" } ], "measures": {},
+    "use_checks": [ { "name": "battery", "resource": "energy", "most": 200 } ] })json";
+  RunOptions options;
+  const std::vector<DriverRequest>& drivers = options.drivers;
   WorldOptions world;
   std::string error;
-  ASSERT_TRUE(read_simulation_file(file, drivers, world, error)) << error;
+  ASSERT_TRUE(read_simulation_file(file, options, world, error)) << error;
   ASSERT_EQ(drivers.size(), 2U);
   EXPECT_EQ(drivers[1].targets, (std::vector<std::string>{"a", "b"}));
   EXPECT_EQ(std::get<std::string>(drivers[1].options.at("outside").values.at(0).value), "clamp");
@@ -178,6 +180,9 @@ TEST(SimulationFile, GivesTargetsOptionsAndModels) {
   EXPECT_EQ(world.models, R"([{"instance":"robot[0]"}])");
   EXPECT_EQ(world.checks,
             R"json({"checks":[{"formula":"contact(a, b)","name":"apart","when":"never"}]})json");
+  ASSERT_EQ(options.use_checks.size(), 1U);
+  EXPECT_EQ(options.use_checks[0].resource, "energy");
+  EXPECT_EQ(options.use_checks[0].most, 200);
 }
 
 TEST(SimulationFile, OfAnotherFormIsRefused) {
@@ -185,18 +190,19 @@ TEST(SimulationFile, OfAnotherFormIsRefused) {
   for (const char* text :
        {"", "{", "[]", "{}", R"({"drivers": [{}]})", R"({"drivers": [{"path": 1}]})",
         R"({"drivers": [{"path": "a", "kind": "b", "targets": "c"}]})",
-        R"({"drivers": [{"path": "a", "kind": "b", "targets": [], "options": {"x": null}}]})"}) {
+        R"({"drivers": [{"path": "a", "kind": "b", "targets": [], "options": {"x": null}}]})",
+        R"({"drivers": [], "use_checks": [{"name": "battery"}]})"}) {
     std::ofstream(file) << text;
-    std::vector<DriverRequest> drivers;
+    RunOptions options;
     WorldOptions world;
     std::string error;
-    EXPECT_FALSE(read_simulation_file(file, drivers, world, error)) << text;
+    EXPECT_FALSE(read_simulation_file(file, options, world, error)) << text;
     EXPECT_NE(error.find("is no simulation file"), std::string::npos) << error;
   }
-  std::vector<DriverRequest> drivers;
+  RunOptions options;
   WorldOptions world;
   std::string error;
-  EXPECT_FALSE(read_simulation_file("/nowhere.json", drivers, world, error));
+  EXPECT_FALSE(read_simulation_file("/nowhere.json", options, world, error));
 }
 
 }  // namespace

@@ -40,12 +40,17 @@ TEST(ScheduleReport, NamesChecksThatNeverFailed) {
               .firings = 5,
               .ended = "a check failed: apart",
               .events = {{.kind = "assertion", .name = "apart", .at_s = 0.5, .text = "apart: at 0.500 s"}}});
-  report.add_checks("");
-  report.add_checks(R"({"measures": {}})");
+  RunOptions options;
+  report.add_checks(options);
+  options.world.emplace().checks = R"({"measures": {}})";
+  report.add_checks(options);
   EXPECT_EQ(report.outcomes.size(), 1U);
   // Faults of the system go by what stands before a colon.
-  report.add_checks(R"({"checks": [{"name": "apart"}, {"name": "robot: upright"}]})");
-  EXPECT_EQ(report.outcomes.size(), 2U);
+  options.world->checks = R"({"checks": [{"name": "apart"}, {"name": "robot: upright"}]})";
+  options.use_checks = {{"battery", "energy", 200}};
+  report.add_checks(options);
+  EXPECT_EQ(report.outcomes.size(), 3U);
+  EXPECT_EQ(report.outcomes.at({"assertion", "battery"}).runs, 0U);
   EXPECT_EQ(outcome_of(report, "assertion", "apart").runs, 1U);
   EXPECT_EQ(report.outcomes.at({"assertion", "robot"}).runs, 0U);
   EXPECT_NE(schedules_text(report).find("assertion robot: in none of 1 runs\n"), std::string::npos);

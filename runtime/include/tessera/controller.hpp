@@ -56,6 +56,12 @@ struct RunOptions {
   /// Hardware in the loop: paths of subsystems and real buffers that use their real drivers in a simulated
   /// run. The simulated clock is then never faster than the wall clock, and the run cannot be paused.
   std::vector<std::string> hardware;
+  /// The most that all agents together may use of a resource, as a check of the run.
+  struct UseCheck {
+    std::string name, resource;
+    double most = 0;  ///< in the unit of the resource
+  };
+  std::vector<UseCheck> use_checks;
   std::optional<WorldOptions> world;
   std::string world_library;  ///< shared library that opens the world
   /// The run can be watched and, in real time, stopped from outside (tessera/monitor.hpp). In real time it
@@ -132,7 +138,8 @@ struct RunSummary {
     stuck,     ///< a subsystem is stuck for good
     scenario,  ///< the scenario could not be followed
     unsafe,    ///< a device has not taken its safe command
-    world      ///< the simulated world failed
+    world,     ///< the simulated world failed
+    check      ///< it went on to its end, but a check of it failed
   } failure = Failure::none;
   int signal = 0;  ///< the signal that ended the run; 0: none
   /// If a world was slower than real time: the time that the world reached while `simulated` passed.

@@ -174,7 +174,7 @@ void describe_network(CLI::App& run, CLI::App& simulate, RunOptions::Network& ne
   WorldOptions world = words.world;
   if (!words.simulation.empty()) {
     std::string error;
-    if (!read_simulation_file(words.simulation, options.drivers, world, error)) return Problem{error};
+    if (!read_simulation_file(words.simulation, options, world, error)) return Problem{error};
   }
   if (!world.world.empty()) world.server.reset();  // a world file on the command line comes first
   if (world.world.empty() && !world.server) return std::nullopt;

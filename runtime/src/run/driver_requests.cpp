@@ -81,7 +81,7 @@ std::optional<DriverRequest> parse_driver(const std::string& text, std::string& 
   return request;
 }
 
-bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& drivers, WorldOptions& world,
+bool read_simulation_file(const std::string& path, RunOptions& options, WorldOptions& world,
                           std::string& error) {
   std::ifstream stream(path);
   if (!stream) {
@@ -90,7 +90,10 @@ bool read_simulation_file(const std::string& path, std::vector<DriverRequest>& d
   }
   try {
     const json file = json::parse(stream);
-    for (const json& driver : file.at("drivers")) drivers.push_back(request_of(driver));
+    for (const json& driver : file.at("drivers")) options.drivers.push_back(request_of(driver));
+    for (const json& check : file.value("use_checks", json::array()))
+      options.use_checks.push_back({check.at("name").get<std::string>(),
+                                    check.at("resource").get<std::string>(), check.at("most").get<double>()});
     if (const auto placed = file.find("models"); placed != file.end() && !placed->empty())
       world.models = placed->dump();
     if (const auto server = file.find("coppelia"); server != file.end()) world.server = server_of(*server);

@@ -179,7 +179,7 @@ template <class Run>
   }
   if (const std::optional<std::string> failed_checks = finish_checks(assembly, ending.at)) {
     ending.text += *failed_checks;
-    ending.failed = true;
+    if (!std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::check;
   }
   std::string stuck;
   if (!ending.failed) stuck = stuck_text(assembly, stuck_for_good(assembly));

@@ -108,15 +108,17 @@ void ScheduleReport::add(const ScheduleResult& result) {
     if (earliest == nullptr || event.at_s < earliest->at_s) earliest = &event;
   }
   for (const auto& [kind, event] : first) count_event(kinds[std::string(kind)], result, *event);
-  if (!result.failed) {
+  // A check that only the long runs fail must not take them out of the distribution.
+  if (!result.failed || result.only_check_failed) {
     if (result.ended_by_itself) {
       ++ended_by_themselves;
+      if (result.failed) ++ended_with_failed_check;
       count("time", "s", seconds(result.simulated), result.seed);
     }
     for (const ScheduleResult::Used& used : result.used)
       count(used.resource, used.unit, used.amount, result.seed);
-    return;
   }
+  if (!result.failed) return;
   ++failed;
   const bool is_known_when = result.events.empty() || !std::isnan(result.events.front().at_s);
   if (!first_failure || result.seed < first_failure->seed)
@@ -131,14 +133,15 @@ void ScheduleReport::count(const std::string& name, const std::string& unit, dou
   found->samples.add(value, seed);
 }
 
-void ScheduleReport::add_checks(const std::string& checks) {
-  if (checks.empty()) return;
-  const auto json = nlohmann::json::parse(checks);
+void ScheduleReport::add_checks(const RunOptions& options) {
+  const auto add = [this](std::string_view name) {
+    outcomes.try_emplace({std::string(name_of(Fault::assertion)), std::string(name_in_fault(name))});
+  };
+  for (const RunOptions::UseCheck& check : options.use_checks) add(check.name);
+  if (!options.world || options.world->checks.empty()) return;
+  const auto json = nlohmann::json::parse(options.world->checks);
   if (!json.contains("checks")) return;
-  for (const auto& check : json.at("checks")) {
-    const std::string name(name_in_fault(check.at("name").get_ref<const std::string&>()));
-    outcomes.try_emplace({std::string(name_of(Fault::assertion)), name});
-  }
+  for (const auto& check : json.at("checks")) add(check.at("name").get_ref<const std::string&>());
 }
 
 std::string schedules_text(const ScheduleReport& report) {
@@ -199,6 +202,7 @@ std::string schedules_json(const ScheduleReport& report) {
   for (const auto& [fault, count] : report.injected)
     json["injected"].push_back({{"fault", fault}, {"runs", count.runs}, {"missed", count.missed}});
   json["ended_by_themselves"] = report.ended_by_themselves;
+  json["ended_with_failed_check"] = report.ended_with_failed_check;
   json["distributions"] = ordered_json::array();
   for (const ScheduleReport::Distribution& one : report.distributions)
     json["distributions"].push_back(distribution_json(one));
@@ -219,9 +223,17 @@ std::string to_line(const ScheduleResult& result) {
   ordered_json used = ordered_json::array();
   for (const ScheduleResult::Used& one : result.used)
     used.push_back(ordered_json::array({one.resource, one.unit, one.amount}));
-  const ordered_json line{
-      result.seed,  result.failed,     result.interrupted,  result.simulated.count(), result.firings,
-      result.ended, std::move(events), std::move(injected), result.ended_by_itself,   std::move(used)};
+  const ordered_json line{result.seed,
+                          result.failed,
+                          result.interrupted,
+                          result.simulated.count(),
+                          result.firings,
+                          result.ended,
+                          std::move(events),
+                          std::move(injected),
+                          result.ended_by_itself,
+                          std::move(used),
+                          result.only_check_failed};
   return line.dump(-1, ' ', false, invalid_text_replaced);
 }
 
@@ -240,6 +252,7 @@ std::optional<ScheduleResult> from_line(std::string_view line) try {
   for (const auto& fault : json.at(7)) result.injected.push_back({fault.at(0), fault.at(1)});
   result.ended_by_itself = json.at(8);
   for (const auto& one : json.at(9)) result.used.push_back({one.at(0), one.at(1), one.at(2)});
+  result.only_check_failed = json.at(10);
   return result;
 } catch (const nlohmann::json::exception&) {
   return std::nullopt;

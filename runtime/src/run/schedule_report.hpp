@@ -43,7 +43,8 @@ struct ScheduleResult {
     std::string resource, unit;
     double amount = 0;
   };
-  std::vector<Used> used{};  ///< by all agents together
+  std::vector<Used> used{};        ///< by all agents together
+  bool only_check_failed = false;  ///< the run went on to its end, but a check of it failed
 };
 
 /// The frequency of one kind of fault or failure.
@@ -89,8 +90,9 @@ struct ScheduleReport {
   /// Seeds reported as first whose run had another result when it was repeated alone in a process: user code
   /// keeps some state from run to run.
   std::vector<std::uint64_t> not_repeated;
-  std::uint64_t ended_by_themselves = 0;  ///< runs that have not failed, and have not used up their duration
-  /// A number of each run that has not failed. The time is that of runs that have ended by themselves.
+  std::uint64_t ended_by_themselves = 0;      ///< before their duration was over, whatever their checks say
+  std::uint64_t ended_with_failed_check = 0;  ///< runs among them of which a check failed
+  /// A number of each run that went on to its end, whatever its checks say. The time is that of runs that have ended by themselves.
   struct Distribution {
     std::string name, unit;  ///< "time", "s"; "energy", "J"
     SampleCounts samples{};
@@ -102,8 +104,8 @@ struct ScheduleReport {
   ScheduleReport();
   void add(const ScheduleResult& result);
   void count(const std::string& name, const std::string& unit, double value, std::uint64_t seed);
-  /// Checks that have not failed in any run get an outcome, too. checks: WorldOptions::checks.
-  void add_checks(const std::string& checks);
+  /// Checks that have not failed in any run get an outcome, too.
+  void add_checks(const RunOptions& options);
 };
 
 /// A few lines for people.

@@ -46,6 +46,7 @@ constexpr std::string_view out_of_time = "duration";
       return "unsafe device";
     case RunSummary::Failure::world:
       return "world";
+    case RunSummary::Failure::check:
     case RunSummary::Failure::none:
       break;
   }
@@ -53,17 +54,21 @@ constexpr std::string_view out_of_time = "duration";
 }
 
 [[nodiscard]] ScheduleResult result_of(std::uint64_t seed, const RunSummary& summary, const RunTally& tally) {
-  ScheduleResult result{
-      .seed = seed,
-      .failed = summary.failed,
-      .interrupted = false,
-      .simulated = summary.simulated,
-      .firings = summary.firings,
-      .ended = summary.ended,
-      .events = {},
-      .injected = summary.injected,
-      .ended_by_itself = !summary.failed && summary.signal == 0 && summary.ended != out_of_time,
-      .used = {}};
+  const bool only_check = summary.failure == RunSummary::Failure::check;
+  // Behind the semicolon stand the checks that failed.
+  const bool used_up =
+      summary.ended == out_of_time || (only_check && summary.ended.starts_with("duration; "));
+  ScheduleResult result{.seed = seed,
+                        .failed = summary.failed,
+                        .interrupted = false,
+                        .simulated = summary.simulated,
+                        .firings = summary.firings,
+                        .ended = summary.ended,
+                        .events = {},
+                        .injected = summary.injected,
+                        .ended_by_itself = (!summary.failed || only_check) && summary.signal == 0 && !used_up,
+                        .used = {},
+                        .only_check_failed = only_check};
   for (const RunSummary::Used& used : summary.used)
     result.used.push_back({used.resource, used.unit, used.amount});
   for (const RunTally::SeenFault& fault : tally.faults())
@@ -73,7 +78,7 @@ constexpr std::string_view out_of_time = "duration";
          .at_s = seconds(fault.first.time_since_epoch()),
          .text = fault.text});
   const bool unexplained = summary.failed && result.events.empty();
-  if (unexplained || (summary.failed && summary.failure != RunSummary::Failure::none))
+  if (unexplained || (summary.failed && !only_check && summary.failure != RunSummary::Failure::none))
     result.events.push_back({.kind = std::string(name_of(summary.failure)),
                              .name = "",
                              .at_s = seconds(summary.simulated),

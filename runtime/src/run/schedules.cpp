@@ -263,7 +263,7 @@ std::optional<ScheduleReport> try_schedules(const System& system, RunOptions opt
   std::optional<ScheduleReport> report = Schedules(system, options, request, parent, progress).run(error);
   if (report && report->interrupted == 0)
     report->not_repeated = not_repeated(*report, system, options, parent);
-  if (report && options.world) report->add_checks(options.world->checks);
+  if (report) report->add_checks(options);
   return report;
 } catch (const std::exception& exception) {
   error = exception.what();

@@ -2,6 +2,11 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "assembly/run_accounts.hpp"
 #include "system/console.hpp"
 
 namespace tessera {
@@ -11,12 +16,47 @@ Time time_of(const WorldFailure& failure) {
   return Time(std::chrono::duration_cast<Duration>(std::chrono::duration<double>(failure.time_s)));
 }
 
+void print_failure(const WorldFailure& failure) {
+  console::print(LogLevel::error, time_of(failure), "tessera",
+                 fmt::format("the check '{}' has failed: {}", failure.check, failure.text));
+}
+
+/// Adds the checks of what the run has used to the judgement of its world.
+void judge_uses(Assembly& assembly, Time now) {
+  if (assembly.options.use_checks.empty()) return;
+  using nlohmann::ordered_json;
+  ordered_json judgement =
+      assembly.judgement.empty() ? ordered_json::object() : ordered_json::parse(assembly.judgement);
+  const std::vector<RunSummary::Used> used = used_resources(assembly, now);
+  for (const RunOptions::UseCheck& check : assembly.options.use_checks) {
+    const auto found = std::ranges::find(used, check.resource, &RunSummary::Used::resource);
+    ordered_json result{{"name", check.name},
+                        {"text", fmt::format("at_most: {} {:.6g}", check.resource, check.most)},
+                        {"verdict", "open"}};  // of a simulation file of another system
+    if (found != used.end()) {
+      result["text"] = fmt::format("at_most: {} {:.6g} {}", check.resource, check.most, found->unit);
+      result["verdict"] = found->amount > check.most ? "failed" : "held";
+    }
+    if (result["verdict"] == "failed") {
+      const double now_s = seconds(now.time_since_epoch());
+      const std::string detail = fmt::format("{:.6g} {} used", found->amount, found->unit);
+      result["time_s"] = now_s;
+      result["detail"] = detail;
+      WorldFailure failure{check.name, fmt::format("{} ({})", detail, result["text"].get<std::string>()),
+                           now_s};
+      print_failure(failure);
+      assembly.failed_checks.push_back(std::move(failure));
+    }
+    judgement["checks"].push_back(std::move(result));
+  }
+  assembly.judgement = judgement.dump();
+}
+
 }  // namespace
 
 void notice_failed_checks(Assembly& assembly) {
   for (WorldFailure& failure : assembly.world->take_failures()) {
-    console::print(LogLevel::error, time_of(failure), "tessera",
-                   fmt::format("the check '{}' has failed: {}", failure.check, failure.text));
+    print_failure(failure);
     assembly.failed_checks.push_back(std::move(failure));
   }
 }
@@ -32,9 +72,11 @@ void record_failed_checks(Assembly& assembly, Time now) {
 }
 
 std::optional<std::string> finish_checks(Assembly& assembly, Time now) {
-  if (assembly.world == nullptr) return std::nullopt;
-  assembly.judgement = assembly.world->results();
-  notice_failed_checks(assembly);
+  if (assembly.world != nullptr) {
+    assembly.judgement = assembly.world->results();
+    notice_failed_checks(assembly);
+  }
+  judge_uses(assembly, now);
   record_failed_checks(assembly, now);
   const std::vector<WorldFailure>& failed = assembly.failed_checks;
   if (failed.empty()) return std::nullopt;

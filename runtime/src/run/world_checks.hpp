@@ -6,7 +6,7 @@
 #include "assembly/assembly.hpp"
 #include "tessera/controller.hpp"
 
-/// The checks of a simulated world during a run.
+/// The checks of a simulated run: of its world, and of what it uses.
 namespace tessera {
 
 /// Prints the checks that have failed since the last call, and keeps them. Threads: the one that advances the

@@ -134,6 +134,9 @@ std::string simulation_json(const spec::Model& model, const fs::path& project,
   if (model.simulation->coppelia) json["coppelia"] = json_of(server_of(*model.simulation->coppelia, project));
   json["checks"] = Json::array();
   for (const spec::WorldCheck& one : model.simulation->checks) json["checks"].push_back(json_of(one.check));
+  json["use_checks"] = Json::array();
+  for (const spec::UseCheck& one : model.simulation->use_checks)
+    json["use_checks"].push_back({{"name", one.name}, {"resource", one.resource}, {"most", one.most}});
   json["measures"] = Json::object();
   for (const spec::WorldMeasure& one : model.simulation->measures)
     json["measures"][one.measure.name] = json_of(one.measure);

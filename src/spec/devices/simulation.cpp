@@ -67,7 +67,7 @@ void require_world(const Section& section, const Simulation& simulation) {
   const bool of_world = std::any_of(simulation.drivers.begin(), simulation.drivers.end(),
                                     [](const Driver& driver) { return driver.is_of_world(); });
   if (of_world || simulation.track || !simulation.checks.empty() || !simulation.measures.empty() ||
-      !simulation.models.empty() || simulation.drivers.empty())
+      !simulation.models.empty() || (simulation.drivers.empty() && simulation.use_checks.empty()))
     section.require("world", "for example world: line_world.xml");
 }
 
@@ -90,7 +90,7 @@ std::optional<Simulation> read_simulation(const Entry* entry, const Model& model
   simulation.models = read_placements(section.find("models"), model, groups, out);
   simulation.drivers = read_drivers(section.find("drivers"), Devices::simulated, model, groups, out);
   read_script(section.find("script"), model, groups, simulation.drivers, out);
-  simulation.checks = read_world_checks(section.find("checks"), out);
+  read_checks(section.find("checks"), simulation, out);
   simulation.measures = read_world_measures(section.find("measures"), out);
   if (section.find("world") == nullptr && !simulation.coppelia) require_world(section, simulation);
   return simulation;

@@ -3,12 +3,15 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <set>
+#include <string>
 #include <utility>
 
 #include "checks/parser.hpp"
 #include "diagnostics/utf8.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "spec/values/takes.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -52,7 +55,7 @@ const Entry* claim_of(const Section& section, Span at, Check::When& when, Diagno
     when = one;
   }
   if (found == nullptr && !section.has_unknown_keys())
-    out.error("E103", at, "a check must say never, always, at_end or eventually", check_hint);
+    out.error("E103", at, "a check must say never, always, at_end, eventually or at_most", check_hint);
   return found;
 }
 
@@ -68,10 +71,35 @@ std::optional<double> read_within(const Section& section, Check::When when, Diag
   return std::chrono::duration<double>(*duration).count();
 }
 
-std::optional<WorldCheck> read_check(const Node& node, Span at, Diagnostics& out) {
-  const Section section(node, at, "a check", {"name", "never", "always", "at_end", "eventually", "within"},
-                        out);
-  if (!section.readable()) return std::nullopt;
+/// The name of a check, if it says one.
+void read_name(const Section& section, std::string& name, Diagnostics& out) {
+  const Entry* entry = section.find("name");
+  if (entry == nullptr) return;
+  if (const Node* words = text_of(*entry->value, entry->span, "the name", out)) name = words->text;
+}
+
+/// `{ name: battery, at_most: { energy: 200 J } }`.
+std::optional<UseCheck> read_use_check(const Section& section, const Entry& at_most, Diagnostics& out) {
+  for (const char* other : {"never", "always", "at_end", "eventually", "within"})
+    if (const Entry* entry = section.find(other)) {
+      out.error("E107", entry->span, in_quotes(other) + " beside 'at_most'", "write two checks");
+      return std::nullopt;
+    }
+  const std::vector<Entry>& most = entries_of(*at_most.value, at_most.span, "at_most", out);
+  if (!at_most.value->is_map()) return std::nullopt;
+  if (most.size() != 1) {
+    out.error("E107", at_most.span, "a check has one resource",
+              "write a check for each, at_most: { energy: 200 J }");
+    return std::nullopt;
+  }
+  std::optional<UseCheck> check = read_most_use(most.front(), out);
+  if (!check) return std::nullopt;
+  check->name = "at_most " + check->resource;
+  read_name(section, check->name, out);
+  return check;
+}
+
+std::optional<WorldCheck> read_world_check(const Section& section, Span at, Diagnostics& out) {
   WorldCheck check;
   const Entry* claim = claim_of(section, at, check.check.when, out);
   check.check.within_s = read_within(section, check.check.when, out);
@@ -80,10 +108,7 @@ std::optional<WorldCheck> read_check(const Node& node, Span at, Diagnostics& out
   if (text == nullptr) return std::nullopt;
   check.span = text->span;
   check.check.name = claim->key + " " + text->text;
-  if (const Entry* name = section.find("name")) {
-    const Node* words = text_of(*name->value, name->span, "the name", out);
-    if (words != nullptr) check.check.name = words->text;
-  }
+  read_name(section, check.check.name, out);
   auto formula = parsed(*text, checks::parse_formula, out);
   if (!formula) return std::nullopt;
   check.check.formula = *std::move(formula);
@@ -93,21 +118,26 @@ std::optional<WorldCheck> read_check(const Node& node, Span at, Diagnostics& out
 
 }  // namespace
 
-std::vector<WorldCheck> read_world_checks(const Entry* entry, Diagnostics& out) {
-  std::vector<WorldCheck> all;
-  if (entry == nullptr) return all;
+void read_checks(const Entry* entry, Simulation& simulation, Diagnostics& out) {
+  if (entry == nullptr) return;
+  std::set<std::string> names;
+  const auto is_new = [&](const std::string& name, Span span) {
+    if (names.insert(name).second) return true;
+    out.error("E308", span, "there is a check " + in_quotes(name) + " already", "give it another name");
+    return false;
+  };
   for (const Node* node : items_of(*entry->value, entry->span, "checks", out)) {
-    auto one = read_check(*node, node->span, out);
-    if (!one) continue;
-    const bool taken = std::ranges::any_of(
-        all, [&](const WorldCheck& other) { return other.check.name == one->check.name; });
-    if (taken)
-      out.error("E308", one->span, "there is a check " + in_quotes(one->check.name) + " already",
-                "give it another name");
-    else
-      all.push_back(*std::move(one));
+    const Section section(*node, node->span, "a check",
+                          {"name", "never", "always", "at_end", "eventually", "within", "at_most"}, out);
+    if (!section.readable()) continue;
+    if (const Entry* at_most = section.find("at_most")) {
+      auto one = read_use_check(section, *at_most, out);
+      if (one && is_new(one->name, one->span)) simulation.use_checks.push_back(*std::move(one));
+    } else {
+      auto one = read_world_check(section, node->span, out);
+      if (one && is_new(one->check.name, one->span)) simulation.checks.push_back(*std::move(one));
+    }
   }
-  return all;
 }
 
 std::vector<WorldMeasure> read_world_measures(const Entry* entry, Diagnostics& out) {

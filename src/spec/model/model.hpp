@@ -323,6 +323,7 @@ struct Simulation {
   std::vector<ModelPlacement> models;  ///< in the order of the file, fleets expanded agent by agent
   std::vector<Driver> drivers;
   std::vector<WorldCheck> checks;
+  std::vector<UseCheck> use_checks;
   std::vector<WorldMeasure> measures;
   Span span;
 

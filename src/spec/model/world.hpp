@@ -43,6 +43,14 @@ struct WorldCheck {
   checks::Check check;
   diagnostics::Span span;  ///< of the formula
 };
+/// The most that all agents together may use of a resource in a simulated run:
+/// `{ name: battery, at_most: { energy: 200 J } }`.
+struct UseCheck {
+  std::string name;
+  std::string resource, unit;  ///< "energy", "J"
+  double most = 0;             ///< in this unit
+  diagnostics::Span span;      ///< of the entry of the resource
+};
 /// A number that a simulated run tells.
 struct WorldMeasure {
   checks::Measure measure;

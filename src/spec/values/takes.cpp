@@ -10,6 +10,8 @@
 #include "diagnostics/utf8.hpp"
 #include "spec/document/section.hpp"
 #include "spec/values/quantities.hpp"
+#include "tessera/nearest.hpp"
+#include "tessera/units.hpp"
 
 namespace tessera::spec {
 namespace {
@@ -18,6 +20,7 @@ using diagnostics::in_quotes;
 
 constexpr const char* normal_hint = "for example takes: { normal: [2 ms, 0.3 ms], within: 1..3 ms }";
 constexpr const char* uses_hint = "for example 12 W, 3 MB/s or 5 /min";
+constexpr const char* most_hint = "for example at_most: { energy: 200 J }";
 constexpr double largest_use = 1e15;
 
 std::optional<Takes> read_normal(const Entry& normal, const Takes& within, Diagnostics& out) {
@@ -58,6 +61,14 @@ struct PowerUnit {
   std::string_view name;
   double watts;
 };
+/// Units of energy.
+struct EnergyUnit {
+  std::string_view name;
+  double joules;
+};
+constexpr std::array energy_units = {EnergyUnit{"J", 1},      EnergyUnit{"mJ", 1e-3}, EnergyUnit{"kJ", 1e3},
+                                     EnergyUnit{"MJ", 1e6},   EnergyUnit{"mWh", 3.6}, EnergyUnit{"Wh", 3600},
+                                     EnergyUnit{"kWh", 3.6e6}};
 constexpr std::array power_units = {PowerUnit{"W", 1}, PowerUnit{"mW", 1e-3}, PowerUnit{"kW", 1e3}};
 
 /// "MB/s": in MB, per second. false: it is no amount per time.
@@ -79,16 +90,22 @@ bool take_unit(std::string_view unit, ResourceUse& use) {
   return true;
 }
 
-std::optional<ResourceUse> read_use(const Entry& entry, Diagnostics& out) {
-  const std::string what = "the use of " + in_quotes(entry.key);
-  const Node* text = text_of(*entry.value, entry.span, what, out, uses_hint);
+/// A number with a unit; nullopt after an error.
+std::optional<Quantity> read_amount(const Entry& entry, const std::string& what, const char* hint,
+                                    const Node*& text, Diagnostics& out) {
+  text = text_of(*entry.value, entry.span, what, out, hint);
   if (text == nullptr) return std::nullopt;
   const auto quantity = split_quantity(text->text);
-  if (!quantity) {
-    out.error("E205", text->span, what + " must be a number with a unit, not " + in_quotes(text->text),
-              uses_hint);
-    return std::nullopt;
-  }
+  if (!quantity)
+    out.error("E205", text->span, what + " must be a number with a unit, not " + in_quotes(text->text), hint);
+  return quantity;
+}
+
+std::optional<ResourceUse> read_use(const Entry& entry, Diagnostics& out) {
+  const std::string what = "the use of " + in_quotes(entry.key);
+  const Node* text = nullptr;
+  const auto quantity = read_amount(entry, what, uses_hint, text, out);
+  if (!quantity) return std::nullopt;
   ResourceUse use{entry.key, {}, quantity->number, entry.span};
   if (!take_unit(quantity->unit, use)) {
     out.error("E386", text->span, what + " must be an amount per time, not " + in_quotes(text->text),
@@ -134,6 +151,24 @@ std::vector<ResourceUse> read_uses(const Entry* entry, Diagnostics& out) {
   return uses;
 }
 
+std::optional<UseCheck> read_most_use(const Entry& entry, Diagnostics& out) {
+  const std::string what = "the most " + in_quotes(entry.key);
+  const Node* text = nullptr;
+  const auto quantity = read_amount(entry, what, most_hint, text, out);
+  if (!quantity) return std::nullopt;
+  UseCheck check{{}, entry.key, std::string(quantity->unit), quantity->number, text->span};
+  for (const EnergyUnit& energy : energy_units)
+    if (quantity->unit == energy.name) {
+      check.unit = "J";
+      check.most *= energy.joules;
+    }
+  if (check.most < 0 || check.most > largest_use) {
+    out.error("E206", text->span, what + " must lie between 0 and 1e15");
+    return std::nullopt;
+  }
+  return check;
+}
+
 void check_uses(const Model& model, Diagnostics& out) {
   std::map<std::string, const ResourceUse*> first;
   for (const Definition& definition : model.definitions)
@@ -147,6 +182,22 @@ void check_uses(const Model& model, Diagnostics& out) {
                           in_quotes(other.unit) + " in line " + std::to_string(other.span.line),
                       "amounts of one unit can be added; write the same unit in both");
         }
+  if (!model.simulation) return;
+  std::vector<std::string> known;
+  for (const auto& [name, use] : first) known.push_back(name);
+  for (const UseCheck& check : model.simulation->use_checks) {
+    const auto use = first.find(check.resource);
+    if (use == first.end()) {
+      Hint hint = did_you_mean(check.resource, known);
+      if (hint.empty()) hint = "a behaviour says what it uses: uses: { " + check.resource + ": 12 W }";
+      out.error("E386", check.span, "no behaviour uses " + in_quotes(check.resource), std::move(hint));
+    } else if (use->second->unit != check.unit) {
+      out.error("E386", check.span,
+                in_quotes(check.resource) + " is counted in " + in_quotes(use->second->unit) + " in line " +
+                    std::to_string(use->second->span.line) + ", not in " + in_quotes(check.unit),
+                "write the most in " + use->second->unit);
+    }
+  }
 }
 
 std::vector<Resource> resources_of(const Model& model) {

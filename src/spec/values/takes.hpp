@@ -18,7 +18,13 @@ namespace tessera::spec {
 /// Errors: E104, E205 no number; E206 negative or too large; E386 no amount per time.
 [[nodiscard]] std::vector<ResourceUse> read_uses(const Entry* entry, Diagnostics& out);
 
-/// Compares the units of each resource in all behaviours. Errors: E386 two behaviours count it in different units.
+/// Reads the `200 J` of `at_most: { energy: 200 J }`, the most that a run may use; nullopt after an error. The result
+/// lacks its name.
+/// Errors: E104, E205 no number; E206 negative or too large.
+[[nodiscard]] std::optional<UseCheck> read_most_use(const Entry& entry, Diagnostics& out);
+
+/// Compares the units of each resource in all behaviours and checks.
+/// Errors: E386 different units, or a check of something that no behaviour uses.
 void check_uses(const Model& model, Diagnostics& out);
 
 }  // namespace tessera::spec

@@ -96,6 +96,12 @@ export function worldHelp({ yaml }: Structure, targets: Targets): HelpByKey {
       hint: "Conditions of a simulated run",
       fresh: { value: { name: `check ${count + 1}`, never: each(first, `contact(${first})`) } },
     },
+    at_most: {
+      title: "At most",
+      one: "resource",
+      hint: "What all agents may use together in a run; behaviours say what they use",
+      fresh: { name: "energy", value: "200 J" },
+    },
     measures: {
       hint: "Numbers that a simulated run reports at its end",
       choices: [...numbers, ...pairs],

@@ -23,6 +23,7 @@ it("the shape of a value is that of the schema, and of the present value if ther
     ["always", 2],
     ["at_end", 2],
     ["eventually", 3],
+    ["at_most", 2],
   ]);
   const property = shape("$defs/property");
   expect(property.kind === "cases" && property.cases[4]!.fields.map(({ key }) => key)).toEqual(["name", "leads_to"]);

@@ -156,7 +156,7 @@ std::optional<UseCheck> read_most_use(const Entry& entry, Diagnostics& out) {
   const Node* text = nullptr;
   const auto quantity = read_amount(entry, what, most_hint, text, out);
   if (!quantity) return std::nullopt;
-  UseCheck check{{}, entry.key, std::string(quantity->unit), quantity->number, text->span};
+  UseCheck check{{}, entry.key, std::string(quantity->unit), quantity->number, entry.span};
   for (const EnergyUnit& energy : energy_units)
     if (quantity->unit == energy.name) {
       check.unit = "J";

@@ -40,7 +40,6 @@ void judge_uses(Assembly& assembly, Time now) {
     if (result["verdict"] == "failed") {
       const double now_s = seconds(now.time_since_epoch());
       const std::string detail = fmt::format("{:.6g} {} used", found->amount, found->unit);
-      result["time_s"] = now_s;
       result["detail"] = detail;
       WorldFailure failure{check.name, fmt::format("{} ({})", detail, result["text"].get<std::string>()),
                            now_s};

@@ -51,6 +51,14 @@ report::DrivenPath drive_over(const sim::Track& floor, sim::Trace trace, bool is
   return drive;
 }
 
+void put_verdict(const json& check, report::JudgedCurve& curve) {
+  curve.verdict = check.value("verdict", "");
+  curve.text = check.value("text", "");
+  curve.detail = check.value("detail", "");
+  if (curve.verdict == "failed" && check.contains("time_s"))
+    curve.failed_s = check.at("time_s").get<double>();
+}
+
 std::vector<report::JudgedCurve> judged_in(const RunOutcome& outcome) {
   std::vector<report::JudgedCurve> all;
   const json checks = outcome.summary.value("checks", json::array());
@@ -67,13 +75,15 @@ std::vector<report::JudgedCurve> judged_in(const RunOutcome& outcome) {
           span.is_null() ? std::nullopt
                          : std::optional(std::pair(span.at(0).get<double>(), span.at(1).get<double>())));
     // The curves of the checks come first, in their order.
-    if (!curve.is_check || all.size() > checks.size()) continue;
-    const json& check = checks[all.size() - 1];
-    curve.verdict = check.value("verdict", "");
-    curve.text = check.value("text", "");
-    curve.detail = check.value("detail", "");
-    if (curve.verdict == "failed" && check.contains("time_s"))
-      curve.failed_s = check.at("time_s").get<double>();
+    if (curve.is_check && all.size() <= checks.size()) put_verdict(checks[all.size() - 1], curve);
+  }
+  // Those of what the run used have none.
+  const auto drawn = static_cast<std::size_t>(std::ranges::count_if(all, &report::JudgedCurve::is_check));
+  for (std::size_t at = drawn; at < checks.size(); ++at) {
+    report::JudgedCurve& curve = all.emplace_back();
+    curve.name = checks[at].value("name", "");
+    curve.is_check = true;
+    put_verdict(checks[at], curve);
   }
   return all;
 }

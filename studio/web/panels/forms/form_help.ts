@@ -1,3 +1,4 @@
+import type { EditValue } from "../../model/protocol";
 import { limitNames } from "../../model/structure/inside_types";
 import type { Structure, Subsystem } from "../../model/structure/structure";
 import type { HelpByKey } from "./object_fields";
@@ -87,6 +88,10 @@ export function worldHelp({ yaml }: Structure, targets: Targets): HelpByKey {
     ...pairs.map((one) => `${one} > 20 cm`),
   ];
   const count = yaml.seq(["simulation", "checks"])?.items.length ?? 0;
+  // Without a world, only what a run uses can be checked.
+  const demand: Record<string, EditValue> = yaml.pair(["simulation", "world"])
+    ? { never: each(first, `contact(${first})`) }
+    : { at_most: { energy: "200 J" } };
   const asked = Object.fromEntries(
     ["never", "always", "at_end", "eventually"].map((key) => [key, { choices: conditions, mono: true }]),
   );
@@ -94,7 +99,7 @@ export function worldHelp({ yaml }: Structure, targets: Targets): HelpByKey {
     ...asked,
     checks: {
       hint: "Conditions of a simulated run",
-      fresh: { value: { name: `check ${count + 1}`, never: each(first, `contact(${first})`) } },
+      fresh: { value: { name: `check ${count + 1}`, ...demand } },
     },
     at_most: {
       title: "At most",

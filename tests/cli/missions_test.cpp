@@ -118,10 +118,13 @@ TEST_F(Missions, ChecksBoundWhatTheyUse) {
   EXPECT_NE(one.at("ended").get<std::string>().find("; a check failed: battery"), std::string::npos) << one;
 
   write(folder_ / "mission/spec.yaml",
-        two_stages + std::string("simulation: { checks: [{ at_most: { energy: 5 kJ } }] }\n"));
+        two_stages +
+            std::string(
+                "simulation: { checks: [{ at_most: { energy: 5 kJ } }, { at_most: { brushes: 1 } }] }\n"));
   const project::Exit kept = tessera("simulate mission --for 60s");
   EXPECT_EQ(kept.code, 0) << kept.text;
   EXPECT_NE(kept.text.find("check at_most energy: held"), std::string::npos) << kept.text;
+  EXPECT_NE(kept.text.find("check at_most brushes: held"), std::string::npos) << kept.text;
 }
 
 }  // namespace tessera::cli_test

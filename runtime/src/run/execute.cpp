@@ -177,16 +177,16 @@ template <class Run>
     if (const std::string text = not_safe(unsafe); ending.text.find(text) == std::string::npos)
       ending.text += "; " + text;
   }
-  if (const std::optional<std::string> failed_checks = finish_checks(assembly, ending.at)) {
-    ending.text += *failed_checks;
-    if (!std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::check;
-  }
   std::string stuck;
   if (!ending.failed) stuck = stuck_text(assembly, stuck_for_good(assembly));
   if (!stuck.empty() && !assembly.options.accept_stuck) {
     ending.text += "; " + std::exchange(stuck, {});
     ending.failed = true;
     ending.failure = RunSummary::Failure::stuck;
+  }
+  if (const std::optional<std::string> failed_checks = finish_checks(assembly, ending.at)) {
+    ending.text += *failed_checks;
+    if (!std::exchange(ending.failed, true)) ending.failure = RunSummary::Failure::check;
   }
 
   RunSummary summary;

@@ -21,7 +21,13 @@ void print_failure(const WorldFailure& failure) {
                  fmt::format("the check '{}' has failed: {}", failure.check, failure.text));
 }
 
-/// Adds the checks of what the run has used to the judgement of its world.
+/// "956.8 J"; "3" of something that has no unit.
+[[nodiscard]] std::string amount_text(double amount, const std::string& unit) {
+  return fmt::format("{:.6g}{}{}", amount, unit.empty() ? "" : " ", unit);
+}
+
+/// Adds the checks of what the run has used to the judgement of its world. One process of several knows its own part
+/// only, so that they stay open there.
 void judge_uses(Assembly& assembly, Time now) {
   if (assembly.options.use_checks.empty()) return;
   using nlohmann::ordered_json;
@@ -30,19 +36,16 @@ void judge_uses(Assembly& assembly, Time now) {
   const std::vector<RunSummary::Used> used = used_resources(assembly, now);
   for (const RunOptions::UseCheck& check : assembly.options.use_checks) {
     const auto found = std::ranges::find(used, check.resource, &RunSummary::Used::resource);
-    ordered_json result{{"name", check.name},
-                        {"text", fmt::format("at_most: {} {:.6g}", check.resource, check.most)},
-                        {"verdict", "open"}};  // of a simulation file of another system
-    if (found != used.end()) {
-      result["text"] = fmt::format("at_most: {} {:.6g} {}", check.resource, check.most, found->unit);
-      result["verdict"] = found->amount > check.most ? "failed" : "held";
-    }
-    if (result["verdict"] == "failed") {
-      const double now_s = seconds(now.time_since_epoch());
-      const std::string detail = fmt::format("{:.6g} {} used", found->amount, found->unit);
+    const bool is_known = found != used.end() && assembly.options.network.process.empty();
+    const std::string text = fmt::format("at_most: {} {}", check.resource,
+                                         amount_text(check.most, found == used.end() ? "" : found->unit));
+    const bool failed = is_known && found->amount > check.most;
+    const char* const verdict = failed ? "failed" : "held";
+    ordered_json result{{"name", check.name}, {"text", text}, {"verdict", is_known ? verdict : "open"}};
+    if (failed) {
+      const std::string detail = amount_text(found->amount, found->unit) + " used";
       result["detail"] = detail;
-      WorldFailure failure{check.name, fmt::format("{} ({})", detail, result["text"].get<std::string>()),
-                           now_s};
+      WorldFailure failure{check.name, fmt::format("{} ({})", detail, text), seconds(now.time_since_epoch())};
       print_failure(failure);
       assembly.failed_checks.push_back(std::move(failure));
     }

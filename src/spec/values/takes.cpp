@@ -195,7 +195,8 @@ void check_uses(const Model& model, Diagnostics& out) {
       out.error("E386", check.span,
                 in_quotes(check.resource) + " is counted in " + in_quotes(use->second->unit) + " in line " +
                     std::to_string(use->second->span.line) + ", not in " + in_quotes(check.unit),
-                "write the most in " + use->second->unit);
+                use->second->unit.empty() ? "write the most without a unit"
+                                          : "write the most in " + use->second->unit);
     }
   }
 }

@@ -95,6 +95,28 @@ TEST(Stuck, IsAWarningWhereItIsAccepted) {
   EXPECT_TRUE(summary.warnings[0].starts_with("stuck for good: robot.b")) << summary.warnings[0];
 }
 
+TEST(Stuck, IsToldBesideACheckThatHasFailed) {
+  for (const std::uint64_t ends_after : {3, 0}) {
+    TestSystem system;
+    const auto a = system.add("robot.a", nets::nb_sender, for_iterations(ends_after), 10ms);
+    const auto b = system.add("robot.b", nets::b_receiver, Script{});
+    system.connect(a, "x", b, "x", buffered);
+    constexpr Resource resources[] = {{"energy", "J"}};
+    System tables = system.system();
+    tables.resources = resources;
+    RunOptions options = simulated(200ms);
+    options.use_checks = {{"battery", "energy", -1}};
+    std::string error;
+    const std::optional<RunSummary> summary = execute(tables, options, error);
+    ASSERT_TRUE(summary) << error;
+    EXPECT_TRUE(summary->ended.ends_with("; a check failed: battery")) << summary->ended;
+    const bool is_stuck = ends_after > 0;
+    EXPECT_EQ(summary->ended.find("stuck for good: robot.b") != std::string::npos, is_stuck)
+        << summary->ended;
+    EXPECT_EQ(summary->failure, is_stuck ? RunSummary::Failure::stuck : RunSummary::Failure::check);
+  }
+}
+
 TEST(Stuck, WhoWaitsForOneThatNeverSendsAgainIsNamed) {
   TestSystem system;
   const auto a = system.add("robot.a", leaver, for_iterations(3), 10ms);

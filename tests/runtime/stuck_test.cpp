@@ -100,6 +100,7 @@ TEST(Stuck, IsToldBesideACheckThatHasFailed) {
     TestSystem system;
     const auto a = system.add("robot.a", nets::nb_sender, for_iterations(ends_after), 10ms);
     const auto b = system.add("robot.b", nets::b_receiver, Script{});
+    system.add("robot.c", nets::alone, Script{}, 10ms);
     system.connect(a, "x", b, "x", buffered);
     constexpr Resource resources[] = {{"energy", "J"}};
     System tables = system.system();

@@ -101,6 +101,10 @@ std::optional<Quantity> read_amount(const Entry& entry, const std::string& what,
   return quantity;
 }
 
+std::string in_unit(const std::string& unit) {
+  return unit.empty() ? "without a unit" : "in " + in_quotes(unit);
+}
+
 std::optional<ResourceUse> read_use(const Entry& entry, Diagnostics& out) {
   const std::string what = "the use of " + in_quotes(entry.key);
   const Node* text = nullptr;
@@ -178,8 +182,8 @@ void check_uses(const Model& model, Diagnostics& out) {
           const ResourceUse& other = *first.try_emplace(use.resource, &use).first->second;
           if (other.unit != use.unit)
             out.error("E386", use.span,
-                      in_quotes(use.resource) + " is counted in " + in_quotes(use.unit) + " here, and in " +
-                          in_quotes(other.unit) + " in line " + std::to_string(other.span.line),
+                      in_quotes(use.resource) + " is counted " + in_unit(use.unit) + " here, and " +
+                          in_unit(other.unit) + " in line " + std::to_string(other.span.line),
                       "amounts of one unit can be added; write the same unit in both");
         }
   if (!model.simulation) return;
@@ -193,10 +197,9 @@ void check_uses(const Model& model, Diagnostics& out) {
       out.error("E386", check.span, "no behaviour uses " + in_quotes(check.resource), std::move(hint));
     } else if (use->second->unit != check.unit) {
       out.error("E386", check.span,
-                in_quotes(check.resource) + " is counted in " + in_quotes(use->second->unit) + " in line " +
-                    std::to_string(use->second->span.line) + ", not in " + in_quotes(check.unit),
-                use->second->unit.empty() ? "write the most without a unit"
-                                          : "write the most in " + use->second->unit);
+                in_quotes(check.resource) + " is counted " + in_unit(use->second->unit) + " in line " +
+                    std::to_string(use->second->span.line) + ", not " + in_unit(check.unit),
+                "write the most " + in_unit(use->second->unit));
     }
   }
 }
